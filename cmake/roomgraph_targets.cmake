@@ -1,0 +1,59 @@
+# Target helpers: every library, application and test of the project is made by one of these.
+include(GNUInstallDirs)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(ROOMGRAPH_CCACHE ccache)
+if(ROOMGRAPH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ROOMGRAPH_CCACHE}")
+endif()
+
+add_library(roomgraph_options INTERFACE)
+target_compile_features(roomgraph_options INTERFACE cxx_std_20)
+target_compile_options(roomgraph_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wimplicit-fallthrough
+  # Bit-identical results on every run: the compiler must not fuse or reorder floating-point operations.
+  -ffp-contract=off $<$<BOOL:${ROOMGRAPH_WERROR}>:-Werror>)
+if(ROOMGRAPH_SANITIZE)
+  target_compile_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE})
+endif()
+if(ROOMGRAPH_COVERAGE)
+  target_compile_options(roomgraph_options INTERFACE --coverage)
+  target_link_options(roomgraph_options INTERFACE --coverage)
+endif()
+install(TARGETS roomgraph_options EXPORT roomgraph-targets)
+
+# roomgraph_add_library(NAME SOURCES ... PUBLIC targets... PRIVATE targets...)
+# Shared, so that the class registry exists once however many plug-ins are loaded.
+function(roomgraph_add_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(roomgraph_${name} SHARED ${ARG_SOURCES})
+  add_library(roomgraph::${name} ALIAS roomgraph_${name})
+  set_target_properties(roomgraph_${name} PROPERTIES EXPORT_NAME ${name} SOVERSION ${PROJECT_VERSION_MAJOR}
+                        VERSION ${PROJECT_VERSION})
+  target_include_directories(roomgraph_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(roomgraph_${name} PUBLIC roomgraph_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  install(TARGETS roomgraph_${name} EXPORT roomgraph-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# roomgraph_add_test(NAME SOURCES ... LINK targets...): one GoogleTest executable, its cases listed in ctest.
+function(roomgraph_add_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  target_link_libraries(${name} PRIVATE roomgraph_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE ROOMGRAPH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                             ROOMGRAPH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <stdexcept>
+
+namespace roomgraph {
+
+/// Base of everything the program reports as one clear line; the exit code is part of the command line's contract.
+struct Error : std::runtime_error {
+  Error(const std::string& what, int code) : std::runtime_error(what), exit_code(code) {}
+  int exit_code;
+};
+
+/// The run failed (output not writable, nothing could be computed). Exit code 1.
+struct RunError : Error {
+  explicit RunError(const std::string& what) : Error(what, 1) {}
+};
+
+/// Wrong usage or configuration. Exit code 2.
+struct ConfigError : Error {
+  explicit ConfigError(const std::string& what) : Error(what, 2) {}
+};
+
+/// An input file is missing, unreadable or not what it should be. Exit code 3.
+struct InputError : Error {
+  explicit InputError(const std::string& what) : Error(what, 3) {}
+};
+
+}  // namespace roomgraph

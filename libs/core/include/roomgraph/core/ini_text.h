@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace roomgraph {
+
+/// One "key = value" line of an INI text with its place.
+struct IniEntry {
+  std::string section, key, value;
+  std::string place;  ///< "config.ini:12", or "--set" for an override from the command line
+};
+
+/// Splits an INI text. Comments start with # or ; (at the line's start, or after white space).
+/// MRPT's reader keeps neither line numbers nor duplicates, which a strict config has to report.
+/// Throws ConfigError on a line that is neither a section, an entry nor a comment, and on duplicate keys.
+std::vector<IniEntry> parseIni(const std::string& text, const std::string& name);
+std::vector<IniEntry> parseIniFile(const std::filesystem::path& file);
+
+}  // namespace roomgraph

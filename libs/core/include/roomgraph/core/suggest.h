@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace roomgraph {
+
+/// The candidate closest to `word` by edit distance, or empty when none is near enough to be a likely misspelling.
+std::string closestMatch(const std::string& word, const std::vector<std::string>& candidates);
+
+/// " (did you mean 'x'?)" or "".
+std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "a, b, c".
+std::string join(const std::vector<std::string>& items, const std::string& separator = ", ");
+
+}  // namespace roomgraph

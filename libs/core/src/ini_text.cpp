@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/core/ini_text.h"
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+std::string trim(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+std::string withoutComment(const std::string& line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool marker = line[i] == '#' || line[i] == ';';
+    if (marker && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<IniEntry> parseIni(const std::string& text, const std::string& name) {
+  std::vector<IniEntry> entries;
+  std::map<std::pair<std::string, std::string>, std::string> seen;
+  std::istringstream stream(text);
+  std::string section;
+  int number = 0;
+  for (std::string raw; std::getline(stream, raw);) {
+    const std::string place = name + ":" + std::to_string(++number);
+    const std::string line = trim(withoutComment(raw));
+    if (line.empty()) continue;
+    if (line.front() == '[' && line.back() == ']') {
+      section = trim(line.substr(1, line.size() - 2));
+      continue;
+    }
+    const auto equals = line.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw ConfigError(place + ": expected '[section]' or 'key = value', got '" + line + "'");
+    IniEntry entry{section, trim(line.substr(0, equals)), trim(line.substr(equals + 1)), place};
+    const auto [first, inserted] = seen.try_emplace({section, entry.key}, place);
+    if (!inserted)
+      throw ConfigError(place + ": [" + section + "] " + entry.key + " is set twice, first at " + first->second);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::vector<IniEntry> parseIniFile(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file.string() + ": cannot be opened");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return parseIni(text.str(), file.string());
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "roomgraph/observations/CObservationDetections.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/scan.h"
+
+namespace roomgraph {
+
+/// One usable record, converted; in the order of the file.
+using Record = std::variant<Frame, Scan, OdometryReading, std::shared_ptr<CObservationDetections>>;
+
+/// What was met on the way.
+struct ReadStatistics {
+  std::map<std::string, int> used;      ///< records per class
+  std::map<std::string, int> skipped;   ///< records per reason: "CObservationIMU: not used", "image missing: …", …
+  std::string warning;                  ///< truncated file: reason with the byte offset; empty otherwise
+};
+
+/// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or external).
+/// Records that cannot be used are skipped and counted, never fatal.
+class RawlogReader {
+ public:
+  /// Opens the file. Throws InputError (missing, empty, not a rawlog) naming the file and the cause.
+  explicit RawlogReader(const std::filesystem::path& file);
+  ~RawlogReader();
+  RawlogReader(RawlogReader&&) noexcept;
+
+  /// The next usable record; nothing at the end of the file. A record with several observations (sensory frame)
+  /// comes out one by one. Odometry of action records is summed up from the first one.
+  std::optional<Record> next();
+  /// Share of the file read, [0, 1].
+  double progress() const;
+  const ReadStatistics& statistics() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Time of a record, s.
+double timeOf(const Record& record);
+
+}  // namespace roomgraph

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/core/outcome.h"
+#include "roomgraph/core/stage.h"
+#include "roomgraph/observations/CObservationDetections.h"
+#include "roomgraph/observations/detection.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph {
+
+/// Frame in, detections out (method.md sec. 1.1).
+class Detector : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(Detector)
+ public:
+  /// The classes of interest; called before prepare(). The database outlives the detector.
+  virtual void setDatabase(const ObjectDatabase& database) = 0;
+  /// Detections recorded in the rawlog, as they are read.
+  virtual void feed(const CObservationDetections& recorded) { (void)recorded; }
+  /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
+  /// ("every 4th frame only", "no record at this time").
+  virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
+};
+
+}  // namespace roomgraph

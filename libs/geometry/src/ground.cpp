@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/geometry/ground.h"
+
+namespace roomgraph {
+
+Plane groundInCamera(const Pose3& world_from_camera) {
+  return {world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ(), world_from_camera.translation().z()};
+}
+
+Pose3 cameraFromGround(const Plane& ground) {
+  const Eigen::Vector3d up = ground.normal.normalized();
+  Eigen::Vector3d forward = Eigen::Vector3d::UnitZ() - up.z() * up;
+  // Looking straight down or up: any horizontal direction will do; the image's up direction is the natural one.
+  if (forward.norm() < 1e-6) forward = -Eigen::Vector3d::UnitY() + up.y() * up;
+  forward.normalize();
+  Pose3 pose = Pose3::Identity();
+  pose.linear() << forward, up.cross(forward), up;
+  pose.translation() = -ground.offset * up;
+  return pose;
+}
+
+std::optional<Eigen::Vector3d> intersect(const Eigen::Vector3d& direction, const Plane& plane) {
+  const double slope = plane.normal.dot(direction);
+  if (std::abs(slope) < 1e-9 * direction.norm()) return std::nullopt;
+  const double lambda = -plane.offset / slope;
+  if (lambda <= 0) return std::nullopt;
+  return lambda * direction;
+}
+
+}  // namespace roomgraph

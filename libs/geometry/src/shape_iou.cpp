@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <algorithm>
+#include <cmath>
+
+#include "roomgraph/geometry/shape.h"
+
+namespace roomgraph {
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::vector<Eigen::Vector2d> footprintInWorld(ObjectShape shape, const Pose3& world_from_object, double thickness) {
+  if (shape.kind != ShapeKind::kCylinder) {
+    shape.width = std::max(shape.width, thickness);
+    shape.depth = std::max(shape.depth, thickness);
+  }
+  std::vector<Eigen::Vector2d> corners = footprint(shape, 64);
+  for (auto& corner : corners)
+    corner = (world_from_object * Eigen::Vector3d(corner.x(), corner.y(), 0)).head<2>();
+  return corners;
+}
+
+}  // namespace
+
+double polygonArea(const std::vector<Eigen::Vector2d>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return twice / 2;
+}
+
+std::vector<Eigen::Vector2d> intersectConvex(const std::vector<Eigen::Vector2d>& a,
+                                             const std::vector<Eigen::Vector2d>& b) {
+  // Sutherland-Hodgman: cut a by every edge of b in turn.
+  std::vector<Eigen::Vector2d> rest = a;
+  for (std::size_t k = 0; k < b.size() && !rest.empty(); ++k) {
+    const Eigen::Vector2d from = b[k], along = b[(k + 1) % b.size()] - from;
+    std::vector<Eigen::Vector2d> kept;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const Eigen::Vector2d p = rest[i], q = rest[(i + 1) % rest.size()];
+      const double side_p = cross(along, p - from), side_q = cross(along, q - from);
+      if (side_p >= 0) kept.push_back(p);
+      if (side_p * side_q < 0) kept.push_back(p + (q - p) * side_p / (side_p - side_q));
+    }
+    rest = std::move(kept);
+  }
+  return rest;
+}
+
+double iou3d(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b, const Pose3& world_from_b,
+             double min_thickness_m) {
+  const auto base_a = footprintInWorld(a, world_from_a, min_thickness_m);
+  const auto base_b = footprintInWorld(b, world_from_b, min_thickness_m);
+  const double za = world_from_a.translation().z(), zb = world_from_b.translation().z();
+  const double overlap = std::min(za + a.height, zb + b.height) - std::max(za, zb);
+  const double common = std::max(0.0, overlap) * polygonArea(intersectConvex(base_a, base_b));
+  const double all = polygonArea(base_a) * a.height + polygonArea(base_b) * b.height - common;
+  return all > 0 ? common / all : 0;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <string>
+#include <vector>
+
+namespace roomgraph {
+
+/// Boxes of a 2D object detector for one image, as a record of a rawlog. Refers to the image by time stamp and label.
+class CObservationDetections : public mrpt::obs::CObservation {
+  DEFINE_SERIALIZABLE(CObservationDetections, roomgraph)
+ public:
+  struct Item {
+    std::string label;
+    float score = 0;
+    float u_min = 0, v_min = 0, u_max = 0, v_max = 0;  ///< px
+    std::int64_t track = -1;                           ///< id given by the source, -1: none
+  };
+  std::string image_label;            ///< sensorLabel of the camera
+  std::uint32_t image_width = 0, image_height = 0;
+  std::string model;                  ///< network, or simulator, that made the boxes
+  std::string model_hash;             ///< of the weights file; empty when there is none
+  float score_threshold = 0, nms_threshold = 0;
+  std::vector<Item> items;
+
+  void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensor_pose_; }
+  void setSensorPose(const mrpt::poses::CPose3D& pose) override { sensor_pose_ = pose; }
+  void getDescriptionAsText(std::ostream& out) const override;
+
+ private:
+  mrpt::poses::CPose3D sensor_pose_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "roomgraph/core/config_schema.h"
+#include "roomgraph/geometry/shape.h"
+
+namespace roomgraph {
+
+/// One record of objects.ini (method.md "Object database"): an INI section named after the class.
+struct ObjectModel : Configurable {
+  std::string class_name;                 ///< section name
+  std::vector<std::string> labels;        ///< detector labels it answers to
+  std::string shape = "cuboid";
+  double width_m = 1, depth_m = 1, height_m = 1;
+  double width_sigma_m = .1, depth_sigma_m = .1, height_sigma_m = .1;
+  int symmetry = 1;                       ///< yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg
+  bool rests_on_ground = true;
+  bool landmark = true;                   ///< false: seen and masked, never mapped (persons)
+  std::string color = "#888888";
+
+  void declareParameters(ParameterVisitor& visitor) override;
+  ObjectShape nominal() const;
+};
+
+/// The classes the program knows, from a text file beside config.ini; adding one needs no code.
+class ObjectDatabase {
+ public:
+  /// Throws InputError / ConfigError with file, section and key.
+  static ObjectDatabase fromFile(const std::filesystem::path& file);
+  static ObjectDatabase fromText(const std::string& text, const std::string& name = "objects");
+
+  const std::vector<ObjectModel>& models() const { return models_; }
+  /// By class name; null when unknown.
+  const ObjectModel* find(const std::string& class_name) const;
+  /// By a detector's label (case-insensitive); null when no class answers to it.
+  const ObjectModel* byLabel(const std::string& label) const;
+  /// Reference of the keys, in Markdown.
+  static std::string markdown();
+
+ private:
+  static ObjectDatabase fromConfig(const Config& config);
+  std::vector<ObjectModel> models_;
+};
+
+}  // namespace roomgraph

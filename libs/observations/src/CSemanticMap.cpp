@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/observations/CSemanticMap.h"
+
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+namespace roomgraph {
+namespace {
+
+using mrpt::serialization::CArchive;
+
+void writePose(CArchive& out, const Pose3& pose) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) out << pose.matrix()(i, j);
+}
+
+Pose3 readPose(CArchive& in) {
+  Pose3 pose = Pose3::Identity();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) in >> pose.matrix()(i, j);
+  return pose;
+}
+
+void writeLandmark(CArchive& out, const Landmark& landmark) {
+  out << landmark.id.value << landmark.class_name << landmark.model << toString(landmark.shape.kind)
+      << landmark.shape.width << landmark.shape.depth << landmark.shape.height;
+  for (int i = 0; i < 3; ++i) out << landmark.position[i];
+  out << landmark.yaw << landmark.has_yaw;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) out << landmark.covariance(i, j);
+  out << landmark.existence << landmark.class_posterior;
+  out.WriteAs<std::int32_t>(landmark.observations);
+}
+
+Landmark readLandmark(CArchive& in) {
+  Landmark landmark;
+  std::string kind;
+  in >> landmark.id.value >> landmark.class_name >> landmark.model >> kind >> landmark.shape.width >>
+      landmark.shape.depth >> landmark.shape.height;
+  landmark.shape.kind = shapeKindFromString(kind);
+  for (int i = 0; i < 3; ++i) in >> landmark.position[i];
+  in >> landmark.yaw >> landmark.has_yaw;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) in >> landmark.covariance(i, j);
+  in >> landmark.existence >> landmark.class_posterior;
+  landmark.observations = in.ReadAs<std::int32_t>();
+  return landmark;
+}
+
+}  // namespace
+
+IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::serialization::CSerializable, roomgraph)
+
+std::uint8_t CSemanticMap::serializeGetVersion() const { return 0; }
+
+void CSemanticMap::serializeTo(CArchive& out) const {
+  out << origin << planar << static_cast<bool>(occupancy);
+  if (occupancy) out << *occupancy;
+  out.WriteAs<std::uint32_t>(landmarks.size());
+  for (const auto& landmark : landmarks) writeLandmark(out, landmark);
+  out.WriteAs<std::uint32_t>(world_from_robot.size());
+  for (const auto& stamped : world_from_robot) {
+    out << stamped.t;
+    writePose(out, stamped.pose);
+  }
+}
+
+void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
+  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  bool has_occupancy = false;
+  in >> origin >> planar >> has_occupancy;
+  occupancy.reset();
+  if (has_occupancy) {
+    occupancy = mrpt::maps::COccupancyGridMap2D::Create();
+    in >> *occupancy;
+  }
+  landmarks.resize(in.ReadAs<std::uint32_t>());
+  for (auto& landmark : landmarks) landmark = readLandmark(in);
+  world_from_robot.resize(in.ReadAs<std::uint32_t>());
+  for (auto& stamped : world_from_robot) {
+    in >> stamped.t;
+    stamped.pose = readPose(in);
+  }
+}
+
+}  // namespace roomgraph

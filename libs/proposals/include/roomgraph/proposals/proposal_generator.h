@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "roomgraph/core/stage.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/observations/proposal.h"
+
+namespace roomgraph {
+
+/// Detections + depth + ground -> 3D proposals (method.md sec. 1.2 to 1.D).
+class ProposalGenerator : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(ProposalGenerator)
+ public:
+  /// The object database outlives the generator; called before prepare().
+  virtual void setDatabase(const ObjectDatabase& database) = 0;
+  /// `expected_ground`: plane predicted from extrinsics or from the frames before, camera frame; nothing when unknown
+  /// (a handheld camera that has not seen the floor yet).
+  virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
+                                  const std::optional<Plane>& expected_ground) = 0;
+};
+
+}  // namespace roomgraph

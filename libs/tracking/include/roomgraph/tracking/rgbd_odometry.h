@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roomgraph/core/stage.h"
+#include "roomgraph/geometry/box.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/trajectory.h"
+
+namespace roomgraph {
+
+/// What is known before a frame is tracked.
+struct TrackingPrior {
+  /// Movement of the camera since the last frame as other sensors saw it; nothing when there are none.
+  std::optional<Pose3> previous_from_current;
+  /// Image regions of people and the like, px: their features are not used.
+  std::vector<Box2> dynamic_regions;
+};
+
+/// Outcome for one frame.
+struct TrackingResult {
+  bool tracked = false;
+  std::string reason;                             ///< why not: "too few features", "too few inliers", "no depth", …
+  Pose3 odom_from_camera = Pose3::Identity();     ///< pose in the tracker's own, drifting frame
+  int segment = 0;                                ///< counts up after each loss: poses of two segments are unrelated
+  int inliers = 0, matches = 0;
+  bool keyframe = false;
+  Matrix6d step_covariance = Matrix6d::Identity();  ///< of the movement since the last frame (translation, rotation)
+  /// Pixels of tracked features with their persistent point id: lets later stages count shared features per box.
+  std::vector<std::pair<Eigen::Vector2d, std::int64_t>> features;
+};
+
+/// RGB-D visual odometry: frame in, pose in the tracker's own frame out.
+class RgbdOdometry : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(RgbdOdometry)
+ public:
+  virtual TrackingResult track(const Frame& frame, const TrackingPrior& prior) = 0;
+
+  /// Best current estimate of every tracked frame (later frames refine earlier ones), in the tracker's frame.
+  virtual Trajectory trajectory() const = 0;
+
+  /// Loop closures found since the last call, between cameras at two frame times (a_from_b of the optical frames).
+  virtual std::vector<RelativePose> takeLoopClosures() { return {}; }
+};
+
+}  // namespace roomgraph
