@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace roomgraph {
+
+// Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback reports
+// failure by throwing roomgraph::Error, whose exit code main() returns.
+
+}  // namespace roomgraph
