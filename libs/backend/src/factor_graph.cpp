@@ -133,6 +133,7 @@ LandmarkEstimate FactorGraph::landmark(LandmarkId id) const {
   return {{value[0], value[1], value[2]}, wrapAngle(value[3])};
 }
 
+bool FactorGraph::hasLandmark(LandmarkId id) const { return impl_->objects.contains(id); }
 std::size_t FactorGraph::poses() const { return impl_->poses.size(); }
 std::size_t FactorGraph::landmarks() const { return impl_->objects.size(); }
 std::size_t FactorGraph::factors() const {

@@ -49,6 +49,7 @@ class FactorGraph {
 
   Pose3 pose(NodeId id) const;
   LandmarkEstimate landmark(LandmarkId id) const;
+  bool hasLandmark(LandmarkId id) const;
   std::size_t poses() const;
   std::size_t landmarks() const;
   std::size_t factors() const;
