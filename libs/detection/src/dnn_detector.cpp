@@ -75,7 +75,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
         "no network: set [detection] models; suitable: NanoDet-Plus-m-1.5x, YOLOX-Nano, "
         "Yolo-Fastest-1.1-xl, and DeepLabV3-MobileNetV2 (ADE20K) for doors");
   if (frame.id.valid() && frame.id.value % every_nth_frame_ != 0)
-    return Result::failure("every " + std::to_string(every_nth_frame_) + "th frame only");
+    return Result::failure("the networks run once in " + std::to_string(every_nth_frame_) + " frames");
   if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");
 
   std::vector<RawBox> boxes;
