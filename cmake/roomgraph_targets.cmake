@@ -17,6 +17,8 @@ add_library(roomgraph_options INTERFACE)
 target_compile_features(roomgraph_options INTERFACE cxx_std_20)
 target_compile_options(roomgraph_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   -Woverloaded-virtual -Wimplicit-fallthrough
+  -Wno-missing-field-initializers  # designated initialisers leave out members on purpose: they have defaults
+ 
   # Bit-identical results on every run: the compiler must not fuse or reorder floating-point operations.
   -ffp-contract=off $<$<BOOL:${ROOMGRAPH_WERROR}>:-Werror>)
 if(ROOMGRAPH_SANITIZE)

@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read.");
   roomgraph::observations::registerClasses();
 
+  roomgraph::addRunCommand(app);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
