@@ -54,30 +54,29 @@ TEST(TrajectoryFile, SortsAndDropsRepeatedStamps) {
   }
 }
 
-struct BadFile {
-  std::string text, place, words;
-};
-
-class BadTrajectory : public ::testing::TestWithParam<BadFile> {};
-
-TEST_P(BadTrajectory, IsAnInputErrorWithFileAndLine) {
+TEST(TrajectoryFile, BadLinesAreInputErrorsWithFileAndLine) {
+  const struct {
+    const char *text, *place, *words;
+  } cases[] = {{"", "", "holds no pose"},
+               {"# only\n", "", "holds no pose"},
+               {"1 2 3\n", ":1", "got 3"},
+               {"# c\n1 2 3 4 5\n", ":2", "got 5"},
+               {"1 2 3 0\n2 x 3 0\n", ":2", "'x' is not a finite number"},
+               {"1 2 3 nan\n", ":1", "'nan'"},
+               {"1 2 3 inf\n", ":1", "'inf'"},
+               {"1 2 3 4abc\n", ":1", "'4abc'"},
+               {"1 2 3 0\n2 0 0 0 0 0 0 1\n", ":2", "has 8 columns"},
+               {"1 0 0 0 0 0 0 0\n", ":1", "quaternion has norm"},
+               {"1 0 0 0 1 1 1 1\n", ":1", "quaternion has norm 2"}};
   const TempFolder folder;
-  const auto file = folder.write("bad.txt", GetParam().text);
-  const auto message = messageOf<InputError>([&] { readTrajectory(file); });
-  EXPECT_THAT(message, HasSubstr(file.string() + GetParam().place));
-  EXPECT_THAT(message, HasSubstr(GetParam().words));
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.text);
+    const auto file = folder.write("bad.txt", c.text);
+    const auto message = messageOf<InputError>([&] { readTrajectory(file); });
+    EXPECT_THAT(message, HasSubstr(file.string() + c.place));
+    EXPECT_THAT(message, HasSubstr(c.words));
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Lines, BadTrajectory,
-    ::testing::Values(BadFile{"", "", "holds no pose"}, BadFile{"# only\n", "", "holds no pose"},
-                      BadFile{"1 2 3\n", ":1", "got 3"}, BadFile{"# c\n1 2 3 4 5\n", ":2", "got 5"},
-                      BadFile{"1 2 3 0\n2 x 3 0\n", ":2", "'x' is not a finite number"},
-                      BadFile{"1 2 3 nan\n", ":1", "'nan'"}, BadFile{"1 2 3 inf\n", ":1", "'inf'"},
-                      BadFile{"1 2 3 4abc\n", ":1", "'4abc'"},
-                      BadFile{"1 2 3 0\n2 0 0 0 0 0 0 1\n", ":2", "has 8 columns"},
-                      BadFile{"1 0 0 0 0 0 0 0\n", ":1", "quaternion has norm"},
-                      BadFile{"1 0 0 0 1 1 1 1\n", ":1", "quaternion has norm 2"}));
 
 TEST(TrajectoryFile, MissingFileAndFolderAreInputErrors) {
   const TempFolder folder;
