@@ -21,22 +21,29 @@ using Record = std::variant<Frame, Scan, OdometryReading, std::shared_ptr<CObser
 
 /// What was met on the way.
 struct ReadStatistics {
-  std::map<std::string, int> used;      ///< records per class
-  std::map<std::string, int> skipped;   ///< records per reason: "CObservationIMU: not used", "image missing: …", …
-  std::string warning;                  ///< truncated file: reason with the byte offset; empty otherwise
+  std::map<std::string, int> used;  ///< records per class
+  std::map<std::string, int>
+      skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
+  std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
 };
 
-/// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or external).
-/// Records that cannot be used are skipped and counted, never fatal.
+/// Kinds of records wanted; what is not wanted is stepped over without being decoded, where that saves time.
+struct ReadOptions {
+  bool frames = true, scans = true, odometry = true;
+};
+
+/// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or
+/// external). Records that cannot be used are skipped and counted, never fatal.
 class RawlogReader {
  public:
   /// Opens the file. Throws InputError (missing, empty, not a rawlog) naming the file and the cause.
-  explicit RawlogReader(const std::filesystem::path& file);
+  explicit RawlogReader(const std::filesystem::path& file, const ReadOptions& options = {});
   ~RawlogReader();
   RawlogReader(RawlogReader&&) noexcept;
+  RawlogReader& operator=(RawlogReader&&) noexcept;
 
-  /// The next usable record; nothing at the end of the file. A record with several observations (sensory frame)
-  /// comes out one by one. Odometry of action records is summed up from the first one.
+  /// The next usable record; nothing at the end of the file. A record with several observations (sensory
+  /// frame) comes out one by one. Odometry of action records is summed up from the first one.
   std::optional<Record> next();
   /// Share of the file read, [0, 1].
   double progress() const;

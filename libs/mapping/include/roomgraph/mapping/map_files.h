@@ -8,15 +8,27 @@
 
 namespace roomgraph {
 
-/// Writes / reads map.rgmap (MRPT archive, gzipped). Throws RunError / InputError naming file and cause.
+// Every writer replaces the file at once (a reader never sees half of it) and throws RunError naming file and
+// cause; every reader throws InputError naming file, place and cause. Coordinates are world: m, rad.
+
+/// Writes / reads map.rgmap (MRPT archive, gzipped).
 void saveMap(const CSemanticMap& map, const std::filesystem::path& file);
 CSemanticMap loadMap(const std::filesystem::path& file);
 
-/// landmarks.json of the interface: id, class, model, x, y, z, yaw, size_wdh, footprint, covariance, existence,
-/// class_posterior, observations.
+/// landmarks.json of the interface: id, class, model, x, y, z, yaw, size_wdh, footprint, covariance,
+/// existence, class_posterior, observations; besides, `shape` and `has_yaw`, which the reader needs to give
+/// back the same.
 void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file);
+/// Reads landmarks.json (key `landmarks`) or a truth file (key `objects`). Required of an entry: id, class,
+/// x, y, z, size_wdh; the rest may be absent (no yaw: has_yaw = false; no posterior: the class itself). Truth
+/// files name what a distractor is in `kind`: it becomes the landmark's model.
+std::vector<Landmark> loadLandmarksJson(const std::filesystem::path& file);
 
-/// map.pgm + map.yaml as ROS map_server reads them (255 free, 0 occupied, 205 unknown); `stem` without extension.
+/// map.pgm + map.yaml as ROS map_server / nav2 read them (254 free, 0 occupied, 205 unknown; first row =
+/// largest y); `stem` without extension.
 void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::filesystem::path& stem);
+/// Reads a map_server yaml and its image: cells 1 free, 0 occupied, 0.5 unknown (MRPT: probability of being
+/// free).
+mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml);
 
 }  // namespace roomgraph

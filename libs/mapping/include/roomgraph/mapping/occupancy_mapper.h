@@ -4,31 +4,46 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <string>
 #include <vector>
 
 #include "roomgraph/core/stage.h"
-#include "roomgraph/geometry/ground.h"
-#include "roomgraph/observations/frame.h"
-#include "roomgraph/observations/scan.h"
+#include "roomgraph/mapping/range_fan.h"
 #include "roomgraph/observations/trajectory.h"
 
 namespace roomgraph {
 
-/// Occupancy grid from posed scans, or, where there is no lidar, from posed depth images (a virtual scan over a band
-/// of heights above the ground).
+/// Occupancy grid from posed scans, or, where there is no lidar, from posed depth images (a virtual scan over
+/// a band of heights above the ground).
 class OccupancyMapper : public Configurable {
  public:
   void declareParameters(ParameterVisitor& visitor) override;
   /// Keeps what is needed to (re)build the grid later with other poses.
   void add(const Scan& scan);
-  /// `ground`: floor in the camera frame.
+  /// `ground`: floor in the camera frame. A frame without depth is left out.
   void add(const Frame& frame, const Plane& ground);
-  /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null when
-  /// nothing was kept.
+  /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
+  /// when nothing was kept. Cells hold the probability of being free (MRPT). Throws RunError when the grid
+  /// would be absurdly large (a wrong trajectory).
   mrpt::maps::COccupancyGridMap2D::Ptr build(const Trajectory& world_from_robot) const;
 
  private:
+  struct PosedFan;
+  void select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
+              std::vector<PosedFan>& out) const;
+
+  std::vector<RangeFan> scans_, slices_;
+
+  std::string source_ = "auto";
   double resolution_m_ = 0.05;
+  double max_range_m_ = 12;
+  double no_return_free_m_ = 4;
+  double hit_probability_ = 0.7;
+  double pass_probability_ = 0.4;
+  double min_move_m_ = 0.1;
+  double min_turn_rad_ = 0.1;
+  double max_wait_s_ = 2;
+  DepthSlice slice_;
 };
 
 }  // namespace roomgraph

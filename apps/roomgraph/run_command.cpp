@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <tbb/global_control.h>
+
+#include "commands.h"
+#include "roomgraph/core/progress.h"
+#include "roomgraph/pipeline/record_sorter.h"
+#include "roomgraph/pipeline/run_output.h"
+#include "roomgraph/rendering/snapshot.h"
+#include "shared_files.h"
+
+namespace roomgraph {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct RunOptions {
+  std::string input, output, config;
+  std::vector<std::string> overrides;
+  int threads = 0;
+  double from_s = 0, until_s = 0;
+  bool quiet = false, no_snapshot = false;
+};
+
+struct Replay {
+  ReadStatistics read;
+  double first_t = 0, last_t = 0;
+  bool stopped = false;
+};
+
+Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sorter, SemanticSlam& slam) {
+  Replay done;
+  Progress progress(options.quiet ? nullptr : &std::cerr, "replay", "%", 100);
+  std::optional<double> start;
+  bool ended = false;
+  while (!interrupted) {
+    std::optional<Record> record = sorter.pop(ended);
+    if (!record && ended) break;
+    if (!record) {
+      if (auto next = reader.next()) {
+        sorter.push(std::move(*next));
+      } else {
+        ended = true;
+      }
+      continue;
+    }
+    const double t = timeOf(*record);
+    if (!start) done.first_t = *(start = t);
+    if (t - *start < options.from_s) continue;
+    if (options.until_s > 0 && t - *start > options.until_s) break;
+    slam.process(*record);
+    done.last_t = t;
+    progress.update(100 * reader.progress());
+  }
+  progress.finish();
+  done.stopped = interrupted != 0;
+  done.read = reader.statistics();
+  return done;
+}
+
+void printSummary(const RunOptions& options, const Replay& replayed, const SlamResult& result, double seconds) {
+  const auto& counts = result.counts;
+  const double span = replayed.last_t - replayed.first_t;
+  std::cout << counts.frames << " frames (" << counts.frames_lost << " not tracked), " << counts.scans << " scans ("
+            << counts.scans_unmatched << " not matched), " << counts.odometry << " odometry readings; "
+            << counts.key_poses << " key poses, " << counts.loop_closures << " loop closures, "
+            << result.map.landmarks.size() << " objects\n";
+  std::cout << span << " s of data in " << seconds << " s\n";
+  for (const auto& [reason, count] : counts.reasons) std::cout << "  " << count << " x " << reason << "\n";
+  for (const auto& [reason, count] : replayed.read.skipped) std::cout << "  skipped " << count << " x " << reason << "\n";
+  if (!replayed.read.warning.empty()) std::cerr << "roomgraph: warning: " << replayed.read.warning << "\n";
+  if (replayed.stopped) std::cerr << "roomgraph: interrupted; the results cover what was replayed\n";
+  std::cout << "results in " << options.output << "\n";
+}
+
+void run(const RunOptions& options) {
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  const std::filesystem::path config_file = options.config.empty() ? sharedFile("config.ini") : options.config;
+  Config config = Config::fromFile(config_file);
+  for (const auto& assignment : options.overrides) config.override(assignment);
+  auto stages = makeStages(config, config_file.parent_path());
+  const ObjectDatabase database = stages->database;
+  RawlogReader reader(options.input,
+                      {stages->tracking.enabled || stages->detection.enabled, stages->lidar.enabled, stages->odometry.enabled});
+  RecordSorter sorter(stages->general.lookahead_s);
+  SemanticSlam slam(std::move(stages));
+  auto output = std::make_shared<RunOutput>(options.output);
+  slam.addSink(output);
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+
+  const auto started = std::chrono::steady_clock::now();
+  const Replay replayed = replay(options, reader, sorter, slam);
+  SlamResult result = slam.finish();
+  result.map.origin = std::filesystem::path(options.input).filename().string();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  output->writeResult(slam, result, replayed.read,
+                      {{"input", options.input}, {"version", ROOMGRAPH_VERSION}, {"interrupted", replayed.stopped ? "yes" : "no"}});
+  if (result.world_from_robot.empty())
+    throw InputError(options.input + ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
+  if (!options.no_snapshot)
+    renderSnapshot(result.map, database, {.title = result.map.origin}, output->folder() / "snapshot.png");
+  printSummary(options, replayed, result, seconds);
+}
+
+}  // namespace
+
+void addRunCommand(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  auto* command = app.add_subcommand("run", "Replay a rawlog: trajectory, semantic map and picture");
+  command->add_option("INPUT", options->input, "rawlog, plain or gzipped")->required();
+  command->add_option("-o,--output", options->output, "folder for the results")->required();
+  command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
+  command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
+  command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  command->add_option("--from", options->from_s, "start this many seconds after the first record")->check(CLI::NonNegativeNumber);
+  command->add_option("--until", options->until_s, "stop this many seconds after the first record; 0: the end")->check(CLI::NonNegativeNumber);
+  command->add_flag("--quiet", options->quiet, "no progress");
+  command->add_flag("--no-snapshot", options->no_snapshot, "do not render snapshot.png");
+  command->footer(
+      "Examples:\n"
+      "  roomgraph run lab.rawlog -o out/lab\n"
+      "  roomgraph run lab.rawlog -o out/lidar --set tracking.enabled=false --set detection.enabled=false\n"
+      "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m_1.5x-416.onnx\n"
+      "Ctrl-C ends the replay; the results then cover what was replayed.");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "shared_files.h"
+
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+
+std::filesystem::path sharedFile(const std::string& name) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::filesystem::path places[] = {program / ".." / "share" / "roomgraph", ROOMGRAPH_SOURCE_DIR};
+  std::string searched;
+  for (const auto& place : places) {
+    if (std::filesystem::exists(place / name)) return std::filesystem::canonical(place / name);
+    searched += (searched.empty() ? "" : ", ") + place.lexically_normal().string();
+  }
+  throw ConfigError(name + ": not found in " + searched + "; name one with --config");
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace roomgraph {
+
+/// config.ini or objects.ini as shipped: beside the installed program (share/roomgraph), or in the source tree when run
+/// from the build folder. Throws ConfigError naming the places searched.
+std::filesystem::path sharedFile(const std::string& name);
+
+}  // namespace roomgraph

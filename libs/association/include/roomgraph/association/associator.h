@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "roomgraph/core/stage.h"
+#include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/proposal.h"
+
+namespace roomgraph {
+
+/// A measurement brought into world with the robot's current pose.
+struct WorldMeasurement {
+  ObjectMeasurement measurement;
+  Pose3 world_from_object = Pose3::Identity();
+  /// Of (x, y, z, yaw) in world: proposal and pose together.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
+};
+
+/// Decision for one measurement (method.md sec. 4, E-step).
+struct Association {
+  std::size_t measurement = 0;
+  LandmarkId landmark;                                     ///< invalid: a new landmark
+  double probability = 1;                                  ///< of the decision
+  std::vector<std::pair<LandmarkId, double>> posterior;    ///< over the gate and "new" (invalid id); sums to 1
+};
+
+/// Measurements of one frame + landmarks -> posterior over {landmarks of the class in gate} and {new}.
+class Associator : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(Associator)
+ public:
+  /// One association per measurement, in order; no landmark is given to two measurements.
+  virtual std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,
+                                             const std::vector<Landmark>& landmarks) = 0;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "roomgraph/association/associator.h"
+
+namespace roomgraph {
+
+/// Gaussian likelihood of the horizontal distance with the joint covariance (method.md sec. 4, p(b|x,l)) against a
+/// constant floor for "new"; measurements are served in the order of their most probable landmark.
+class GatedAssociator : public Associator {
+  DEFINE_MRPT_OBJECT(GatedAssociator, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,
+                                     const std::vector<Landmark>& landmarks) override;
+
+ private:
+  double gate_sigma_ = 3.0;
+  double max_distance_ratio_ = 0.75;
+  double new_density_per_m2_ = 0.05;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/association/gated_associator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(GatedAssociator, Associator, roomgraph)
+
+namespace {
+
+struct Candidate {
+  std::size_t measurement;
+  LandmarkId landmark;
+  double probability;
+};
+
+// Unnormalised posterior of one measurement over the landmarks of its class in gate, and "new" (invalid id).
+std::vector<std::pair<LandmarkId, double>> likelihoods(const WorldMeasurement& seen,
+                                                       const std::vector<Landmark>& landmarks, double gate_sigma,
+                                                       double max_distance_ratio, double new_density) {
+  std::vector<std::pair<LandmarkId, double>> out;
+  const auto& proposal = seen.measurement.proposal;
+  for (const auto& landmark : landmarks) {
+    if (landmark.class_name != proposal.class_name) continue;
+    const Eigen::Vector2d apart = (seen.world_from_object.translation() - landmark.position).head<2>();
+    // Two objects cannot stand closer than their size: beyond that the covariances must not open the gate.
+    const double reach = max_distance_ratio * std::max(proposal.shape.width, landmark.shape.width);
+    if (apart.norm() > reach) continue;
+    const Eigen::Matrix2d joint =
+        seen.covariance.topLeftCorner<2, 2>() + landmark.covariance.topLeftCorner<2, 2>();
+    const double squared = apart.dot(joint.inverse() * apart);
+    if (squared > gate_sigma * gate_sigma) continue;
+    out.emplace_back(landmark.id, std::exp(-squared / 2) / (2 * std::numbers::pi * std::sqrt(joint.determinant())));
+  }
+  out.emplace_back(LandmarkId{}, new_density);
+  return out;
+}
+
+void normalize(std::vector<std::pair<LandmarkId, double>>& posterior) {
+  double sum = 0;
+  for (const auto& [id, weight] : posterior) sum += weight;
+  for (auto& [id, weight] : posterior) weight /= sum;
+}
+
+}  // namespace
+
+void GatedAssociator::declareParameters(ParameterVisitor& v) {
+  v.add("gate_sigma", gate_sigma_, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
+  v.add("max_distance_ratio", max_distance_ratio_,
+        {.doc = "largest centre distance of one object's measurements, relative to its width", .min = 0.1, .max = 5});
+  v.add("new_density_per_m2", new_density_per_m2_,
+        {.doc = "floor likelihood of a new landmark: expected objects of a class per area", .unit = "1/m^2",
+         .min = 1e-6, .max = 100});
+}
+
+std::vector<Association> GatedAssociator::associate(const std::vector<WorldMeasurement>& measurements,
+                                                    const std::vector<Landmark>& landmarks) {
+  std::vector<Association> result(measurements.size());
+  std::vector<Candidate> candidates;
+  for (std::size_t k = 0; k < measurements.size(); ++k) {
+    result[k].measurement = k;
+    result[k].posterior =
+        likelihoods(measurements[k], landmarks, gate_sigma_, max_distance_ratio_, new_density_per_m2_);
+    normalize(result[k].posterior);
+    for (const auto& [id, probability] : result[k].posterior) candidates.push_back({k, id, probability});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
+  std::set<LandmarkId> taken;
+  std::vector<char> served(measurements.size(), 0);
+  for (const auto& candidate : candidates) {
+    if (served[candidate.measurement] || (candidate.landmark.valid() && taken.contains(candidate.landmark))) continue;
+    served[candidate.measurement] = 1;
+    taken.insert(candidate.landmark);
+    result[candidate.measurement].landmark = candidate.landmark;
+    result[candidate.measurement].probability = candidate.probability;
+  }
+  return result;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "roomgraph/backend/factors.h"
+
+namespace roomgraph {
+
+// Pure residual functions, templated for automatic differentiation. Poses are (translation, quaternion x y z w).
+
+template <class T>
+using Vec3 = Eigen::Matrix<T, 3, 1>;
+
+/// Square root of an information matrix: L with Lᵀ L = covariance⁻¹.
+template <int N>
+Eigen::Matrix<double, N, N> sqrtInformation(const Eigen::Matrix<double, N, N>& covariance) {
+  const Eigen::Matrix<double, N, N> information = covariance.inverse();
+  return Eigen::LLT<Eigen::Matrix<double, N, N>>(information).matrixU();
+}
+
+/// Difference of two angles, wrapped; differentiable.
+template <class T>
+T angleDifference(const T& a, const T& b) {
+  using std::atan2, std::cos, std::sin;
+  return atan2(sin(a - b), cos(a - b));
+}
+
+struct BetweenResidual {
+  explicit BetweenResidual(const BetweenFactor& f)
+      : translation(f.a_from_b.translation()), rotation(f.a_from_b.linear()),
+        whitening(sqrtInformation<6>(f.covariance)) {}
+
+  template <class T>
+  bool operator()(const T* ta, const T* qa, const T* tb, const T* qb, T* out) const {
+    const Eigen::Map<const Vec3<T>> pa(ta), pb(tb);
+    const Eigen::Map<const Eigen::Quaternion<T>> ra(qa), rb(qb);
+    const Eigen::Quaternion<T> a_from_world = ra.conjugate();
+    Eigen::Matrix<T, 6, 1> error;
+    error.template head<3>() = a_from_world * (pb - pa) - translation.cast<T>();
+    Eigen::Quaternion<T> delta = rotation.conjugate().cast<T>() * (a_from_world * rb);
+    if (delta.w() < T(0)) delta.coeffs() = -delta.coeffs();  // the short way round
+    error.template tail<3>() = T(2) * delta.vec();
+    Eigen::Map<Eigen::Matrix<T, 6, 1>> whitened(out);
+    whitened = whitening.cast<T>() * error;
+    return true;
+  }
+
+  Eigen::Vector3d translation;
+  Eigen::Quaterniond rotation;
+  Matrix6d whitening;
+};
+
+struct PlanarResidual {
+  explicit PlanarResidual(const PlanarFactor& f) : sigma_z(f.sigma_z_m), sigma_tilt(f.sigma_tilt_rad) {}
+
+  template <class T>
+  bool operator()(const T* t, const T* q, T* out) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(q);
+    const Vec3<T> up = rotation * Vec3<T>(T(0), T(0), T(1));
+    out[0] = t[2] / T(sigma_z);
+    out[1] = up.x() / T(sigma_tilt);
+    out[2] = up.y() / T(sigma_tilt);
+    return true;
+  }
+
+  double sigma_z, sigma_tilt;
+};
+
+struct GroundResidual {
+  explicit GroundResidual(const GroundFactor& f)
+      : normal(f.normal_in_robot.normalized()), offset(f.offset_m), sigma_normal(f.sigma_normal_rad),
+        sigma_offset(f.sigma_offset_m) {}
+
+  template <class T>
+  bool operator()(const T* t, const T* q, T* out) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(q);
+    const Vec3<T> up = rotation * normal.cast<T>();
+    out[0] = up.x() / T(sigma_normal);
+    out[1] = up.y() / T(sigma_normal);
+    out[2] = (t[2] - T(offset)) / T(sigma_offset);
+    return true;
+  }
+
+  Eigen::Vector3d normal;
+  double offset, sigma_normal, sigma_offset;
+};
+
+struct LandmarkResidual {
+  explicit LandmarkResidual(const LandmarkFactor& f) : factor(f) {
+    // Without a measured yaw its row is switched off.
+    if (!f.has_yaw) {
+      factor.covariance.row(3).setZero();
+      factor.covariance.col(3).setZero();
+      factor.covariance(3, 3) = 1;
+    }
+    whitening = std::sqrt(f.weight) * sqrtInformation<4>(factor.covariance);
+    if (!f.has_yaw) whitening.row(3).setZero();
+  }
+
+  template <class T>
+  bool operator()(const T* t, const T* q, const T* landmark, T* out) const {
+    const Eigen::Map<const Vec3<T>> position(t), object(landmark);
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(q);
+    const Vec3<T> seen = rotation.conjugate() * (object - position);
+    const Vec3<T> ahead = rotation * Vec3<T>(T(1), T(0), T(0));
+    using std::atan2;
+    Eigen::Matrix<T, 4, 1> error;
+    error.template head<3>() = seen - factor.position_in_robot.cast<T>();
+    error[3] = angleDifference(T(landmark[3] - atan2(ahead.y(), ahead.x())), T(factor.yaw_in_robot));
+    Eigen::Map<Eigen::Matrix<T, 4, 1>> whitened(out);
+    whitened = whitening.cast<T>() * error;
+    return true;
+  }
+
+  LandmarkFactor factor;
+  Eigen::Matrix4d whitening;
+};
+
+struct LandmarkGroundResidual {
+  explicit LandmarkGroundResidual(const LandmarkGroundFactor& f) : sigma(f.sigma_z_m) {}
+
+  template <class T>
+  bool operator()(const T* landmark, T* out) const {
+    out[0] = landmark[2] / T(sigma);
+    return true;
+  }
+
+  double sigma;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "depth_registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+namespace roomgraph {
+
+cv::Mat pixelRays(const PinholeCamera& camera) {
+  cv::Mat pixels(camera.height, camera.width, CV_32FC2);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      pixels.at<cv::Vec2f>(v, u) = {static_cast<float>(u), static_cast<float>(v)};
+  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Mat distortion(1, 5, CV_64F, const_cast<double*>(camera.distortion.data()));
+  cv::Mat rays;
+  cv::undistortPoints(pixels.reshape(2, camera.width * camera.height), rays, k, distortion);
+  return rays.reshape(2, camera.height);
+}
+
+void rangesToDepth(cv::Mat& range, const cv::Mat& rays) {
+  for (int v = 0; v < range.rows; ++v)
+    for (int u = 0; u < range.cols; ++u) {
+      const auto& ray = rays.at<cv::Vec2f>(v, u);
+      range.at<float>(v, u) /= std::sqrt(1.f + ray[0] * ray[0] + ray[1] * ray[1]);
+    }
+}
+
+cv::Mat registerDepth(const cv::Mat& depth, const cv::Mat& rays, double depth_fx,
+                      const Pose3& target_from_depth, const PinholeCamera& target) {
+  cv::Mat out = cv::Mat::zeros(target.height, target.width, CV_32FC1);
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u) {
+      const double z = depth.at<float>(v, u);
+      if (!(z > 0)) continue;
+      const auto& ray = rays.at<cv::Vec2f>(v, u);
+      const Eigen::Vector3d p = target_from_depth * Eigen::Vector3d(z * ray[0], z * ray[1], z);
+      if (p.z() <= 0) continue;
+      const Eigen::Vector2d centre = target.project(p);
+      // Half the width a depth pixel covers in the target; at least one target pixel is hit.
+      const double half = std::max(0.5, 0.5 * target.fx / depth_fx * z / p.z());
+      const int left = std::max(0, static_cast<int>(std::ceil(centre.x() - half)));
+      const int right = std::min(target.width, static_cast<int>(std::ceil(centre.x() + half)));
+      const int top = std::max(0, static_cast<int>(std::ceil(centre.y() - half)));
+      const int bottom = std::min(target.height, static_cast<int>(std::ceil(centre.y() + half)));
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+          float& nearest = out.at<float>(y, x);
+          if (nearest == 0.f || p.z() < nearest) nearest = static_cast<float>(p.z());
+        }
+    }
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "roomgraph/geometry/camera.h"
+#include "roomgraph/geometry/pose.h"
+
+namespace roomgraph {
+
+/// Directions K^-1 (u, v, 1) of a camera's pixels with the lens distortion removed, CV_32FC2 (x, y at z = 1).
+cv::Mat pixelRays(const PinholeCamera& camera);
+
+/// Distances along the rays turned into depths along the optical axis. `range`: CV_32FC1, changed in place.
+void rangesToDepth(cv::Mat& range, const cv::Mat& rays);
+
+/// A depth image seen from another camera: every pixel becomes a small square in space; the nearest one wins.
+/// `depth` CV_32FC1 in metres with its `rays`, from a camera of focal length `depth_fx` (px). Result:
+/// CV_32FC1 of the size of `target`, 0 where nothing was projected. The target must be free of distortion.
+cv::Mat registerDepth(const cv::Mat& depth, const cv::Mat& rays, double depth_fx,
+                      const Pose3& target_from_depth, const PinholeCamera& target);
+
+}  // namespace roomgraph

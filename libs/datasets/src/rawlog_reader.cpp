@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/datasets/rawlog_reader.h"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <deque>
+
+#include "frame_conversion.h"
+#include "image_folder.h"
+#include "odometry_sum.h"
+#include "record_source.h"
+
+namespace roomgraph {
+
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CSensoryFrame;
+
+struct RawlogReader::Impl {
+  Impl(const std::filesystem::path& file, const ReadOptions& read_options)
+      : source(file), options(read_options), image_folder(imageFolderOf(file)) {
+    if (!options.frames) source.skipClass("CObservation3DRangeScan");
+  }
+
+  std::optional<Record> next();
+  void take(const mrpt::serialization::CSerializable::Ptr& object);
+  void takeActions(const CActionCollection& actions);
+  void takeObservation(const CObservation::Ptr& observation);
+  void giveTimeToOdometry(double t);
+  std::optional<Record> convert(const CObservation::Ptr& observation);
+  std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
+
+  RecordSource source;
+  ReadOptions options;
+  std::string image_folder;
+  ReadStatistics statistics;
+  OdometrySum odometry;
+  bool odometry_waits = false;  ///< for the time of the next observation
+  // Observations are converted when they are asked for: a sensory frame may hold many images.
+  std::deque<std::variant<CObservation::Ptr, OdometryReading>> waiting;
+  std::int64_t frame_count = 0;
+};
+
+void RawlogReader::Impl::takeActions(const CActionCollection& actions) {
+  if (!odometry.add(actions)) {
+    ++statistics.skipped["CActionCollection: no movement of the robot in it"];
+    return;
+  }
+  odometry_waits = !odometry.time();
+  if (!odometry_waits) waiting.emplace_back(OdometryReading{*odometry.time(), odometry.pose()});
+}
+
+void RawlogReader::Impl::giveTimeToOdometry(double t) {
+  if (!odometry_waits) return;
+  odometry_waits = false;
+  waiting.emplace_back(OdometryReading{t, odometry.pose()});
+}
+
+void RawlogReader::Impl::takeObservation(const CObservation::Ptr& observation) {
+  if (!observation) return;
+  if (const auto t = toSeconds(observation->timestamp)) {
+    giveTimeToOdometry(*t);
+    waiting.emplace_back(observation);
+  } else {
+    ++statistics.skipped[shortClassName(observation->GetRuntimeClass()->className) + ": invalid time stamp"];
+  }
+}
+
+void RawlogReader::Impl::take(const mrpt::serialization::CSerializable::Ptr& object) {
+  if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
+    takeActions(*actions);
+  } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
+    for (const auto& observation : *frame) takeObservation(observation);
+  } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+    takeObservation(observation);
+  } else {
+    const std::string name = object ? shortClassName(object->GetRuntimeClass()->className) : "empty object";
+    ++statistics.skipped[name + ": not used"];
+  }
+}
+
+std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& observation) {
+  auto frame = toFrame(observation, image_folder);
+  if (!frame) {
+    ++statistics.skipped[frame.reason()];
+    return std::nullopt;
+  }
+  frame->id = FrameId{frame_count++};
+  return std::move(*frame);
+}
+
+std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& observation) {
+  const std::string name = shortClassName(observation->GetRuntimeClass()->className);
+  std::optional<Record> record;
+  bool wanted = true;
+  if (const auto images = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
+    wanted = options.frames;
+    if (wanted && !(record = convertFrame(*images))) return std::nullopt;
+  } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
+    wanted = options.scans;
+    if (wanted) record = toScan(*scan);
+  } else if (const auto wheels = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+    wanted = options.odometry;
+    if (wanted)
+      record = OdometryReading{mrpt::Clock::toDouble(wheels->timestamp),
+                               {wheels->odometry.x(), wheels->odometry.y(), wheels->odometry.phi()}};
+  } else if (const auto detections = std::dynamic_pointer_cast<CObservationDetections>(observation)) {
+    record = detections;
+  }
+  if (record)
+    ++statistics.used[name];
+  else
+    ++statistics.skipped[name + (wanted ? ": not used" : ": not asked for")];
+  return record;
+}
+
+std::optional<Record> RawlogReader::Impl::next() {
+  while (true) {
+    while (waiting.empty()) {
+      const auto item = source.next();
+      if (!item) {
+        statistics.warning = source.truncation();
+        return std::nullopt;
+      }
+      if (item->object)
+        take(item->object);
+      else
+        ++statistics.skipped[item->reason];
+    }
+    const auto entry = waiting.front();
+    waiting.pop_front();
+    if (const auto* reading = std::get_if<OdometryReading>(&entry)) {
+      ++(options.odometry ? statistics.used["CActionCollection"]
+                          : statistics.skipped["CActionCollection: not asked for"]);
+      if (options.odometry) return *reading;
+    } else if (auto record = convert(std::get<CObservation::Ptr>(entry))) {
+      return record;
+    }
+  }
+}
+
+RawlogReader::RawlogReader(const std::filesystem::path& file, const ReadOptions& options)
+    : impl_(std::make_unique<Impl>(file, options)) {}
+RawlogReader::~RawlogReader() = default;
+RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
+RawlogReader& RawlogReader::operator=(RawlogReader&&) noexcept = default;
+
+std::optional<Record> RawlogReader::next() {
+  return impl_->next();
+}
+double RawlogReader::progress() const {
+  return impl_->source.progress();
+}
+const ReadStatistics& RawlogReader::statistics() const {
+  return impl_->statistics;
+}
+
+double timeOf(const Record& record) {
+  return std::visit(
+      [](const auto& value) {
+        using T = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<T, std::shared_ptr<CObservationDetections>>)
+          return mrpt::Clock::toDouble(value->timestamp);
+        else
+          return value.t;
+      },
+      record);
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "roomgraph/detection/detector.h"
+
+namespace roomgraph {
+
+/// Boxes of one recorded image.
+struct RecordedBoxes {
+  std::string image_label;       ///< sensor label of the camera; empty: any
+  std::vector<Detection> boxes;  ///< class_name is not filled in yet
+};
+
+/// Recorded boxes by time, seconds.
+using DetectionRecords = std::multimap<double, RecordedBoxes>;
+
+/// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]} or text lines
+/// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
+DetectionRecords readDetectionFile(const std::string& file);
+
+/// Replays detections: from records of the rawlog (fed as they are read), from a file, or both.
+class RecordedDetector : public Detector {
+  DEFINE_MRPT_OBJECT(RecordedDetector, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
+  void prepare() override;
+  void feed(const CObservationDetections& recorded) override;
+  /// The records nearest in time to the frame (and of its camera), when within the tolerance. Records that
+  /// stand after the frame in the rawlog are found when they have been fed before this call.
+  Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+
+ private:
+  const RecordedBoxes* nearest(const Frame& frame, double& distance_s) const;
+
+  std::string file_;
+  double tolerance_s_ = 0.02;
+  double score_threshold_ = 0.35;
+
+  const ObjectDatabase* database_ = nullptr;
+  DetectionRecords records_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <array>
+
+#include "roomgraph/detection/decoders.h"
+
+namespace roomgraph {
+namespace {
+
+// The 80 classes of the COCO detection task in their customary order.
+constexpr std::array kNames = {"person",        "bicycle",      "car",
+                               "motorcycle",    "airplane",     "bus",
+                               "train",         "truck",        "boat",
+                               "traffic light", "fire hydrant", "stop sign",
+                               "parking meter", "bench",        "bird",
+                               "cat",           "dog",          "horse",
+                               "sheep",         "cow",          "elephant",
+                               "bear",          "zebra",        "giraffe",
+                               "backpack",      "umbrella",     "handbag",
+                               "tie",           "suitcase",     "frisbee",
+                               "skis",          "snowboard",    "sports ball",
+                               "kite",          "baseball bat", "baseball glove",
+                               "skateboard",    "surfboard",    "tennis racket",
+                               "bottle",        "wine glass",   "cup",
+                               "fork",          "knife",        "spoon",
+                               "bowl",          "banana",       "apple",
+                               "sandwich",      "orange",       "broccoli",
+                               "carrot",        "hot dog",      "pizza",
+                               "donut",         "cake",         "chair",
+                               "couch",         "potted plant", "bed",
+                               "dining table",  "toilet",       "tv",
+                               "laptop",        "mouse",        "remote",
+                               "keyboard",      "cell phone",   "microwave",
+                               "oven",          "toaster",      "sink",
+                               "refrigerator",  "book",         "clock",
+                               "vase",          "scissors",     "teddy bear",
+                               "hair drier",    "toothbrush"};
+
+}  // namespace
+
+const char* cocoLabel(int index) {
+  return index >= 0 && index < static_cast<int>(kNames.size()) ? kNames[index] : "";
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/dnn_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "network.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(DnnDetector, Detector, roomgraph)
+
+namespace {
+
+// Which database class (index) each label of a network belongs to, -1: none.
+std::vector<int> classOfLabel(const Network& network, const ObjectDatabase& database,
+                              const std::vector<std::string>& segmentation_labels) {
+  std::vector<int> classes;
+  for (const std::string& label : network.labels()) {
+    const bool allowed =
+        !network.segments() ||
+        std::find(segmentation_labels.begin(), segmentation_labels.end(), label) != segmentation_labels.end();
+    const ObjectModel* model = allowed ? database.byLabel(label) : nullptr;
+    classes.push_back(model ? static_cast<int>(model - database.models().data()) : -1);
+  }
+  return classes;
+}
+
+cv::Mat maskOver(const Box2& box, const cv::Mat& cells) {
+  cv::Mat mask;
+  const cv::Size size(std::max(1, static_cast<int>(std::lround(box.width()))),
+                      std::max(1, static_cast<int>(std::lround(box.height()))));
+  if (!cells.empty()) cv::resize(cells, mask, size, 0, 0, cv::INTER_NEAREST);
+  return mask;
+}
+
+}  // namespace
+
+void DnnDetector::declareParameters(ParameterVisitor& v) {
+  v.add("models", models_,
+        {.doc = "network files, each path[:format] with format auto, nanodet, yolox, darknet or "
+                "ade20k; all run on each image and their boxes are merged; Darknet .weights need "
+                "the .cfg of the same name beside them"});
+  v.add("labels_file", labels_file_, {.doc = "one label per line; empty: labels.txt beside each network"});
+  v.add("segmentation_labels", segmentation_labels_,
+        {.doc = "labels taken from a segmentation network; box detectors are better at the others"});
+  v.add("input_size_px", input_size_px_,
+        {.doc = "side of the networks' square input; 0: as the network, its .cfg or its file name says",
+         .unit = "px",
+         .min = 0,
+         .max = 4096});
+  v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0.01, .max = 1});
+  v.add("nms_threshold", nms_threshold_,
+        {.doc = "of two boxes of a class with a larger IoU only the better is kept", .min = 0, .max = 1});
+  v.add("every_nth_frame", every_nth_frame_,
+        {.doc = "1: every frame; 4: every fourth", .min = 1, .max = 1000});
+}
+
+void DnnDetector::prepare() {
+  networks_.clear();
+  for (const std::string& text : models_) {
+    NetworkSpec spec = parseNetworkSpec(text);
+    spec.labels_file = labels_file_;
+    spec.input_size_px = input_size_px_;
+    networks_.push_back(std::make_shared<Network>(spec));
+  }
+}
+
+Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
+  using Result = Outcome<std::vector<Detection>>;
+  if (networks_.empty() || !database_)
+    return Result::failure(
+        "no network: set [detection] models; suitable: NanoDet-Plus-m-1.5x, YOLOX-Nano, "
+        "Yolo-Fastest-1.1-xl, and DeepLabV3-MobileNetV2 (ADE20K) for doors");
+  if (frame.id.valid() && frame.id.value % every_nth_frame_ != 0)
+    return Result::failure("the networks run once in " + std::to_string(every_nth_frame_) + " frames");
+  if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");
+
+  std::vector<RawBox> boxes;
+  std::vector<std::string> labels;
+  for (const auto& network : networks_) {
+    const std::vector<int> classes = classOfLabel(*network, *database_, segmentation_labels_);
+    std::vector<int> wanted;
+    for (int i = 0; i < static_cast<int>(classes.size()); ++i)
+      if (classes[i] >= 0) wanted.push_back(i);
+    for (RawBox& raw : network->run(frame.color, wanted, score_threshold_)) {
+      labels.push_back(network->labels()[raw.class_index]);
+      raw.class_index = classes[raw.class_index];
+      boxes.push_back(raw);
+    }
+  }
+  std::vector<Detection> detections;
+  for (const int i : suppressPerClass(boxes, nms_threshold_))
+    detections.push_back({boxes[i].box,
+                          database_->models()[boxes[i].class_index].class_name,
+                          labels[i],
+                          std::clamp(boxes[i].score, 0.0, 1.0),
+                          maskOver(boxes[i].box, boxes[i].mask),
+                          {}});
+  return detections;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "network_files.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <utility>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/core/suggest.h"
+
+namespace roomgraph {
+namespace {
+
+const std::array<std::pair<NetworkFormat, const char*>, 5> kFormats{{{NetworkFormat::kAuto, "auto"},
+                                                                     {NetworkFormat::kNanodet, "nanodet"},
+                                                                     {NetworkFormat::kYolox, "yolox"},
+                                                                     {NetworkFormat::kDarknet, "darknet"},
+                                                                     {NetworkFormat::kAde20k, "ade20k"}}};
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+std::string toString(NetworkFormat format) {
+  for (const auto& [known, name] : kFormats)
+    if (known == format) return name;
+  return "unknown";
+}
+
+std::string knownFormats() {
+  std::vector<std::string> names;
+  for (const auto& entry : kFormats) names.emplace_back(entry.second);
+  return join(names);
+}
+
+NetworkSpec parseNetworkSpec(const std::string& text) {
+  NetworkSpec spec;
+  spec.file = text;
+  const auto colon = text.rfind(':');
+  if (colon == std::string::npos || text.find_first_of("/.", colon) != std::string::npos) return spec;
+  spec.file = trimmed(text.substr(0, colon));
+  const std::string wanted = trimmed(text.substr(colon + 1));
+  for (const auto& [format, name] : kFormats)
+    if (wanted == name) {
+      spec.format = format;
+      return spec;
+    }
+  throw ConfigError("[detection] models: '" + text + "': unknown format '" + wanted +
+                    "'; known: " + knownFormats());
+}
+
+std::string firstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+std::string describeShape(const std::vector<cv::Mat>& blobs) {
+  std::vector<std::string> shapes;
+  for (const cv::Mat& blob : blobs) {
+    std::vector<std::string> sizes;
+    for (int i = 0; i < blob.dims; ++i) sizes.push_back(std::to_string(blob.size[i]));
+    shapes.push_back(join(sizes, "x"));
+  }
+  return join(shapes);
+}
+
+void requireFile(const std::string& file, const std::string& what) {
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file + ": no such " + what + " file");
+}
+
+std::vector<std::string> readLabels(const std::string& file) {
+  requireFile(file, "label");
+  std::ifstream in(file);
+  std::vector<std::string> labels;
+  for (std::string line; std::getline(in, line);)
+    if (const std::string label = trimmed(line); !label.empty()) labels.push_back(label);
+  if (labels.empty()) throw InputError(file + ": holds no labels (one per line)");
+  return labels;
+}
+
+cv::Size darknetInputSize(const std::string& file) {
+  std::ifstream in(file);
+  cv::Size size;
+  static const std::regex entry(R"(\s*(width|height)\s*=\s*(\d{1,5})\s*)");
+  int sections = 0;
+  for (std::string line; std::getline(in, line) && sections < 2;) {
+    if (!line.empty() && line.front() == '[') ++sections;
+    std::smatch match;
+    if (std::regex_match(line, match, entry))
+      (match[1] == "width" ? size.width : size.height) = std::stoi(match[2]);
+  }
+  if (size.empty()) throw InputError(file + ": [net] gives no width and height");
+  return size;
+}
+
+int sizeFromName(const std::string& file) {
+  const std::string name = std::filesystem::path(file).stem().string();
+  static const std::regex number(R"(\d+)");
+  int found = 0;
+  for (std::sregex_iterator it(name.begin(), name.end(), number), end; it != end; ++it) {
+    if (it->length() > 4) continue;
+    const int value = std::stoi(it->str());
+    if (value >= 128 && value <= 2048 && value % 32 == 0) found = value;
+  }
+  return found;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/recorded_detector.h"
+
+#include <mrpt/core/Clock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(RecordedDetector, Detector, roomgraph)
+
+void RecordedDetector::declareParameters(ParameterVisitor& v) {
+  v.add("file", file_,
+        {.doc = "recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`; empty: "
+                "only those inside the rawlog"});
+  v.add("tolerance_s", tolerance_s_,
+        {.doc = "largest time between a frame and its record", .unit = "s", .min = 0, .max = 10});
+  v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0, .max = 1});
+}
+
+void RecordedDetector::prepare() {
+  records_.clear();
+  if (!file_.empty()) records_ = readDetectionFile(file_);
+}
+
+void RecordedDetector::feed(const CObservationDetections& recorded) {
+  RecordedBoxes record;
+  record.image_label = recorded.image_label;
+  for (const auto& item : recorded.items)
+    record.boxes.push_back({{item.u_min, item.v_min, item.u_max, item.v_max},
+                            "",
+                            item.label,
+                            item.score,
+                            {},
+                            TrackId{item.track}});
+  records_.emplace(mrpt::Clock::toDouble(recorded.timestamp), record);
+}
+
+const RecordedBoxes* RecordedDetector::nearest(const Frame& frame, double& distance_s) const {
+  const RecordedBoxes* best = nullptr;
+  distance_s = std::numeric_limits<double>::infinity();
+  const auto end = records_.upper_bound(frame.t + tolerance_s_);
+  for (auto it = records_.lower_bound(frame.t - tolerance_s_); it != end; ++it) {
+    const std::string& label = it->second.image_label;
+    if (!label.empty() && !frame.sensor_label.empty() && label != frame.sensor_label) continue;
+    const double distance = std::abs(it->first - frame.t);
+    if (distance >= distance_s) continue;
+    distance_s = distance;
+    best = &it->second;
+  }
+  return best;
+}
+
+Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
+  using Result = Outcome<std::vector<Detection>>;
+  double distance_s = 0;
+  const RecordedBoxes* record = nearest(frame, distance_s);
+  if (!record || !database_) {
+    std::ostringstream reason;
+    reason << "no recorded detections within " << tolerance_s_ << " s of the frame";
+    return Result::failure(reason.str());
+  }
+  std::vector<Detection> detections;
+  for (Detection detection : record->boxes) {
+    const ObjectModel* model = database_->byLabel(detection.label);
+    if (!model) model = database_->find(detection.label);
+    detection.box = clipped(detection.box, frame.camera.width, frame.camera.height);
+    if (!model || !(detection.score >= score_threshold_) || detection.box.empty()) continue;
+    detection.class_name = model->class_name;
+    detections.push_back(detection);
+  }
+  std::stable_sort(detections.begin(), detections.end(),
+                   [](const Detection& a, const Detection& b) { return a.score > b.score; });
+  return detections;
+}
+
+}  // namespace roomgraph

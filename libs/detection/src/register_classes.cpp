@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/register_classes.h"
+
+#include <mrpt/core/initializer.h>
+
+#include "roomgraph/detection/dnn_detector.h"
+#include "roomgraph/detection/recorded_detector.h"
+
+namespace roomgraph::detection {
+
+void registerClasses() {
+  mrpt::rtti::registerClass(CLASS_ID(Stage));
+  mrpt::rtti::registerClass(CLASS_ID(Detector));
+  mrpt::rtti::registerClass(CLASS_ID(DnnDetector));
+  mrpt::rtti::registerClass(CLASS_ID(RecordedDetector));
+}
+
+}  // namespace roomgraph::detection
+
+MRPT_INITIALIZER(registerRoomgraphDetection) {
+  roomgraph::detection::registerClasses();
+}

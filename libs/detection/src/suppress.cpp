@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <algorithm>
+#include <map>
+#include <opencv2/dnn.hpp>
+
+#include "roomgraph/detection/decoders.h"
+
+namespace roomgraph {
+
+std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou) {
+  std::map<int, std::vector<int>> by_class;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) by_class[boxes[i].class_index].push_back(i);
+  std::vector<int> kept;
+  for (const auto& [class_index, members] : by_class) {
+    std::vector<cv::Rect2d> rects;
+    std::vector<float> scores;
+    for (const int i : members) {
+      const Box2& box = boxes[i].box;
+      rects.emplace_back(box.u_min, box.v_min, box.width(), box.height());
+      scores.push_back(static_cast<float>(boxes[i].score));
+    }
+    std::vector<int> chosen;
+    cv::dnn::NMSBoxes(rects, scores, 0.f, static_cast<float>(max_iou), chosen);
+    for (const int k : chosen) kept.push_back(members[k]);
+  }
+  std::stable_sort(kept.begin(), kept.end(), [&](int a, int b) { return boxes[a].score > boxes[b].score; });
+  return kept;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "roomgraph/lidar/probability_grid.h"
+
+namespace roomgraph {
+
+/// How far to trust the expected pose against the scan.
+struct PosePrior {
+  Pose2 pose;
+  double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
+};
+
+struct GridRefinement {
+  Pose2 grid_from_scan;
+  /// Sum over the points of J^T J, J the derivative of 1 - p by (x, y, yaw) of the pose; the prior is not in
+  /// it.
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  double residual_variance = 1;  ///< mean of (1 - p)^2
+  double explained = 0;          ///< share of the points on a surface of the grid
+  double contradicted = 0;       ///< share of the points in space the grid knows to be free
+};
+
+/// Cost of a pose: mean over the points of (1 - p)^2, plus the prior; with its gradient by (x, y, yaw) and
+/// the Gauss-Newton curvature of the mean.
+struct GridCost {
+  double value = 0, residual = 0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+};
+GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& grid_from_scan,
+                  const PosePrior& prior);
+
+/// Levenberg-Marquardt on the interpolated grid (Hess et al. 2016, Eq. CS) with a prior on the pose.
+GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,
+                            const PosePrior& prior, int max_iterations = 20);
+
+/// Covariance of a refined pose, in the grid's axes: residual_variance * curvature^-1, bounded by `max_sigma`
+/// (m and rad) along what the scan does not fix, plus the floor's squares.
+struct CovarianceModel {
+  double inflation = 1;  ///< of the standard deviations: residuals are correlated
+  double floor_sigma_m = 0.005, floor_sigma_rad = 0.002;
+  double max_sigma = 1;
+};
+Eigen::Matrix3d poseCovariance(const GridRefinement& refinement, const CovarianceModel& model);
+
+}  // namespace roomgraph

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/closure_confirmation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+
+bool agree(const Closure& first, const Closure& second, const std::vector<WayPoint>& way,
+           const ConfirmationRule& rule) {
+  const auto at = [&](int i) -> const WayPoint& { return way[static_cast<std::size_t>(i)]; };
+  const WayPoint &a1 = at(first.a), &b1 = at(first.b), &a2 = at(second.a), &b2 = at(second.b);
+  if (a1.segment != a2.segment || b1.segment != b2.segment) return false;
+  const double way_a = std::abs(a1.path_m - a2.path_m), way_b = std::abs(b1.path_m - b2.path_m);
+  if (way_a > rule.reach_m || way_b > rule.reach_m) return false;
+  const Pose2 a1_from_a2 = a1.odom_from_robot.inverse() * a2.odom_from_robot;
+  const Pose2 b2_from_b1 = b2.odom_from_robot.inverse() * b1.odom_from_robot;
+  const Pose2 error = first.a_from_b.inverse() * (a1_from_a2 * second.a_from_b * b2_from_b1);
+  const double more = rule.tolerance_per_m * (way_a + way_b);
+  return std::hypot(error.x, error.y) <= rule.tolerance_m + more &&
+         std::abs(error.yaw) <= rule.tolerance_rad + 0.1 * more;
+}
+
+std::vector<Closure> ClosureConfirmation::add(const Closure& closure, const std::vector<WayPoint>& way,
+                                              const ConfirmationRule& rule) {
+  const auto path = [&](const Closure& c) { return way[static_cast<std::size_t>(c.b)].path_m; };
+  std::erase_if(waiting_, [&](const Closure& old) { return path(closure) - path(old) > rule.reach_m; });
+  std::vector<Closure> group{closure};
+  double low = path(closure), high = low;
+  int scans = 1;
+  for (const Closure& old : waiting_) {
+    if (!agree(closure, old, way, rule)) continue;
+    const bool other_scan =
+        std::none_of(group.begin(), group.end(), [&](const Closure& c) { return c.b == old.b; });
+    scans += other_scan;
+    low = std::min(low, path(old));
+    high = std::max(high, path(old));
+    group.push_back(old);
+  }
+  if (scans < rule.agreeing || high - low < rule.travelled_m) {
+    waiting_.push_back(closure);
+    return {};
+  }
+  std::erase_if(waiting_, [&](const Closure& old) {
+    return std::any_of(group.begin(), group.end(),
+                       [&](const Closure& c) { return c.a == old.a && c.b == old.b; });
+  });
+  return group;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/grid_refinement.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kSurface = 0.5;  // cells at least this probable are surfaces
+constexpr double kFree = 0.3;     // known cells below are free space
+
+void addPrior(const Pose2& pose, const PosePrior& prior, GridCost& cost) {
+  const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y,
+                              wrapAngle(pose.yaw - prior.pose.yaw));
+  const Eigen::Vector3d weights(prior.weight_per_m2, prior.weight_per_m2, prior.weight_per_rad2);
+  cost.value += shift.dot(weights.cwiseProduct(shift));
+  cost.gradient += 2 * weights.cwiseProduct(shift);
+  cost.curvature.diagonal() += weights;
+}
+
+void countAgreement(const ProbabilityGrid& grid, const Points2& points, GridRefinement& out) {
+  for (const Eigen::Vector2d& p : transformed(out.grid_from_scan, points)) {
+    // The brightest cell around: a return one cell beside its surface agrees with it.
+    const Eigen::Vector2i cell = grid.cellOf(p);
+    float brightest = 0;
+    bool known = false;
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        brightest = std::max(brightest, grid.at(cell.x() + dx, cell.y() + dy));
+        known = known || grid.known(cell.x() + dx, cell.y() + dy);
+      }
+    out.explained += brightest >= kSurface;
+    out.contradicted += known && brightest < kFree;
+  }
+  out.explained /= static_cast<double>(points.size());
+  out.contradicted /= static_cast<double>(points.size());
+}
+
+}  // namespace
+
+GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& pose,
+                  const PosePrior& prior) {
+  GridCost cost;
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2d turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+    Eigen::Vector2d slope;
+    const double residual = 1 - grid.interpolate(turned + Eigen::Vector2d(pose.x, pose.y), &slope);
+    const Eigen::Vector3d jacobian(-slope.x(), -slope.y(), slope.x() * turned.y() - slope.y() * turned.x());
+    cost.residual += residual * residual;
+    cost.gradient += 2 * residual * jacobian;
+    cost.curvature += jacobian * jacobian.transpose();
+  }
+  const double share = 1.0 / static_cast<double>(points.size());
+  cost.residual *= share;
+  cost.gradient *= share;
+  cost.curvature *= share;
+  cost.value = cost.residual;
+  addPrior(pose, prior, cost);
+  return cost;
+}
+
+GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,
+                            const PosePrior& prior, int max_iterations) {
+  Pose2 pose = start;
+  GridCost cost = gridCost(grid, points, pose, prior);
+  double damping = 1e-3;
+  for (int i = 0; i < max_iterations; ++i) {
+    Eigen::Matrix3d damped = cost.curvature;
+    damped.diagonal() += damping * (cost.curvature.diagonal() + Eigen::Vector3d::Constant(1e-6));
+    const Eigen::Vector3d step = -0.5 * damped.ldlt().solve(cost.gradient);
+    const Pose2 moved{pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};
+    const GridCost next = gridCost(grid, points, moved, prior);
+    if (next.value < cost.value) {
+      pose = moved;
+      cost = next;
+      damping *= 0.2;
+      if (step.head<2>().norm() < 1e-5 && std::abs(step.z()) < 1e-6) break;
+    } else {
+      damping *= 8;
+      if (damping > 1e4) break;
+    }
+  }
+  GridRefinement out;
+  out.grid_from_scan = pose;
+  const GridCost data = gridCost(grid, points, pose, PosePrior{});
+  out.curvature = data.curvature * static_cast<double>(points.size());
+  out.residual_variance = data.residual;
+  countAgreement(grid, points, out);
+  return out;
+}
+
+Eigen::Matrix3d poseCovariance(const GridRefinement& refinement, const CovarianceModel& model) {
+  const double variance = refinement.residual_variance * model.inflation * model.inflation;
+  const Eigen::Matrix3d information =
+      refinement.curvature / variance + Eigen::Matrix3d::Identity() / (model.max_sigma * model.max_sigma);
+  Eigen::Matrix3d covariance = information.inverse();
+  covariance(0, 0) += model.floor_sigma_m * model.floor_sigma_m;
+  covariance(1, 1) += model.floor_sigma_m * model.floor_sigma_m;
+  covariance(2, 2) += model.floor_sigma_rad * model.floor_sigma_rad;
+  return 0.5 * (covariance + covariance.transpose());
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/probability_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kGrowthMargin = 2.0;  // m, so that a grid does not grow with every scan
+
+/// Catmull-Rom weights of the four neighbours at t in [0, 1), and their derivatives by t.
+void catmullRom(double t, double weights[4], double slopes[4]) {
+  const double t2 = t * t, t3 = t2 * t;
+  weights[0] = 0.5 * (-t + 2 * t2 - t3);
+  weights[1] = 0.5 * (2 - 5 * t2 + 3 * t3);
+  weights[2] = 0.5 * (t + 4 * t2 - 3 * t3);
+  weights[3] = 0.5 * (-t2 + t3);
+  slopes[0] = 0.5 * (-1 + 4 * t - 3 * t2);
+  slopes[1] = 0.5 * (-10 * t + 9 * t2);
+  slopes[2] = 0.5 * (1 + 8 * t - 9 * t2);
+  slopes[3] = 0.5 * (-2 * t + 3 * t2);
+}
+
+float oddsOf(double probability) {
+  return static_cast<float>(probability / (1 - probability));
+}
+
+}  // namespace
+
+Eigen::Vector2i ProbabilityGrid::cellOf(const Eigen::Vector2d& point) const {
+  return {static_cast<int>(std::floor((point.x() - corner_.x()) / cell_m_)),
+          static_cast<int>(std::floor((point.y() - corner_.y()) / cell_m_))};
+}
+
+void ProbabilityGrid::growToContain(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const Eigen::Vector2i first = cellOf(low), last = cellOf(high);
+  if (width_ > 0 && inside(first.x(), first.y()) && inside(last.x(), last.y())) return;
+  const int margin = static_cast<int>(kGrowthMargin / cell_m_);
+  const bool empty = width_ == 0;
+  const int x0 = empty ? first.x() - margin : std::min(0, first.x() - margin);
+  const int y0 = empty ? first.y() - margin : std::min(0, first.y() - margin);
+  const int x1 = empty ? last.x() + margin : std::max(width_ - 1, last.x() + margin);
+  const int y1 = empty ? last.y() + margin : std::max(height_ - 1, last.y() + margin);
+  const int old_width = width_, old_height = height_;
+  const std::vector<float> old_cells = std::move(cells_);
+  width_ = x1 - x0 + 1;
+  height_ = y1 - y0 + 1;
+  corner_ += cell_m_ * Eigen::Vector2d(x0, y0);
+  cells_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.f);
+  touched_.assign(cells_.size(), 0);
+  for (int y = 0; y < old_height; ++y)
+    std::copy_n(old_cells.begin() + static_cast<std::ptrdiff_t>(y) * old_width, old_width,
+                cells_.begin() + static_cast<std::ptrdiff_t>(index(-x0, y - y0)));
+}
+
+void ProbabilityGrid::update(int ix, int iy, float odds_factor) {
+  const std::size_t i = index(ix, iy);
+  if (touched_[i] == insertion_) return;
+  touched_[i] = insertion_;
+  const float p = cells_[i] > 0 ? cells_[i] : 0.5f;
+  const float odds = p / (1 - p) * odds_factor;
+  cells_[i] = std::clamp(odds / (1 + odds), kMin, kMax);
+}
+
+// Bresenham's line, without its end cell.
+void ProbabilityGrid::missAlong(Eigen::Vector2i from, const Eigen::Vector2i& to, float odds_factor) {
+  const int dx = std::abs(to.x() - from.x()), dy = -std::abs(to.y() - from.y());
+  const int step_x = from.x() < to.x() ? 1 : -1, step_y = from.y() < to.y() ? 1 : -1;
+  for (int error = dx + dy; from != to;) {
+    update(from.x(), from.y(), odds_factor);
+    const int twice = 2 * error;
+    if (twice >= dy) error += dy, from.x() += step_x;
+    if (twice <= dx) error += dx, from.y() += step_y;
+  }
+}
+
+void ProbabilityGrid::insert(const PlanarScan& scan, const Pose2& grid_from_robot, const GridUpdate& change) {
+  const Points2 points = transformed(grid_from_robot, scan.points);
+  const Eigen::Vector2d origin = grid_from_robot * scan.origin;
+  Eigen::Vector2d low = origin, high = origin;
+  for (const Eigen::Vector2d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  growToContain(low, high);
+  if (++insertion_ == 0) {
+    std::fill(touched_.begin(), touched_.end(), std::uint16_t{0});
+    insertion_ = 1;
+  }
+  // Hits first: a cell that holds a surface is not cleared by another beam of the same scan that grazes it.
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2i cell = cellOf(p);
+    update(cell.x(), cell.y(), oddsOf(change.hit_probability));
+  }
+  const Eigen::Vector2i start = cellOf(origin);
+  for (const Eigen::Vector2d& p : points) missAlong(start, cellOf(p), oddsOf(change.miss_probability));
+}
+
+double ProbabilityGrid::interpolate(const Eigen::Vector2d& point, Eigen::Vector2d* gradient) const {
+  const double gx = (point.x() - corner_.x()) / cell_m_ - 0.5, gy = (point.y() - corner_.y()) / cell_m_ - 0.5;
+  const double fx = std::floor(gx), fy = std::floor(gy);
+  const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
+  double wx[4], wy[4], sx[4], sy[4];
+  catmullRom(gx - fx, wx, sx);
+  catmullRom(gy - fy, wy, sy);
+  double value = 0, along_x = 0, along_y = 0;
+  const bool interior = ix >= 1 && iy >= 1 && ix + 2 < width_ && iy + 2 < height_;
+  for (int j = 0; j < 4; ++j) {
+    double row = 0, row_slope = 0;
+    const float* cells = interior ? &cells_[index(ix - 1, iy - 1 + j)] : nullptr;
+    for (int i = 0; i < 4; ++i) {
+      const double p = interior ? std::max(kMin, cells[i]) : at(ix - 1 + i, iy - 1 + j);
+      row += wx[i] * p;
+      row_slope += sx[i] * p;
+    }
+    value += wy[j] * row;
+    along_x += wy[j] * row_slope;
+    along_y += sy[j] * row;
+  }
+  if (gradient) *gradient = Eigen::Vector2d(along_x, along_y) / cell_m_;
+  return value;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/scan_matcher.h"
+
+namespace roomgraph {
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ScanMatcher, Stage, roomgraph)
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ScanLoopCloser, Stage, roomgraph)
+}  // namespace roomgraph

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/submap_loop_closer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/lidar/grid_refinement.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(SubmapLoopCloser, ScanLoopCloser, roomgraph)
+
+namespace {
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr int kPyramidLevels = 7;
+constexpr double kTurnLength = 0.3;                               // m of way that a turn by 1 rad counts for
+constexpr double kClosureLength = 0.3;                            // m of way that a closure counts for
+constexpr double kSecondBestRadius = 0.6, kSecondBestTurn = 0.3;  // m, rad: nearer is the same solution
+
+Pose2 movement(const WayPoint& a, const WayPoint& b) {
+  return a.odom_from_robot.inverse() * b.odom_from_robot;
+}
+}  // namespace
+
+void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
+  v.add("min_range_m", min_range_m_, {.doc = "Nearer returns are ignored.", .unit = "m", .min = 0});
+  v.add("max_range_m", max_range_m_, {.doc = "Farther returns are ignored.", .unit = "m", .min = 0.5});
+  v.add("cell_m", cell_m_, {.doc = "Cell size of the submaps.", .unit = "m", .min = 0.01, .max = 0.5});
+  v.add("scans_per_submap", scans_per_submap_, {.doc = "Kept scans in one submap.", .min = 2, .max = 1000});
+  v.add("hit_probability", hit_probability_,
+        {.doc = "Occupancy evidence of one return.", .min = 0.501, .max = 0.99});
+  v.add("miss_probability", miss_probability_,
+        {.doc = "Occupancy evidence of a beam that passes.", .min = 0.01, .max = 0.499});
+  v.add("keep_distance_m", keep_distance_m_,
+        {.doc = "Movement after which a scan is kept.", .unit = "m", .min = 0});
+  v.add("keep_angle_deg", keep_angle_deg_,
+        {.doc = "Turn after which a scan is kept.", .unit = "deg", .min = 0});
+  v.add("keep_time_s", keep_time_s_,
+        {.doc = "Time after which a scan is kept anyway.", .unit = "s", .min = 0});
+  v.add("thinning_m", thinning_m_,
+        {.doc = "One return per square of this side is matched.", .unit = "m", .min = 0.001});
+  v.add("max_points", max_points_, {.doc = "Most returns matched; thinned further beyond.", .min = 10});
+  v.add("min_points", min_points_, {.doc = "Scans with fewer returns are not searched.", .min = 3});
+  v.add("min_way_m", min_way_m_,
+        {.doc = "Way since a submap's last scan before it is searched.", .unit = "m", .min = 0});
+  v.add("near_m", near_m_,
+        {.doc = "Submaps with a scan this near are searched, drift not counted.", .unit = "m", .min = 0});
+  v.add("max_near_m", max_near_m_,
+        {.doc = "Bound on that distance with drift counted.", .unit = "m", .min = 0});
+  v.add("drift_per_m", drift_per_m_, {.doc = "Drift assumed per metre of way.", .min = 0, .max = 1});
+  v.add("drift_deg_per_m", drift_deg_per_m_,
+        {.doc = "Drift in yaw assumed per metre of way.", .unit = "deg/m", .min = 0});
+  v.add("window_m", window_m_, {.doc = "Search half width without drift.", .unit = "m", .min = 0});
+  v.add("window_deg", window_deg_,
+        {.doc = "Search half width without drift.", .unit = "deg", .min = 0, .max = 180});
+  v.add("max_window_m", max_window_m_,
+        {.doc = "Largest search half width.", .unit = "m", .min = 0, .max = 50});
+  v.add("max_window_deg", max_window_deg_,
+        {.doc = "Largest search half width.", .unit = "deg", .min = 0, .max = 180});
+  v.add("min_search_score", min_search_score_,
+        {.doc = "Least mean occupancy at the returns for the search to go on.", .min = 0, .max = 1});
+  v.add("min_score", min_score_,
+        {.doc = "Least share of returns the submap must explain.", .min = 0, .max = 1});
+  v.add("max_contradicted", max_contradicted_,
+        {.doc = "Largest share of returns in space the submap saw free.", .min = 0, .max = 1});
+  v.add(
+      "ambiguity_ratio", ambiguity_ratio_,
+      {.doc = "A second place scoring this share of the best makes a match ambiguous.", .min = 0, .max = 1});
+  v.add("trusted_drift_m", trusted_drift_m_,
+        {.doc = "Way up to which a closure needs no confirmation by others.", .unit = "m", .min = 0});
+  v.add("agreeing_closures", agreeing_closures_,
+        {.doc = "Scans that must agree on a closure after a longer way.", .min = 1});
+  v.add("agreeing_travel_m", agreeing_travel_m_,
+        {.doc = "Way those scans must span.", .unit = "m", .min = 0});
+  v.add("max_candidates", max_candidates_, {.doc = "Submaps searched per scan.", .min = 1});
+  v.add("max_matches_per_search", max_matches_per_search_,
+        {.doc = "Bound on the work of one call.", .min = 1});
+  v.add("covariance_inflation", covariance_inflation_,
+        {.doc = "Factor on the standard deviations.", .min = 0.01});
+  v.add("floor_sigma_m", floor_sigma_m_,
+        {.doc = "Least standard deviation of a closure.", .unit = "m", .min = 1e-6});
+  v.add("floor_sigma_deg", floor_sigma_deg_,
+        {.doc = "Least standard deviation of its turn.", .unit = "deg", .min = 1e-6});
+}
+
+void SubmapLoopCloser::prepare() {
+  active_ = std::make_unique<ActiveSubmaps>(cell_m_, scans_per_submap_,
+                                            GridUpdate{hit_probability_, miss_probability_});
+  submaps_.clear();
+  scans_.clear();
+  way_.clear();
+  graph_ = ClosureGraph();
+  confirmation_ = ClosureConfirmation();
+  waiting_.clear();
+}
+
+void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
+  if (!active_) prepare();
+  if (!match.matched) return;
+  const WayPoint* last = way_.empty() ? nullptr : &way_.back();
+  const bool connected = last && last->segment == match.segment;
+  const MotionFilter filter{keep_distance_m_, keep_angle_deg_ * kRadPerDeg, keep_time_s_};
+  if (connected && !filter.moved(scans_.back().t, last->odom_from_robot, scan.t, match.odom_from_robot))
+    return;
+  if (last && !connected) store(active_->finishAll());
+
+  WayPoint here{match.odom_from_robot, last ? last->path_m : 0, match.segment};
+  const Pose2 step = connected ? movement(*last, here) : Pose2{};
+  const double length = std::hypot(step.x, step.y) + kTurnLength * std::abs(step.yaw);
+  here.path_m += length;
+  graph_.addNode(connected, step, length);
+  way_.push_back(here);
+  const PlanarScan planar = toPlanarScan(scan, min_range_m_, max_range_m_);
+  scans_.push_back({scan.t, thinnedTo(planar.points, thinning_m_, max_points_)});
+  waiting_.push_back(static_cast<int>(scans_.size()) - 1);
+  store(active_->insert(planar, match.odom_from_robot));
+}
+
+void SubmapLoopCloser::store(std::shared_ptr<Submap> submap) {
+  if (submap) submaps_.push_back({std::move(submap), {}});
+}
+
+std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_robot) {
+  std::vector<RelativePose> found;
+  if (waiting_.empty() || submaps_.empty()) {
+    waiting_.clear();
+    return found;
+  }
+  std::vector<std::optional<Pose2>> world;
+  for (const KeptScan& scan : scans_) {
+    const std::optional<Pose3> pose = world_from_robot.at(scan.t);
+    world.push_back(pose ? std::optional(planarPart(*pose)) : std::nullopt);
+  }
+  const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_travel_m_};
+  for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
+    const int b = waiting_.front();
+    for (const Candidate& candidate : candidatesFor(b, world)) {
+      ++matches;
+      const std::optional<Closure> closure = verify(candidate, b);
+      if (!closure) continue;
+      std::vector<Closure> confirmed{*closure};
+      if (closure->drift_m > trusted_drift_m_) confirmed = confirmation_.add(*closure, way_, rule);
+      for (const Closure& c : confirmed) {
+        graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
+        found.push_back(toRelativePose(c));
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(
+    int b, const std::vector<std::optional<Pose2>>& world) const {
+  std::vector<Candidate> candidates;
+  if (static_cast<int>(scans_[static_cast<std::size_t>(b)].points.size()) < min_points_) return candidates;
+  const std::vector<ClosureGraph::Reached> reached = graph_.reachedFrom(b);
+  for (std::size_t s = 0; s < submaps_.size(); ++s) {
+    const auto candidate = nearestIn(s, b, reached, world);
+    if (candidate) candidates.push_back(*candidate);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& x, const Candidate& y) { return x.distance_m < y.distance_m; });
+  if (static_cast<int>(candidates.size()) > max_candidates_)
+    candidates.resize(static_cast<std::size_t>(max_candidates_));
+  return candidates;
+}
+
+std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
+    std::size_t s, int b, const std::vector<ClosureGraph::Reached>& reached,
+    const std::vector<std::optional<Pose2>>& world) const {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  const Submap& submap = *submaps_[s].submap;
+  const int first = submap.first_insertion, last = first + submap.insertions - 1;
+  if (b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_way_m_) return std::nullopt;
+  std::optional<Candidate> best;
+  for (int a = first; a <= last; ++a) {
+    const ClosureGraph::Reached& reach = reached[at(a)];
+    Candidate c{s, a, reach.start_from_node.inverse(), 0, reach.length_m};
+    // Over a short way the composed movement is the better guess: the world may not know the last closures
+    // yet.
+    if (reach.length_m > trusted_drift_m_) {
+      if (!world[at(a)] || !world[at(b)]) continue;
+      c.a_from_b = world[at(a)]->inverse() * *world[at(b)];
+    }
+    c.distance_m = std::hypot(c.a_from_b.x, c.a_from_b.y);
+    if (!best || c.distance_m < best->distance_m) best = c;
+  }
+  if (!best || best->distance_m > std::min(max_near_m_, near_m_ + drift_per_m_ * best->drift_m))
+    return std::nullopt;
+  return best;
+}
+
+SearchWindow SubmapLoopCloser::windowFor(double drift_m) const {
+  SearchWindow window;
+  window.linear_m = std::min(max_window_m_, window_m_ + drift_per_m_ * drift_m);
+  window.angular_rad = kRadPerDeg * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * drift_m);
+  window.min_score = min_search_score_;
+  return window;
+}
+
+std::optional<Closure> SubmapLoopCloser::verify(const Candidate& candidate, int b) {
+  StoredSubmap& stored = submaps_[candidate.submap];
+  const ProbabilityGrid& grid = stored.submap->grid;
+  if (stored.pyramid.levels() == 0) stored.pyramid = ScorePyramid(grid, kPyramidLevels);
+  const Points2& points = scans_[static_cast<std::size_t>(b)].points;
+  const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
+  const Pose2 expected = odom_from_a * candidate.a_from_b;
+  const SearchWindow window = windowFor(candidate.drift_m);
+  const auto coarse = correlativeSearch(stored.pyramid, points, expected, window);
+  if (!coarse) return std::nullopt;
+  const GridRefinement fine =
+      refineOnGrid(grid, points, coarse->grid_from_scan, PosePrior{coarse->grid_from_scan});
+  if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
+  if (candidate.drift_m > trusted_drift_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
+    return std::nullopt;
+
+  CovarianceModel model;
+  model.inflation = covariance_inflation_;
+  model.floor_sigma_m = floor_sigma_m_;
+  model.floor_sigma_rad = floor_sigma_deg_ * kRadPerDeg;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-odom_from_a.yaw).toRotationMatrix();
+  return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,
+                 turn * poseCovariance(fine, model) * turn.transpose(), candidate.drift_m};
+}
+
+bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
+                                 const SearchWindow& window, const SearchResult& best) const {
+  SearchWindow second = window;
+  second.min_score = ambiguity_ratio_ * best.score;
+  const ExcludedPose same{best.grid_from_scan, kSecondBestRadius, kSecondBestTurn};
+  return correlativeSearch(pyramid, points, expected, second, same).has_value();
+}
+
+RelativePose SubmapLoopCloser::toRelativePose(const Closure& closure) const {
+  RelativePose out;
+  out.t_a = scans_[static_cast<std::size_t>(closure.a)].t;
+  out.t_b = scans_[static_cast<std::size_t>(closure.b)].t;
+  out.a_from_b = toPose3(closure.a_from_b);
+  const int axes[3] = {0, 1, 5};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out.covariance(axes[i], axes[j]) = closure.covariance(i, j);
+  out.planar = true;
+  out.source = "lidar";
+  return out;
+}
+
+}  // namespace roomgraph

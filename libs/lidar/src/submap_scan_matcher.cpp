@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/lidar/submap_scan_matcher.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/lidar/correlative_search.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
+
+namespace {
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr int kPyramidLevels = 4;
+constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
+}  // namespace
+
+void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
+  v.add("min_range_m", min_range_m_, {.doc = "Nearer returns are ignored.", .unit = "m", .min = 0});
+  v.add("max_range_m", max_range_m_, {.doc = "Farther returns are ignored.", .unit = "m", .min = 0.5});
+  v.add("cell_m", cell_m_, {.doc = "Cell size of the local maps.", .unit = "m", .min = 0.01, .max = 0.5});
+  v.add("scans_per_submap", scans_per_submap_,
+        {.doc = "Kept scans in one local map.", .min = 2, .max = 1000});
+  v.add("hit_probability", hit_probability_,
+        {.doc = "Occupancy evidence of one return.", .min = 0.501, .max = 0.99});
+  v.add("miss_probability", miss_probability_,
+        {.doc = "Occupancy evidence of a beam that passes.", .min = 0.01, .max = 0.499});
+  v.add("keep_distance_m", keep_distance_m_,
+        {.doc = "Movement after which a scan is kept.", .unit = "m", .min = 0});
+  v.add("keep_angle_deg", keep_angle_deg_,
+        {.doc = "Turn after which a scan is kept.", .unit = "deg", .min = 0});
+  v.add("keep_time_s", keep_time_s_,
+        {.doc = "Time after which a scan is kept anyway.", .unit = "s", .min = 0});
+  v.add("thinning_m", thinning_m_,
+        {.doc = "One return per square of this side is matched.", .unit = "m", .min = 0.001});
+  v.add("max_points", max_points_, {.doc = "Most returns matched; thinned further beyond.", .min = 10});
+  v.add("min_points", min_points_, {.doc = "With fewer returns a scan is not matched.", .min = 3});
+  v.add("window_m", window_m_,
+        {.doc = "Search half width around a measured movement.", .unit = "m", .min = 0});
+  v.add("window_deg", window_deg_,
+        {.doc = "Search half width around a measured turn.", .unit = "deg", .min = 0, .max = 180});
+  v.add("free_window_m", free_window_m_,
+        {.doc = "Search half width without odometry.", .unit = "m", .min = 0});
+  v.add("free_window_deg", free_window_deg_,
+        {.doc = "Search half width without odometry.", .unit = "deg", .min = 0, .max = 180});
+  v.add("search_penalty_per_m2", search_penalty_per_m2_,
+        {.doc = "Score taken off per squared shift from the prediction.", .unit = "1/m^2", .min = 0});
+  v.add("search_penalty_per_rad2", search_penalty_per_rad2_,
+        {.doc = "Score taken off per squared turn from the prediction.", .unit = "1/rad^2", .min = 0});
+  v.add("prior_per_m2", prior_per_m2_,
+        {.doc = "Weight of a measured movement against the scan in the refinement.",
+         .unit = "1/m^2",
+         .min = 0});
+  v.add(
+      "prior_per_rad2", prior_per_rad2_,
+      {.doc = "Weight of a measured turn against the scan in the refinement.", .unit = "1/rad^2", .min = 0});
+  v.add("min_score", min_score_,
+        {.doc = "Least share of returns the local map must explain.", .min = 0, .max = 1});
+  v.add("max_lost_scans", max_lost_scans_,
+        {.doc = "Unmatched scans in a row after which a new segment starts.", .min = 0});
+  v.add("covariance_inflation", covariance_inflation_,
+        {.doc = "Factor on the standard deviations.", .min = 0.01});
+  v.add("floor_sigma_m", floor_sigma_m_,
+        {.doc = "Least standard deviation of a step.", .unit = "m", .min = 1e-6});
+  v.add("floor_sigma_deg", floor_sigma_deg_,
+        {.doc = "Least standard deviation of a step's turn.", .unit = "deg", .min = 1e-6});
+}
+
+void SubmapScanMatcher::prepare() {
+  submaps_ = std::make_unique<ActiveSubmaps>(cell_m_, scans_per_submap_,
+                                             GridUpdate{hit_probability_, miss_probability_});
+  pyramid_stale_ = true;
+  trajectory_ = Trajectory();
+  segment_ = lost_scans_ = 0;
+  last_t_.reset();
+  last_pose_ = velocity_ = kept_pose_ = Pose2();
+}
+
+ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
+  if (!submaps_) prepare();
+  const PlanarScan planar = toPlanarScan(scan, min_range_m_, max_range_m_);
+  const Points2 points = thinnedTo(planar.points, thinning_m_, max_points_);
+  const bool has_prior = previous_from_current.has_value();
+  const Pose2 predicted = predict(scan.t, previous_from_current);
+  if (last_t_ && scan.t <= *last_t_) {
+    ScanMatch repeated;
+    repeated.reason = "not after the scan before";
+    repeated.odom_from_robot = last_pose_;
+    repeated.segment = segment_;
+    return repeated;
+  }
+  if (static_cast<int>(points.size()) < min_points_)
+    return lose(scan.t, predicted, has_prior, "too few returns");
+  if (!submaps_->oldest()) return start(scan, planar, predicted);
+
+  const GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
+  if (found.explained < min_score_) {
+    if (lost_scans_ < max_lost_scans_) return lose(scan.t, predicted, has_prior, "no overlap");
+    ++segment_;
+    submaps_->finishAll();
+    return start(scan, planar, predicted);
+  }
+  ScanMatch out;
+  out.matched = true;
+  out.odom_from_robot = found.grid_from_scan;
+  out.segment = segment_;
+  out.score = found.explained;
+  out.step_covariance = stepCovariance(found);
+  accept(scan, planar, found.grid_from_scan);
+  return out;
+}
+
+Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_from_current) const {
+  if (!last_t_) return {};
+  if (previous_from_current) return last_pose_ * *previous_from_current;
+  const double dt = t - *last_t_;
+  if (dt > kMaxExtrapolation) return last_pose_;
+  return last_pose_ * Pose2{velocity_.x * dt, velocity_.y * dt, velocity_.yaw * dt};
+}
+
+GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& points, const Pose2& predicted,
+                                          bool has_prior) {
+  if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kPyramidLevels);
+  pyramid_stale_ = false;
+  SearchWindow window;
+  // After a loss the prediction is as old as the loss: look wider for each scan missed.
+  const double widening = 1 + lost_scans_;
+  window.linear_m = widening * (has_prior ? window_m_ : free_window_m_);
+  window.angular_rad =
+      std::min(std::numbers::pi, widening * kRadPerDeg * (has_prior ? window_deg_ : free_window_deg_));
+  const double trust = has_prior ? 1 : 0.2;
+  window.penalty_per_m2 = trust * search_penalty_per_m2_;
+  window.penalty_per_rad2 = trust * search_penalty_per_rad2_;
+  const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
+  const PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
+  return refineOnGrid(submap.grid, points, coarse ? coarse->grid_from_scan : predicted, prior);
+}
+
+Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refinement) const {
+  CovarianceModel model;
+  model.inflation = covariance_inflation_;
+  model.floor_sigma_m = floor_sigma_m_;
+  model.floor_sigma_rad = floor_sigma_deg_ * kRadPerDeg;
+  const Eigen::Matrix3d in_odom = poseCovariance(refinement, model);
+  // Movement is expressed in the frame of the robot at the scan before.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-last_pose_.yaw).toRotationMatrix();
+  return turn * in_odom * turn.transpose();
+}
+
+void SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
+  if (last_t_ && lost_scans_ == 0) {
+    const double dt = scan.t - *last_t_;
+    const Pose2 step = last_pose_.inverse() * pose;
+    velocity_ = {step.x / dt, step.y / dt, step.yaw / dt};
+  }
+  last_t_ = scan.t;
+  last_pose_ = pose;
+  lost_scans_ = 0;
+  trajectory_.add(scan.t, toPose3(pose), segment_);
+  const MotionFilter filter{keep_distance_m_, keep_angle_deg_ * kRadPerDeg, keep_time_s_};
+  if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return;
+  kept_t_ = scan.t;
+  kept_pose_ = pose;
+  submaps_->insert(planar, pose);
+  pyramid_stale_ = true;
+}
+
+ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
+  velocity_ = {};
+  lost_scans_ = 1;  // no movement can be derived from what came before
+  accept(scan, planar, pose);
+  ScanMatch out;
+  out.matched = true;
+  out.odom_from_robot = pose;
+  out.segment = segment_;
+  out.score = 1;
+  out.step_covariance = Eigen::Matrix3d::Identity();
+  return out;
+}
+
+ScanMatch SubmapScanMatcher::lose(double t, const Pose2& predicted, bool has_prior, std::string reason) {
+  ++lost_scans_;
+  if (!has_prior) velocity_ = {};
+  if (last_t_) {
+    last_t_ = t;
+    last_pose_ = predicted;
+  }
+  ScanMatch out;
+  out.reason = std::move(reason);
+  out.odom_from_robot = predicted;
+  out.segment = segment_;
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/mapping/occupancy_mapper.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <sstream>
+
+#include "ray_grid.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kPoseHorizon_s = 0.1;  ///< a scan may lie this far outside the trajectory's time span
+constexpr double kMargin_m = 0.5;       ///< unknown border around everything seen
+constexpr double kMaxCells = 4e8;       ///< 1 km x 1 km at 0.05 m
+
+/// Beams of one fan in world, cut at `max_range_m`: a return beyond it only says that the way there is free.
+std::vector<Ray> raysInWorld(const RangeFan& fan, const Pose3& world_from_fan, double max_range_m) {
+  std::vector<Ray> rays;
+  rays.reserve(fan.ranges_m.size());
+  for (std::size_t i = 0; i < fan.ranges_m.size(); ++i) {
+    const double range = static_cast<double>(fan.ranges_m[i]);
+    if (range == 0) continue;
+    const double angle = fan.angle_min_rad + static_cast<double>(i) * fan.angle_step_rad;
+    const double length = std::min(std::abs(range), max_range_m);
+    const Eigen::Vector3d end =
+        world_from_fan * Eigen::Vector3d(length * std::cos(angle), length * std::sin(angle), 0);
+    rays.push_back({end.head<2>(), range > 0 && range <= max_range_m});
+  }
+  return rays;
+}
+
+mrpt::maps::COccupancyGridMap2D::Ptr emptyGrid(const Eigen::AlignedBox2d& area, double resolution_m) {
+  const Eigen::Vector2d size = area.sizes() / resolution_m;
+  if (!(size.x() * size.y() < kMaxCells)) {
+    std::ostringstream what;
+    what << "occupancy grid: the poses spread over " << area.sizes().x() << " x " << area.sizes().y()
+         << " m, too large for cells of " << resolution_m << " m";
+    throw RunError(what.str());
+  }
+  auto grid = mrpt::maps::COccupancyGridMap2D::Create();
+  grid->setSize(static_cast<float>(area.min().x()), static_cast<float>(area.max().x()),
+                static_cast<float>(area.min().y()), static_cast<float>(area.max().y()),
+                static_cast<float>(resolution_m));
+  return grid;
+}
+
+}  // namespace
+
+struct OccupancyMapper::PosedFan {
+  Eigen::Vector2d origin;
+  std::vector<Ray> rays;
+};
+
+void OccupancyMapper::declareParameters(ParameterVisitor& v) {
+  v.add("source", source_,
+        {.doc = "What fills the grid; auto: the lidar when there is one, else the depth camera.",
+         .choices = {"auto", "lidar", "depth", "both"}});
+  v.add("resolution_m", resolution_m_, {.doc = "Size of a cell.", .unit = "m", .min = 0.005, .max = 1});
+  v.add("max_range_m", max_range_m_,
+        {.doc = "Farther returns only free the way up to here.", .unit = "m", .min = 0.5, .max = 200});
+  v.add("no_return_free_m", no_return_free_m_,
+        {.doc = "Beams that met nothing within the lidar's range free the way up to here; 0: say nothing.",
+         .unit = "m",
+         .min = 0,
+         .max = 200});
+  v.add("hit_probability", hit_probability_,
+        {.doc = "Probability that a cell with a return is occupied, for one scan.", .min = 0.5, .max = 0.99});
+  v.add("pass_probability", pass_probability_,
+        {.doc = "Probability that a cell crossed by a beam is occupied, for one scan.",
+         .min = 0.01,
+         .max = 0.5});
+  v.add("min_move_m", min_move_m_,
+        {.doc = "A scan is used when the robot has moved this far since the last used one …",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add("min_turn_rad", min_turn_rad_,
+        {.doc = "… or turned this far …", .unit = "rad", .min = 0, .max = 3.2});
+  v.add("max_wait_s", max_wait_s_,
+        {.doc = "… or this time has passed, so that what moved away is cleared.",
+         .unit = "s",
+         .min = 0,
+         .max = 1e6});
+  v.add("depth_min_height_m", slice_.min_height_m,
+        {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
+         .unit = "m",
+         .min = 0.01,
+         .max = 2});
+  v.add("depth_max_height_m", slice_.max_height_m,
+        {.doc = "Upper end of that band.", .unit = "m", .min = 0.05, .max = 5});
+  v.add("depth_max_range_m", slice_.max_range_m,
+        {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
+  v.add("depth_step_px", slice_.step_px,
+        {.doc = "Every n-th pixel is used.", .unit = "px", .min = 1, .max = 32});
+  v.add("depth_beam_rad", slice_.beam_rad,
+        {.doc = "Width of a beam of the virtual scan.", .unit = "rad", .min = 0.001, .max = 0.2});
+}
+
+void OccupancyMapper::add(const Scan& scan) {
+  scans_.push_back(fanFromScan(scan, no_return_free_m_));
+}
+
+void OccupancyMapper::add(const Frame& frame, const Plane& ground) {
+  if (!frame.hasDepth() || !frame.camera.valid()) return;
+  slices_.push_back(fanFromDepth(frame, ground, slice_));
+}
+
+void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
+                             std::vector<PosedFan>& out) const {
+  std::optional<StampedPose> last;
+  for (const auto& fan : fans) {
+    const auto pose = world_from_robot.at(fan.t, kPoseHorizon_s);
+    if (!pose) continue;
+    if (last) {
+      const Pose3 movement = last->pose.inverse() * *pose;
+      if (movement.translation().norm() < min_move_m_ && rotationAngle(movement) < min_turn_rad_ &&
+          std::abs(fan.t - last->t) < max_wait_s_)
+        continue;
+    }
+    last = StampedPose{fan.t, *pose};
+    const Pose3 world_from_fan = *pose * fan.robot_from_fan;
+    out.push_back({world_from_fan.translation().head<2>(), raysInWorld(fan, world_from_fan, max_range_m_)});
+  }
+}
+
+mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(const Trajectory& world_from_robot) const {
+  const bool use_scans = source_ == "lidar" || source_ == "both" || (source_ == "auto" && !scans_.empty());
+  const bool use_depth = source_ == "depth" || source_ == "both" || (source_ == "auto" && scans_.empty());
+  std::vector<PosedFan> posed;
+  if (use_scans) select(scans_, world_from_robot, posed);
+  if (use_depth) select(slices_, world_from_robot, posed);
+  Eigen::AlignedBox2d area;
+  for (const auto& fan : posed) {
+    area.extend(fan.origin);
+    for (const auto& ray : fan.rays) area.extend(ray.end);
+  }
+  if (area.isEmpty()) return nullptr;
+  area.min().array() -= kMargin_m;
+  area.max().array() += kMargin_m;
+  auto grid = emptyGrid(area, resolution_m_);
+  RayGrid rays(*grid, hit_probability_, pass_probability_);
+  for (const auto& fan : posed) rays.insert(fan.origin, fan.rays);
+  return grid;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <mrpt/containers/yaml.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "atomic_file.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/map_files.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;  // map_server's usual values
+constexpr unsigned char kFree = 254, kOccupied = 0, kUnknown = 205;
+
+unsigned char grayOf(double p_free) {
+  if (1 - p_free > kOccupiedThreshold) return kOccupied;
+  return 1 - p_free < kFreeThreshold ? kFree : kUnknown;
+}
+
+struct RosMap {
+  std::filesystem::path image;
+  double resolution_m = 0, x_min = 0, y_min = 0;
+  double occupied_threshold = 0, free_threshold = 0;
+  bool negate = false;
+};
+
+RosMap readYaml(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file.string() + ": no such file");
+  try {
+    const auto yaml = mrpt::containers::yaml::FromFile(file.string());
+    RosMap map;
+    map.image = yaml["image"].as<std::string>();
+    if (map.image.is_relative()) map.image = file.parent_path() / map.image;
+    map.resolution_m = yaml["resolution"].as<double>();
+    const auto origin = yaml["origin"].toStdVector<double>();
+    if (origin.size() < 2) throw std::runtime_error("'origin' is not [x, y, yaw]");
+    if (origin.size() > 2 && origin[2] != 0) throw std::runtime_error("a rotated 'origin' is not supported");
+    map.x_min = origin[0];
+    map.y_min = origin[1];
+    map.occupied_threshold = yaml["occupied_thresh"].as<double>();
+    map.free_threshold = yaml["free_thresh"].as<double>();
+    map.negate = yaml.getOrDefault<int>("negate", 0) != 0;
+    if (!(map.resolution_m > 0)) throw std::runtime_error("'resolution' is not positive");
+    return map;
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    throw InputError(file.string() + ": not a map_server yaml: " + what.substr(0, what.find('\n')));
+  }
+}
+
+}  // namespace
+
+void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::filesystem::path& stem) {
+  auto pgm = stem, yaml = stem;
+  pgm += ".pgm";
+  yaml += ".yaml";
+  const unsigned width = grid.getSizeX(), height = grid.getSizeY();
+  std::string image = "P5\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n";
+  image.reserve(image.size() + std::size_t{width} * height);
+  // Images start at the top left: the row of the largest y comes first.
+  for (int y = static_cast<int>(height) - 1; y >= 0; --y)
+    for (int x = 0; x < static_cast<int>(width); ++x)
+      image.push_back(static_cast<char>(grayOf(static_cast<double>(grid.getCell(x, y)))));
+  std::ostringstream text;
+  text << "image: " << pgm.filename().string() << "\nresolution: " << grid.getResolution() << "\norigin: ["
+       << grid.getXMin() << ", " << grid.getYMin()
+       << ", 0.0]\nnegate: 0\noccupied_thresh: " << kOccupiedThreshold << "\nfree_thresh: " << kFreeThreshold
+       << "\nmode: trinary\n";
+  writeFileAtomically(pgm, image);
+  writeFileAtomically(yaml, text.str());
+}
+
+mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml) {
+  const RosMap map = readYaml(yaml);
+  const cv::Mat image = cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE);
+  if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");
+  mrpt::maps::COccupancyGridMap2D grid;
+  grid.setSize(static_cast<float>(map.x_min), static_cast<float>(map.x_min + image.cols * map.resolution_m),
+               static_cast<float>(map.y_min), static_cast<float>(map.y_min + image.rows * map.resolution_m),
+               static_cast<float>(map.resolution_m));
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      const int gray = image.at<unsigned char>(v, u);
+      const double p_occupied = (map.negate ? gray : 255 - gray) / 255.0;
+      const float p_free = p_occupied > map.occupied_threshold ? 0.f
+                           : p_occupied < map.free_threshold   ? 1.f
+                                                               : 0.5f;
+      grid.setCell(u, image.rows - 1 - v, p_free);
+    }
+  }
+  return grid;
+}
+
+}  // namespace roomgraph

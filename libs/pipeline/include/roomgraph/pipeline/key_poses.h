@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/backend/factors.h"
+#include "roomgraph/observations/trajectory.h"
+#include "roomgraph/pipeline/motion.h"
+
+namespace roomgraph {
+
+/// One pose of the graph.
+struct KeyPose {
+  NodeId id;
+  double t = 0;
+  Pose3 world_from_robot = Pose3::Identity();
+};
+
+/// The robot's poses in world: key poses, and between them what the sources of motion say.
+class KeyPoses {
+ public:
+  explicit KeyPoses(const Motion& motion) : motion_(motion) {}
+
+  bool empty() const { return nodes_.empty(); }
+  const std::vector<KeyPose>& nodes() const { return nodes_; }
+  std::vector<KeyPose>& nodes() { return nodes_; }
+  /// Key pose closest in time; there must be one.
+  const KeyPose& nearest(double t) const;
+  /// Appends; t must come after the last one.
+  NodeId add(double t, const Pose3& world_from_robot);
+  /// Pose at any time: from the key poses before and after, blended. Holds the nearest pose when no source of motion
+  /// covers the time. There must be a key pose.
+  Pose3 at(double t) const;
+  /// Movement from a key pose to a time near it; holds still when nothing is known.
+  Pose3 offset(const KeyPose& node, double t) const;
+  Trajectory trajectory() const;
+
+ private:
+  const Motion& motion_;
+  std::vector<KeyPose> nodes_;
+};
+
+}  // namespace roomgraph

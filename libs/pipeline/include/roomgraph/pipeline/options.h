@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "roomgraph/core/parameters.h"
+
+namespace roomgraph {
+
+/// [pipeline]
+struct GeneralOptions : Configurable {
+  std::vector<std::string> plugins;
+  std::string objects_file = "objects.ini";
+  double lookahead_s = 0.15;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// What a source of motion is trusted with: standard deviations grow with the movement.
+struct MotionNoise {
+  double floor_m = 0.01, per_m = 0.02;          ///< translation
+  double floor_rad = 0.003, per_rad = 0.02;     ///< rotation
+  double rad_per_m = 0.01;                      ///< rotation, by distance driven
+  void declare(ParameterVisitor& v);
+};
+
+/// [tracking]
+struct TrackingOptions : Configurable {
+  bool enabled = true, loop_closing = true;
+  std::string stage = "FeatureOdometry";
+  MotionNoise noise{0.004, 0.02, 0.002, 0.02, 0.004};
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [lidar]
+struct LidarOptions : Configurable {
+  bool enabled = true, loop_closing = true;
+  std::string stage = "SubmapScanMatcher", loop_closer = "SubmapLoopCloser";
+  MotionNoise noise{0.004, 0.01, 0.002, 0.01, 0.003};
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [odometry]
+struct OdometryOptions : Configurable {
+  bool enabled = true;
+  MotionNoise noise{0.01, 0.10, 0.01, 0.15, 0.10};
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [detection], [proposals], [selection], [association]
+struct ObjectOptions : Configurable {
+  bool enabled = true;
+  std::string detector = "DnnDetector";
+  void declareParameters(ParameterVisitor& v) override;
+};
+struct StageChoice : Configurable {
+  explicit StageChoice(std::string name) : stage(std::move(name)) {}
+  std::string stage;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [backend]
+struct BackendOptions : Configurable {
+  double node_distance_m = 0.15, node_angle_rad = 0.15, node_interval_s = 5;
+  int window_nodes = 6, optimize_every_nodes = 20, max_iterations = 30;
+  double closure_robust_width = 1.0, landmark_robust_width = 1.0;
+  double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
+  double pose_sigma_m = 0.03;
+  double landmark_information_share = 0.1;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+}  // namespace roomgraph

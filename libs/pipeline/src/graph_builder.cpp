@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/graph_builder.h"
+
+#include <algorithm>
+#include <set>
+
+namespace roomgraph {
+namespace {
+
+const NodeId kAnchor{1'000'000'000};
+constexpr double kLidarGap_s = 0.25;
+
+// Nothing saw the movement: the poses stay near each other, hardly more than that.
+Movement unknownMovement() {
+  Vector6d sigma;
+  sigma << 0.3, 0.3, 0.3, 0.3, 0.3, 0.3;
+  return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
+}
+
+void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion) {
+  bool any = false;
+  for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar}) {
+    const auto seen = source->between(a.t, b.t, kLidarGap_s);
+    if (!seen) continue;
+    any = true;
+    graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
+  }
+  if (any) return;
+  const Movement unknown = unknownMovement();
+  graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
+}
+
+// A handheld camera's world is level only as far as the seen floor says: tilt and height of the first pose are free.
+void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
+  Pose3 anchor = toPose3(planarPart(first.world_from_robot));
+  graph.addPose(kAnchor, anchor, true);
+  Vector6d sigma;
+  sigma << 1e-4, 1e-4, 10, 1, 1, 1e-4;
+  graph.add(BetweenFactor{kAnchor, first.id, anchor.inverse() * first.world_from_robot,
+                          Matrix6d(sigma.cwiseAbs2().asDiagonal()), 0});
+}
+
+void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses& poses, NodeId first, double width) {
+  const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
+  if (a.id == b.id || a.id < first || b.id < first) return;
+  BetweenFactor factor{a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b *
+                                       poses.offset(b, closure.t_b).inverse(),
+                       closure.covariance, width};
+  if (closure.planar) {
+    for (int i : {2, 3, 4}) {
+      factor.covariance.row(i).setZero();
+      factor.covariance.col(i).setZero();
+      factor.covariance(i, i) = 0.25;
+    }
+  }
+  graph.add(factor);
+}
+
+void addObjects(FactorGraph& graph, const Measurements& measurements, const std::vector<Landmark>& landmarks,
+                NodeId first, const BackendOptions& options) {
+  std::set<LandmarkId> seen, known;
+  for (const auto& landmark : landmarks) known.insert(landmark.id);
+  for (const auto& sighting : measurements.sightings)
+    if (sighting.node >= first && known.contains(sighting.landmark)) seen.insert(sighting.landmark);
+  for (const auto& landmark : landmarks) {
+    if (!seen.contains(landmark.id)) continue;
+    graph.addLandmark(landmark.id, {landmark.position, landmark.yaw});
+    graph.add(LandmarkGroundFactor{landmark.id, 0.02});
+  }
+  for (LandmarkFactor sighting : measurements.sightings) {
+    if (!seen.contains(sighting.landmark) || sighting.node < first) continue;
+    sighting.weight *= options.landmark_information_share;
+    sighting.robust_width = options.landmark_robust_width;
+    graph.add(sighting);
+  }
+}
+
+}  // namespace
+
+FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                       const std::vector<Landmark>& landmarks, const BackendOptions& options, std::size_t first) {
+  FactorGraph graph;
+  const auto& nodes = poses.nodes();
+  const bool loose = !measurements.planar && first == 0 && !measurements.grounds.empty();
+  for (std::size_t i = first; i < nodes.size(); ++i)
+    graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && !loose);
+  if (loose) addLooseAnchor(graph, nodes[first]);
+  for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
+  if (measurements.planar)
+    for (std::size_t i = first + 1; i < nodes.size(); ++i)
+      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+  for (const auto& ground : measurements.grounds)
+    if (ground.node >= nodes[first].id) graph.add(ground);
+  for (const auto& closure : measurements.closures)
+    addClosure(graph, closure, poses, nodes[first].id, options.closure_robust_width);
+  addObjects(graph, measurements, landmarks, nodes[first].id, options);
+  return graph;
+}
+
+}  // namespace roomgraph

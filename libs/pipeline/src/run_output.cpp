@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/run_output.h"
+
+#include <sys/resource.h>
+
+#include <iomanip>
+#include <nlohmann/json.hpp>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/map_files.h"
+
+namespace roomgraph {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json boxJson(const Box2& box) { return {box.u_min, box.v_min, box.u_max, box.v_max}; }
+
+void writeStamped(std::ostream& out, double t, const Pose3& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const Eigen::Vector3d p = pose.translation();
+  out << std::fixed << std::setprecision(6) << t << std::setprecision(7);
+  for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) out << ' ' << value;
+  out << '\n';
+}
+
+ordered_json detectionsJson(const StepReport& report) {
+  ordered_json line{{"timestamp", report.t}, {"boxes", ordered_json::array()}};
+  for (const auto& detection : report.detections)
+    line["boxes"].push_back(
+        {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
+  return line;
+}
+
+ordered_json associationsJson(const StepReport& report) {
+  ordered_json line{{"timestamp", report.t}, {"measurements", ordered_json::array()}};
+  for (const auto& decision : report.decisions) {
+    const auto& measurement = decision.seen.measurement;
+    const Eigen::Vector3d place = decision.seen.world_from_object.translation();
+    ordered_json posterior = ordered_json::array();
+    for (const auto& [id, probability] : decision.association.posterior)
+      posterior.push_back({{"landmark", id.valid() ? ordered_json(id.value) : ordered_json("new")}, {"p", probability}});
+    line["measurements"].push_back({{"class", measurement.proposal.class_name},
+                                    {"bbox", boxJson(measurement.detection.box)},
+                                    {"landmark", decision.landmark.value},
+                                    {"new", !decision.association.landmark.valid()},
+                                    {"posterior", posterior},
+                                    {"confidence", measurement.confidence},
+                                    {"world", {place.x(), place.y(), place.z()}},
+                                    {"source", measurement.proposal.source},
+                                    {"score", measurement.proposal.score},
+                                    {"energy", measurement.explanation}});
+  }
+  return line;
+}
+
+double peakMemoryMb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
+                         const std::map<std::string, std::string>& facts) {
+  ordered_json summary;
+  for (const auto& [key, value] : facts) summary[key] = value;
+  const auto& counts = result.counts;
+  summary["counts"] = {{"frames", counts.frames},           {"frames_lost", counts.frames_lost},
+                       {"scans", counts.scans},             {"scans_unmatched", counts.scans_unmatched},
+                       {"odometry", counts.odometry},       {"recorded_detections", counts.detections},
+                       {"key_poses", counts.key_poses},     {"loop_closures", counts.loop_closures},
+                       {"landmarks", result.map.landmarks.size()}};
+  summary["reasons"] = counts.reasons;
+  summary["records_used"] = read.used;
+  summary["records_skipped"] = read.skipped;
+  summary["input_warning"] = read.warning;
+  for (const auto& [name, values] : slam.timings())
+    summary["timings"][name] = {{"calls", values[0]}, {"mean_ms", values[1]}, {"total_ms", values[2]}};
+  summary["peak_memory_mb"] = peakMemoryMb();
+  return summary;
+}
+
+}  // namespace
+
+void writeTum(std::ostream& out, const std::vector<StampedPose>& poses) {
+  for (const auto& stamped : poses) writeStamped(out, stamped.t, stamped.pose);
+}
+
+RunOutput::RunOutput(const std::filesystem::path& folder) : folder_(folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw RunError("output folder " + folder_.string() + ": cannot be made: " + error.message());
+  live_ = open("live.tum");
+  detections_ = open("detections.jsonl");
+  associations_ = open("associations.jsonl");
+}
+
+std::ofstream RunOutput::open(const std::string& name) const {
+  std::ofstream out(folder_ / name);
+  if (!out) throw RunError("output folder " + folder_.string() + ": " + name + " cannot be written");
+  return out;
+}
+
+void RunOutput::onStep(const StepReport& report) {
+  if (report.kind == StepReport::Kind::kOther) return;
+  writeStamped(live_, report.t, report.world_from_robot);
+  if (report.detector_ran) detections_ << detectionsJson(report) << '\n';
+  if (!report.decisions.empty()) associations_ << associationsJson(report) << '\n';
+}
+
+void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
+                            const std::map<std::string, std::string>& facts) {
+  live_.flush();
+  detections_.flush();
+  associations_.flush();
+  auto robot = open("trajectory.tum");
+  writeTum(robot, result.world_from_robot);
+  auto camera = open("trajectory_camera.tum");
+  writeTum(camera, result.world_from_camera);
+  saveLandmarksJson(result.map.landmarks, folder_ / "landmarks.json");
+  if (result.map.occupancy) saveOccupancyRos(*result.map.occupancy, folder_ / "map");
+  saveMap(result.map, folder_ / "map.rgmap");
+  slam.graph().saveG2o(folder_ / "graph.g2o");
+  open("config.ini") << slam.stages().effective_config;
+  open("summary.json") << summaryJson(slam, result, read, facts).dump(2) << '\n';
+  if (!live_ || !detections_ || !associations_ || !robot || !camera)
+    throw RunError("output folder " + folder_.string() + ": writing failed (disk full?)");
+}
+
+}  // namespace roomgraph

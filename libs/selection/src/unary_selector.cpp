@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/selection/unary_selector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(UnarySelector, ProposalSelector, roomgraph)
+
+double unaryPotential(const Proposal& proposal, const Detection& detection) {
+  if (detection.box.diagonal() <= 0) return 0;
+  const double apart = (proposal.projected.visible.center() - detection.box.center()).norm();
+  const double d = std::min(1.0, apart / detection.box.diagonal());
+  return -proposal.box_iou * (1 - d);
+}
+
+void UnarySelector::declareParameters(ParameterVisitor& v) {
+  v.add("max_energy", max_energy_,
+        {.doc = "a proposal is selected when alpha * U (Eq. 4) is at most this", .min = -1, .max = 0});
+  v.add("temperature", temperature_,
+        {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
+}
+
+std::vector<ObjectMeasurement> UnarySelector::select(const SelectionInput& input) {
+  std::vector<ObjectMeasurement> selected;
+  const auto& frame = input.frame;
+  for (std::size_t j = 0; j < frame.detections.size(); ++j) {
+    const auto& detection = frame.detections[j];
+    const Proposal* best = nullptr;
+    double best_energy = max_energy_, partition = 1;  // 1 = exp(0), the state "none"
+    for (const auto& proposal : frame.proposals) {
+      if (proposal.detection != static_cast<int>(j)) continue;
+      // The generator's own score breaks ties between shapes that fit the box alike.
+      const double energy = detection.score * unaryPotential(proposal, detection) * (0.5 + 0.5 * proposal.score);
+      partition += std::exp(-energy / temperature_);
+      if (energy > best_energy) continue;
+      best_energy = energy;
+      best = &proposal;
+    }
+    if (!best) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, "E=%.3f U=%.3f alpha=%.2f", best_energy, unaryPotential(*best, detection),
+                  detection.score);
+    selected.push_back({frame.frame, frame.t, detection, *best, std::exp(-best_energy / temperature_) / partition, text});
+  }
+  return selected;
+}
+
+}  // namespace roomgraph

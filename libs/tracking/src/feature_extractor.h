@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "feature_grid.h"
+#include "roomgraph/geometry/box.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/tracking/tracking_parameters.h"
+
+namespace roomgraph::tracking {
+
+using Descriptor = std::array<std::uint8_t, 32>;
+
+/// Features of one image. All vectors have the same length.
+struct Features {
+  std::vector<cv::KeyPoint> keypoints;  ///< pt in px of the full image, octave = pyramid level
+  std::vector<Descriptor> descriptors;  ///< ORB
+  std::vector<float> depth;             ///< m, 0: none, or not to be relied on
+  FeatureGrid grid;
+
+  std::size_t size() const { return keypoints.size(); }
+  Eigen::Vector2d pixel(std::size_t i) const { return {keypoints[i].pt.x, keypoints[i].pt.y}; }
+};
+
+/// Oriented FAST corners, spread evenly over the image on each pyramid level, with ORB descriptors
+/// (Rublee et al., ICCV 2011). Corners inside an excluded box (px) are left out.
+Features extractFeatures(const cv::Mat& gray, const Frame& frame, const std::vector<Box2>& excluded,
+                         const TrackingParameters& parameters);
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/tracking/feature_odometry.h"
+
+#include "tracker.h"
+
+IMPLEMENTS_MRPT_OBJECT(FeatureOdometry, RgbdOdometry, roomgraph)
+
+namespace roomgraph {
+
+FeatureOdometry::FeatureOdometry() = default;
+FeatureOdometry::~FeatureOdometry() = default;
+
+void FeatureOdometry::prepare() {
+  tracker_ = std::make_unique<tracking::Tracker>(parameters_);
+}
+
+TrackingResult FeatureOdometry::track(const Frame& frame, const TrackingPrior& prior) {
+  if (!tracker_) prepare();
+  return tracker_->track(frame, prior);
+}
+
+Trajectory FeatureOdometry::trajectory() const {
+  return tracker_ ? tracker_->trajectory() : Trajectory();
+}
+
+std::vector<RelativePose> FeatureOdometry::takeLoopClosures() {
+  return tracker_ ? tracker_->takeLoopClosures() : std::vector<RelativePose>();
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "local_map.h"
+
+namespace roomgraph::tracking {
+
+/// Adds a keyframe to the map: sightings of the points it tracked, new points for its other features with
+/// depth, sightings of these in neighbouring keyframes; removes recent points that did not prove stable.
+/// Returns its index.
+int insertKeyframe(LocalMap& map, Keyframe keyframe, const TrackingParameters& parameters);
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "feature_extractor.h"
+#include "reprojection.h"
+
+namespace roomgraph::tracking {
+
+/// A feature of a keyframe that shows a point.
+struct Sighting {
+  int keyframe = -1, feature = -1;
+};
+
+/// A 3D point of the map; its id is its index, which never changes.
+struct MapPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< odom frame, m
+  Descriptor descriptor{};
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, from the camera that saw it last
+  int octave = 0;                                       ///< level and distance (m) at which it was seen then
+  double distance = 0;
+  int visible = 0, found = 0;  ///< frames that should have, and have, matched it
+  bool erased = false;
+  std::vector<Sighting> sightings;
+};
+
+struct Keyframe {
+  double t = 0;
+  int segment = 0;
+  PinholeCamera camera;
+  Pose3 odom_from_camera = Pose3::Identity();
+  Features features;
+  std::vector<std::int64_t> points;  ///< per feature: id of its point, -1: none
+  cv::Mat thumbnail;                 ///< see place_recognition.h
+
+  Observation observation(int feature, const TrackingParameters& parameters) const;
+};
+
+/// Keyframes and points of all segments. Keeps both directions of "keyframe sees point" consistent.
+struct LocalMap {
+  std::vector<Keyframe> keyframes;
+  std::vector<MapPoint> points;
+
+  MapPoint& point(std::int64_t id) { return points[static_cast<std::size_t>(id)]; }
+  const MapPoint& point(std::int64_t id) const { return points[static_cast<std::size_t>(id)]; }
+  Keyframe& keyframe(int index) { return keyframes[static_cast<std::size_t>(index)]; }
+  const Keyframe& keyframe(int index) const { return keyframes[static_cast<std::size_t>(index)]; }
+
+  /// New point from a feature with depth.
+  std::int64_t createPoint(int keyframe, int feature);
+  void addSighting(std::int64_t point, int keyframe, int feature);
+  void removeSighting(std::int64_t point, int keyframe);
+  void erase(std::int64_t point);
+  /// (shared points, keyframe) of all keyframes that saw any of these points, most first.
+  std::vector<std::pair<int, int>> covisible(const std::vector<std::int64_t>& ids) const;
+  /// Valid points of these keyframes, ascending, each once.
+  std::vector<std::int64_t> pointsOf(const std::vector<int>& keyframe_indices) const;
+};
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "matcher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core/hal/hal.hpp>
+#include <opencv2/features2d.hpp>
+#include <optional>
+
+namespace roomgraph::tracking {
+namespace {
+
+constexpr double kMaxViewAngleCosine =
+    0.5;  // descriptors do not survive a change of view of more than 60 degrees
+
+struct Expected {
+  Eigen::Vector2d pixel;
+  int octave;
+};
+
+/// Pixel and pyramid level at which a point should appear; nothing when it is out of view or seen too
+/// obliquely.
+std::optional<Expected> expect(const MapPoint& point, const ProjectionSearch& search,
+                               const TrackingParameters& parameters) {
+  const Eigen::Vector3d p = search.camera_from_odom * point.position;
+  if (p.z() < 0.05) return std::nullopt;
+  const Eigen::Vector2d pixel = search.camera.project(p);
+  if (!search.camera.sees(pixel.x(), pixel.y())) return std::nullopt;
+  const Eigen::Vector3d ray = search.camera_from_odom.linear().transpose() * p.normalized();
+  if (ray.dot(point.direction) < kMaxViewAngleCosine) return std::nullopt;
+  const double levels = std::log(point.distance / p.norm()) / std::log(parameters.scale_factor);
+  const int octave =
+      std::clamp(point.octave + static_cast<int>(std::lround(levels)), 0, parameters.pyramid_levels - 1);
+  return Expected{pixel, octave};
+}
+
+struct Best {
+  int feature = -1, distance = 256, second = 256;
+};
+
+Best closest(const MapPoint& point, const Expected& expected, const Features& features,
+             const std::vector<std::int64_t>& taken, const std::vector<int>& nearby) {
+  Best best;
+  for (const int i : nearby) {
+    const auto k = static_cast<std::size_t>(i);
+    if (taken[k] >= 0 || std::abs(features.keypoints[k].octave - expected.octave) > 1) continue;
+    const int distance = hammingDistance(point.descriptor, features.descriptors[k]);
+    if (distance < best.distance) {
+      best.second = best.distance;
+      best = {i, distance, best.second};
+    } else {
+      best.second = std::min(best.second, distance);
+    }
+  }
+  return best;
+}
+
+/// cv::Mat header over descriptors, without a copy.
+cv::Mat asMat(const std::vector<Descriptor>& descriptors) {
+  return {static_cast<int>(descriptors.size()), 32, CV_8U,
+          const_cast<std::uint8_t*>(
+              descriptors.data()->data())};  // NOLINT: OpenCV has no const header; only read
+}
+
+}  // namespace
+
+int hammingDistance(const Descriptor& a, const Descriptor& b) {
+  return cv::hal::normHamming(a.data(), b.data(), static_cast<int>(a.size()));
+}
+
+std::vector<PointMatch> ProjectionSearch::match(const std::vector<std::int64_t>& ids,
+                                                const Features& features,
+                                                const std::vector<std::int64_t>& taken,
+                                                const TrackingParameters& parameters,
+                                                std::vector<std::int64_t>* in_view) const {
+  std::vector<PointMatch> by_feature(features.size());
+  std::vector<int> distances(features.size(), 256), nearby;
+  for (const auto id : ids) {
+    const MapPoint& point = map.point(id);
+    const auto expected = point.erased ? std::nullopt : expect(point, *this, parameters);
+    if (!expected) continue;
+    if (in_view) in_view->push_back(id);
+    nearby.clear();
+    const double radius = radius_px * std::pow(parameters.scale_factor, expected->octave);
+    features.grid.query(expected->pixel.x(), expected->pixel.y(), radius, nearby);
+    const Best best = closest(point, *expected, features, taken, nearby);
+    if (best.feature < 0 || best.distance > parameters.max_hamming ||
+        best.distance > parameters.match_ratio * best.second)
+      continue;
+    const auto k = static_cast<std::size_t>(best.feature);
+    if (best.distance >= distances[k]) continue;
+    distances[k] = best.distance;
+    by_feature[k] = {id, best.feature};
+  }
+  std::erase_if(by_feature, [](const PointMatch& m) { return m.feature < 0; });
+  return by_feature;
+}
+
+std::vector<std::pair<int, int>> matchDescriptors(const std::vector<Descriptor>& a,
+                                                  const std::vector<Descriptor>& b,
+                                                  const TrackingParameters& parameters) {
+  std::vector<std::pair<int, int>> out;
+  if (a.size() < 2 || b.size() < 2) return out;
+  const cv::BFMatcher matcher(cv::NORM_HAMMING);
+  std::vector<std::vector<cv::DMatch>> forward;
+  matcher.knnMatch(asMat(a), asMat(b), forward, 2);
+  std::vector<int> best_a(b.size(), -1);
+  std::vector<float> distance(b.size(), 1e9F);
+  for (const auto& m : forward) {
+    if (m.size() < 2 || m[0].distance > static_cast<float>(parameters.max_hamming) ||
+        m[0].distance > static_cast<float>(parameters.match_ratio) * m[1].distance)
+      continue;
+    const auto j = static_cast<std::size_t>(m[0].trainIdx);
+    if (m[0].distance >= distance[j]) continue;
+    distance[j] = m[0].distance;
+    best_a[j] = m[0].queryIdx;
+  }
+  for (std::size_t j = 0; j < b.size(); ++j)
+    if (best_a[j] >= 0) out.emplace_back(best_a[j], static_cast<int>(j));
+  return out;
+}
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "bundle_adjustment.h"
+#include "keyframe_insertion.h"
+#include "place_recognition.h"
+
+namespace roomgraph::tracking {
+namespace {
+
+/// Why a frame cannot be used at all; empty when it can.
+std::string unusable(const Frame& frame, double last_t) {
+  if (frame.gray.empty() && frame.color.empty()) return "no image";
+  if (!frame.hasDepth()) return "no depth";
+  if (!frame.camera.valid()) return "no camera parameters";
+  if (frame.t <= last_t) return "time stamp not after the last frame's";
+  return "";
+}
+
+cv::Mat grayOf(const Frame& frame) {
+  if (!frame.gray.empty()) return frame.gray;
+  cv::Mat gray;
+  cv::cvtColor(frame.color, gray, cv::COLOR_BGR2GRAY);
+  return gray;
+}
+
+int countDepth(const Features& features) {
+  return static_cast<int>(
+      std::count_if(features.depth.begin(), features.depth.end(), [](float z) { return z > 0; }));
+}
+
+}  // namespace
+
+Pose3 Tracker::lastPose() const {
+  return map_.keyframe(records_.back().keyframe).odom_from_camera * records_.back().keyframe_from_camera;
+}
+
+TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
+  dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(velocity_));
+  if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
+  last_t_ = frame.t;
+  View view;
+  view.frame = &frame;
+  view.gray = grayOf(frame);
+  view.features = extractFeatures(view.gray, frame, prior.dynamic_regions, parameters_);
+  view.points.assign(view.features.size(), -1);
+  const int with_depth = countDepth(view.features);
+  if (with_depth < parameters_.min_inliers)
+    return lost(with_depth == 0 && view.features.size() > 0 ? "no depth" : "too few features", nullptr);
+  if (reference_ < 0) return start(std::move(view));
+  const Pose3 previous = lastPose();
+  view.odom_from_camera = previous * dead_reckoned_;
+  if (!findPose(view) || !trackLocalMap(view)) return lost("too few inliers", &view);
+  return accept(std::move(view), previous);
+}
+
+TrackingResult Tracker::start(View view) {
+  TrackingResult result;
+  if (!records_.empty()) {
+    view.odom_from_camera = lastPose() * dead_reckoned_;
+    ++segment_;
+  }
+  view.points.assign(view.features.size(), -1);
+  addKeyframe(view);
+  records_.push_back({view.frame->t, reference_, Pose3::Identity()});
+  velocity_ = dead_reckoned_ = Pose3::Identity();
+  lost_frames_ = 0;
+  last_covariance_.setZero();
+  result.tracked = result.keyframe = true;
+  result.segment = segment_;
+  result.odom_from_camera = view.odom_from_camera;
+  result.inliers = result.matches = static_cast<int>(last_points_.size());
+  return result;
+}
+
+TrackingResult Tracker::lost(const std::string& reason, View* view) {
+  if (++lost_frames_ > parameters_.relocalisation_frames && view && reference_ >= 0)
+    return start(std::move(*view));
+  TrackingResult result;
+  result.reason = reason;
+  result.segment = segment_;
+  if (!records_.empty()) result.odom_from_camera = lastPose() * dead_reckoned_;
+  if (view) result.matches = view->matches;
+  return result;
+}
+
+TrackingResult Tracker::accept(View view, const Pose3& previous) {
+  velocity_ = normalized(previous.inverse() * view.odom_from_camera);
+  dead_reckoned_ = Pose3::Identity();
+  TrackingResult result;
+  result.step_covariance = stepCovariance(velocity_, view.solution);
+  if (lost_frames_ > 0) velocity_ = Pose3::Identity();
+  lost_frames_ = 0;
+  result.tracked = true;
+  result.segment = segment_ = map_.keyframe(reference_).segment;
+  result.inliers = view.solution.inliers;
+  result.matches = view.matches;
+  last_points_.clear();
+  for (std::size_t i = 0; i < view.points.size(); ++i)
+    if (view.points[i] >= 0) {
+      last_points_.push_back(view.points[i]);
+      result.features.emplace_back(view.features.pixel(i), view.points[i]);
+    }
+  if (reference_inliers_ == 0) reference_inliers_ = view.solution.inliers;
+  result.keyframe = needsKeyframe(view);
+  if (result.keyframe) addKeyframe(view);
+  records_.push_back({view.frame->t, reference_,
+                      result.keyframe
+                          ? Pose3::Identity()
+                          : map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera});
+  result.odom_from_camera = lastPose();
+  return result;
+}
+
+bool Tracker::needsKeyframe(const View& view) const {
+  const Pose3 moved = map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera;
+  return view.solution.inliers < parameters_.keyframe_inlier_ratio * reference_inliers_ ||
+         moved.translation().norm() > parameters_.keyframe_distance_m ||
+         rotationAngle(moved) > parameters_.keyframe_angle_rad;
+}
+
+void Tracker::addKeyframe(const View& view) {
+  Keyframe keyframe{view.frame->t, segment_,    view.frame->camera,      view.odom_from_camera,
+                    view.features, view.points, makeThumbnail(view.gray)};
+  reference_ = insertKeyframe(map_, std::move(keyframe), parameters_);
+  reference_inliers_ = 0;
+  adjustLocally(map_, reference_, parameters_);
+  last_points_.clear();
+  for (const auto id : map_.keyframe(reference_).points)
+    if (id >= 0) last_points_.push_back(id);
+  closeLoops(reference_);
+}
+
+Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution) {
+  // Both ends of the step were located in the map with an error of their own; both are turned into the older
+  // frame.
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = previous_from_current.linear();
+  Matrix6d covariance = turn * solution.covariance * turn.transpose() + last_covariance_;
+  last_covariance_ = solution.covariance;
+  covariance *= parameters_.covariance_scale;
+  const double m = parameters_.min_step_sigma_m, r = parameters_.min_step_sigma_rad;
+  covariance.diagonal().head<3>().array() += m * m;
+  covariance.diagonal().tail<3>().array() += r * r;
+  return covariance;
+}
+
+void Tracker::closeLoops(int index) {
+  if (index - last_loop_ < 3) return;
+  const Keyframe& current = map_.keyframe(index);
+  for (const int candidate : loopCandidates(map_, index, parameters_)) {
+    const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
+    if (found.solution.inliers < parameters_.loop_min_inliers) continue;
+    RelativePose closure;
+    closure.t_a = map_.keyframe(candidate).t;
+    closure.t_b = current.t;
+    closure.a_from_b = found.solution.camera_from_world.inverse();
+    Matrix6d turn = Matrix6d::Zero();
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = closure.a_from_b.linear();
+    closure.covariance = parameters_.covariance_scale * turn * found.solution.covariance * turn.transpose();
+    closure.covariance.diagonal().head<3>().array() += std::pow(parameters_.min_step_sigma_m, 2);
+    closure.covariance.diagonal().tail<3>().array() += std::pow(parameters_.min_step_sigma_rad, 2);
+    closure.source = "tracking";
+    closures_.push_back(closure);
+    last_loop_ = index;
+    return;
+  }
+}
+
+Trajectory Tracker::trajectory() const {
+  Trajectory out;
+  for (const auto& record : records_) {
+    const Keyframe& keyframe = map_.keyframe(record.keyframe);
+    out.add(record.t, normalized(keyframe.odom_from_camera * record.keyframe_from_camera), keyframe.segment);
+  }
+  return out;
+}
+
+}  // namespace roomgraph::tracking

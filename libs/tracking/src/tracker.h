@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "local_map.h"
+#include "pose_solver.h"
+#include "roomgraph/tracking/rgbd_odometry.h"
+
+namespace roomgraph::tracking {
+
+/// State and main loop of FeatureOdometry.
+class Tracker {
+ public:
+  explicit Tracker(const TrackingParameters& parameters) : parameters_(parameters) {}
+  TrackingResult track(const Frame& frame, const TrackingPrior& prior);
+  Trajectory trajectory() const;
+  std::vector<RelativePose> takeLoopClosures() { return std::exchange(closures_, {}); }
+
+ private:
+  /// The frame being tracked.
+  struct View {
+    const Frame* frame = nullptr;
+    cv::Mat gray;
+    Features features;
+    std::vector<std::int64_t> points;  ///< per feature, -1: none
+    Pose3 odom_from_camera = Pose3::Identity();
+    PoseSolution solution;
+    int matches = 0;
+  };
+  /// A tracked frame, held by a keyframe: when that moves, the frame moves along.
+  struct Record {
+    double t;
+    int keyframe;
+    Pose3 keyframe_from_camera;
+  };
+
+  bool trackLastPoints(View& view, double radius_px) const;
+  bool trackKeyframe(View& view, int keyframe) const;
+  bool relocalise(View& view) const;
+  bool trackLocalMap(View& view);
+  bool findPose(View& view);
+  /// Solves for the pose of the view from its matched points and drops outliers.
+  bool solve(View& view, int min_inliers, bool start_is_good) const;
+  std::vector<std::int64_t> localPoints(const View& view) const;
+
+  TrackingResult start(View view);
+  TrackingResult lost(const std::string& reason, View* view);
+  TrackingResult accept(View view, const Pose3& previous);
+  bool needsKeyframe(const View& view) const;
+  void addKeyframe(const View& view);
+  void closeLoops(int keyframe);
+  Matrix6d stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution);
+  Pose3 lastPose() const;
+
+  TrackingParameters parameters_;
+  LocalMap map_;
+  std::vector<Record> records_;
+  std::vector<RelativePose> closures_;
+  std::vector<std::int64_t> last_points_;    ///< inliers of the last tracked frame
+  Pose3 velocity_ = Pose3::Identity();       ///< previous_from_current of the last step
+  Pose3 dead_reckoned_ = Pose3::Identity();  ///< movement since the last tracked frame, as far as is known
+  Matrix6d last_covariance_ = Matrix6d::Zero();
+  int segment_ = 0;
+  int lost_frames_ = 0;
+  int reference_ = -1;         ///< keyframe that holds the frames tracked now
+  int reference_inliers_ = 0;  ///< of the first frame after it, 0: not seen yet
+  int last_loop_ = -1000;
+  double last_t_ = -1e300;
+};
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+// How the tracker finds the pose of a frame: from the last frame's points, from keyframes, from the local
+// map.
+#include <algorithm>
+
+#include "place_recognition.h"
+#include "tracker.h"
+
+namespace roomgraph::tracking {
+namespace {
+
+void assign(std::vector<std::int64_t>& points, const std::vector<PointMatch>& matches) {
+  for (const auto& match : matches) points[static_cast<std::size_t>(match.feature)] = match.point;
+}
+
+}  // namespace
+
+bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
+  PoseProblem problem{view.frame->camera, {}, {}};
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < view.points.size(); ++i) {
+    if (view.points[i] < 0) continue;
+    used.push_back(i);
+    problem.points.push_back(map_.point(view.points[i]).position);
+    problem.observations.push_back(makeObservation(view.features.pixel(i), view.features.keypoints[i].octave,
+                                                   view.features.depth[i], parameters_));
+  }
+  view.matches = static_cast<int>(used.size());
+  if (view.matches < min_inliers) return false;
+  view.solution = refinePose(problem, view.odom_from_camera.inverse(), start_is_good);
+  if (view.solution.inliers < min_inliers) return false;
+  for (std::size_t j = 0; j < used.size(); ++j)
+    if (!view.solution.inlier[j]) view.points[used[j]] = -1;
+  view.odom_from_camera = normalized(view.solution.camera_from_world.inverse());
+  return true;
+}
+
+bool Tracker::trackLastPoints(View& view, double radius_px) const {
+  const View before = view;
+  const Pose3 camera_from_odom = view.odom_from_camera.inverse();
+  const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, radius_px};
+  assign(view.points, search.match(last_points_, view.features, view.points, parameters_));
+  // Half of what was matched must agree, otherwise the prediction was wrong.
+  if (solve(view, parameters_.min_inliers, false) && view.solution.inliers > view.matches / 2) return true;
+  view = before;
+  return false;
+}
+
+bool Tracker::trackKeyframe(View& view, int keyframe) const {
+  const auto found = recognize(map_, keyframe, view.features, view.frame->camera, parameters_);
+  if (found.solution.inliers < parameters_.min_inliers) return false;
+  view.odom_from_camera =
+      map_.keyframe(keyframe).odom_from_camera * found.solution.camera_from_world.inverse();
+  view.points.assign(view.features.size(), -1);
+  assign(view.points, found.known_points);
+  return true;
+}
+
+bool Tracker::relocalise(View& view) const {
+  const auto candidates = mostSimilar(map_, makeThumbnail(view.gray), static_cast<int>(map_.keyframes.size()),
+                                      parameters_.relocalisation_candidates);
+  for (const int candidate : candidates)
+    if (trackKeyframe(view, candidate)) return true;
+  return false;
+}
+
+bool Tracker::findPose(View& view) {
+  return trackLastPoints(view, parameters_.search_radius_px) ||
+         trackLastPoints(view, 3 * parameters_.search_radius_px) || trackKeyframe(view, reference_) ||
+         relocalise(view);
+}
+
+std::vector<std::int64_t> Tracker::localPoints(const View& view) const {
+  std::vector<int> keyframes;
+  for (const auto& [shared, index] : map_.covisible(view.points))
+    if (static_cast<int>(keyframes.size()) < parameters_.local_keyframes) keyframes.push_back(index);
+  std::vector<std::int64_t> matched = view.points;
+  std::sort(matched.begin(), matched.end());
+  auto ids = map_.pointsOf(keyframes);
+  std::erase_if(ids, [&](std::int64_t id) { return std::binary_search(matched.begin(), matched.end(), id); });
+  return ids;
+}
+
+bool Tracker::trackLocalMap(View& view) {
+  for (const auto id : view.points)
+    if (id >= 0) ++map_.point(id).visible;
+  std::vector<std::int64_t> in_view;
+  const Pose3 camera_from_odom = view.odom_from_camera.inverse();
+  const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, parameters_.local_map_radius_px};
+  assign(view.points, search.match(localPoints(view), view.features, view.points, parameters_, &in_view));
+  for (const auto id : in_view) ++map_.point(id).visible;
+  if (!solve(view, parameters_.min_inliers, true)) return false;
+  for (const auto id : view.points)
+    if (id >= 0) ++map_.point(id).found;
+  const auto neighbours = map_.covisible(view.points);
+  const bool reference_seen = std::any_of(neighbours.begin(), neighbours.end(),
+                                          [&](const auto& entry) { return entry.second == reference_; });
+  if (!reference_seen) {
+    reference_ = neighbours.front().second;
+    reference_inliers_ = 0;
+  }
+  return true;
+}
+
+}  // namespace roomgraph::tracking

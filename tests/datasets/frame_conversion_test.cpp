@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+
+#include <opencv2/core.hpp>
+
+#include "rawlog_maker.h"
+#include "roomgraph/datasets/rawlog_reader.h"
+
+namespace roomgraph {
+namespace {
+
+using namespace roomgraph::test;
+using testing::ElementsAre;
+using testing::Pair;
+using testing::StartsWith;
+
+class FrameConversion : public testing::Test {
+ protected:
+  Frame readBack(const Object& object) {
+    writeRawlog(folder_ / "x.rawlog", {object});
+    RawlogReader reader(folder_ / "x.rawlog");
+    auto record = reader.next();
+    statistics_ = reader.statistics();
+    if (!record) throw std::runtime_error("no frame");
+    return std::get<Frame>(*record);
+  }
+  TemporaryFolder folder_;
+  ReadStatistics statistics_;
+};
+
+TEST_F(FrameConversion, ColourOrderDepthAndCamera) {
+  const auto frame = readBack(makeImages(5));
+  ASSERT_EQ(frame.color.type(), CV_8UC3);
+  ASSERT_EQ(frame.gray.type(), CV_8UC1);
+  ASSERT_EQ(frame.depth.type(), CV_32FC1);
+  const auto pixel = frame.color.at<cv::Vec3b>(6, 8);
+  EXPECT_NEAR(pixel[0], 20, 6);   // blue
+  EXPECT_NEAR(pixel[1], 108, 6);  // green
+  EXPECT_NEAR(pixel[2], 200, 6);  // red
+  EXPECT_FLOAT_EQ(frame.depth.at<float>(0, 0), 0);
+  EXPECT_NEAR(frame.depth.at<float>(3, 7), 1.07, 1e-6);
+  EXPECT_EQ(frame.camera.width, 16);
+  EXPECT_DOUBLE_EQ(frame.camera.fx, 20);
+  // Default sensor pose: the camera looks along the robot's x axis, image right is -y, image down is -z.
+  EXPECT_TRUE(frame.robot_from_camera.linear().isApprox(bodyFromOptical(), 1e-9));
+}
+
+TEST_F(FrameConversion, SensorPoseIsThatOfTheForwardLookingBody) {
+  auto images = makeImages(5);
+  images->sensorPose = mrpt::poses::CPose3D(0.1, 0.2, 0.8, 0, 0.3, 0);  // nose down by 0.3 rad
+  const auto frame = readBack(images);
+  // One metre ahead on the optical axis: x = 0.1 + cos(0.3), z = 0.8 - sin(0.3).
+  const Eigen::Vector3d ahead = frame.robot_from_camera * Eigen::Vector3d(0, 0, 1);
+  EXPECT_NEAR(ahead.x(), 0.1 + std::cos(0.3), 1e-9);
+  EXPECT_NEAR(ahead.y(), 0.2, 1e-9);
+  EXPECT_NEAR(ahead.z(), 0.8 - std::sin(0.3), 1e-9);
+}
+
+TEST_F(FrameConversion, RangeAlongTheRayBecomesDepth) {
+  auto images = makeImages(5);
+  images->range_is_depth = false;
+  images->rangeImage.fill(2000);
+  const auto frame = readBack(images);
+  // K^-1 (15, 0) = ((15 - 7.5) / 20, (0 - 5.5) / 20): the ray's length at z = 1.
+  const double length = std::sqrt(1 + 0.375 * 0.375 + 0.275 * 0.275);
+  EXPECT_NEAR(frame.depth.at<float>(0, 15), 2 / length, 1e-5);
+}
+
+TEST_F(FrameConversion, DepthOfAnotherCameraIsRegistered) {
+  auto images = makeImages(5);
+  images->rangeImage.fill(2000);
+  images->rangeImage(6, 8) = 1000;
+  // Colour camera 0.1 m to the right of the depth camera (y = -0.1 in MRPT's axes):
+  // a point at 2 m moves left by fx * 0.1 / 2 = 1 px, one at 1 m by 2 px.
+  images->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.1, 0, -M_PI / 2, 0, -M_PI / 2);
+  const auto frame = readBack(images);
+  EXPECT_NEAR(frame.depth.at<float>(6, 6), 1, 1e-5) << "nearer surface wins";
+  EXPECT_NEAR(frame.depth.at<float>(6, 5), 2, 1e-5);
+  EXPECT_FLOAT_EQ(frame.depth.at<float>(6, 7), 0) << "hidden from the depth camera";
+  EXPECT_FLOAT_EQ(frame.depth.at<float>(6, 15), 0) << "outside the depth image";
+  EXPECT_NEAR((frame.robot_from_camera.translation() - Eigen::Vector3d(0, -0.1, 0)).norm(), 0, 1e-9);
+}
+
+TEST_F(FrameConversion, CoarseDepthFillsAFineColourImage) {
+  auto images = makeImages(5, 32, 24);
+  images->rangeImage_setSize(12, 16);
+  images->rangeImage.fill(1500);
+  images->cameraParams.ncols = 16;
+  images->cameraParams.nrows = 12;
+  images->cameraParams.setIntrinsicParamsFromValues(10, 10, 7.5, 5.5);
+  images->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 15.5, 11.5);
+  const auto frame = readBack(images);
+  ASSERT_EQ(frame.depth.size(), cv::Size(32, 24));
+  EXPECT_EQ(cv::countNonZero(frame.depth), 32 * 24);
+  EXPECT_NEAR(frame.depth.at<float>(20, 3), 1.5, 1e-5);
+}
+
+TEST_F(FrameConversion, DistortionIsRemoved) {
+  auto images = makeImages(5, 64, 48);
+  for (auto* camera : {&images->cameraParams, &images->cameraParamsIntensity}) {
+    camera->setIntrinsicParamsFromValues(50, 50, 31.5, 23.5);
+    camera->setDistortionPlumbBob(-0.3, 0, 0, 0);
+  }
+  images->rangeImage.fill(0);
+  // The ray (0.4, 0) meets the sensor at r (1 + k1 r^2) = 0.4 * 0.952 = 0.3808: u = 31.5 + 50 * 0.3808
+  // = 50.54.
+  for (int u = 50; u <= 51; ++u)
+    for (int v = 22; v <= 25; ++v) images->rangeImage(v, u) = 3000;
+  const auto frame = readBack(images);
+  EXPECT_NEAR(frame.depthAt(31.5 + 50 * 0.4, 23.5), 3, 1e-5);
+  EXPECT_EQ(frame.camera.distortion, (std::array<double, 5>{}));
+  EXPECT_FLOAT_EQ(frame.depthAt(49, 23), 0);
+}
+
+TEST_F(FrameConversion, DepthOnlyAndColourOnlyRecords) {
+  auto depth_only = makeImages(5);
+  depth_only->hasIntensityImage = false;
+  const auto first = readBack(depth_only);
+  EXPECT_TRUE(first.color.empty());
+  EXPECT_TRUE(first.hasDepth());
+  EXPECT_TRUE(first.robot_from_camera.linear().isApprox(bodyFromOptical(), 1e-9));
+  auto color_only = makeImages(5);
+  color_only->hasRangeImage = false;
+  const auto second = readBack(color_only);
+  EXPECT_FALSE(second.hasDepth());
+  EXPECT_EQ(second.gray.size(), cv::Size(16, 12));
+}
+
+TEST_F(FrameConversion, MissingIntrinsicsAreAReason) {
+  auto images = makeImages(5);
+  images->cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  EXPECT_THROW(readBack(images), std::runtime_error);
+  EXPECT_THAT(statistics_.skipped, ElementsAre(Pair(testing::HasSubstr("no camera intrinsics"), 1)));
+}
+
+TEST_F(FrameConversion, ExternalImagesAreReadAndMissingOnesCounted) {
+  const auto images_folder = folder_ / "x_Images";
+  std::filesystem::create_directory(images_folder);
+  std::vector<Object> objects;
+  for (int i = 0; i < 3; ++i) {
+    auto images = makeImages(i + 1);
+    const std::string name = "KINECT_" + std::to_string(i);
+    images->rangeImage_convertToExternalStorage(name + "_depth.bin", images_folder.string() + "/");
+    ASSERT_TRUE(images->intensityImage.saveToFile((images_folder / (name + "_color.png")).string()));
+    images->intensityImage.setExternalStorage(name + "_color.png");
+    objects.push_back(images);
+  }
+  writeRawlog(folder_ / "x.rawlog", objects);
+  std::filesystem::remove(images_folder / "KINECT_0_color.png");
+  std::filesystem::remove(images_folder / "KINECT_1_depth.bin");
+  RawlogReader reader(folder_ / "x.rawlog");
+  const auto record = reader.next();
+  ASSERT_TRUE(record) << testing::PrintToString(reader.statistics().skipped);
+  const auto& frame = std::get<Frame>(*record);
+  EXPECT_NEAR(frame.t, 3, 1e-6);
+  EXPECT_EQ(frame.color.at<cv::Vec3b>(6, 8), cv::Vec3b(20, 108, 200));
+  EXPECT_NEAR(frame.depth.at<float>(3, 7), 1.07, 1e-6);
+  EXPECT_FALSE(reader.next());
+  ASSERT_EQ(reader.statistics().skipped.size(), 2u);
+  for (const auto& [reason, count] : reader.statistics().skipped)
+    EXPECT_THAT(reason, StartsWith("image missing: "));
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/decoders.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+
+namespace roomgraph {
+namespace {
+
+void expectBox(const Box2& box, double u0, double v0, double u1, double v1) {
+  EXPECT_NEAR(box.u_min, u0, 1e-3);
+  EXPECT_NEAR(box.v_min, v0, 1e-3);
+  EXPECT_NEAR(box.u_max, u1, 1e-3);
+  EXPECT_NEAR(box.v_max, v1, 1e-3);
+}
+
+// 64 x 64 input: 8x8 + 4x4 + 2x2 + 1 = 85 anchors for NanoDet, 84 for YOLOX.
+TEST(Decoders, NanodetDistributionBecomesDistances) {
+  cv::Mat output = cv::Mat::zeros(85, 2 + 32, CV_32FC1);
+  float* row = output.ptr<float>(64 + 1 * 4 + 2);  // stride 16, row 1, column 2: centre (32, 16)
+  row[1] = 0.8f;
+  for (const int side : {0, 1, 2, 3}) row[2 + side * 8 + side] = 60;  // all weight on bin `side`
+  const auto boxes = decodeNanodet(output, {64, 64}, 2, 0.5);
+  ASSERT_EQ(boxes.size(), 1u);
+  EXPECT_EQ(boxes[0].class_index, 1);
+  EXPECT_NEAR(boxes[0].score, 0.8, 1e-6);
+  expectBox(boxes[0].box, 32, 0, 64, 64);  // left 0, top 16, right 32, bottom 48
+}
+
+TEST(Decoders, NanodetExpectationOverTwoBins) {
+  cv::Mat output = cv::Mat::zeros(85, 1 + 32, CV_32FC1);
+  float* row = output.ptr<float>(84);  // the stride-64 anchor at (0, 0)
+  row[0] = 0.9f;
+  for (int side = 0; side < 4; ++side) {
+    for (int bin = 0; bin < 8; ++bin) row[1 + side * 8 + bin] = -100;
+    row[1 + side * 8 + 0] = std::log(3.f);  // 3/4 at 0, 1/4 at 1
+    row[1 + side * 8 + 1] = 0;
+  }
+  const auto boxes = decodeNanodet(output, {64, 64}, 1, 0.5);
+  ASSERT_EQ(boxes.size(), 1u);
+  expectBox(boxes[0].box, -16, -16, 16, 16);
+}
+
+TEST(Decoders, NanodetRefusesForeignBlobs) {
+  EXPECT_TRUE(decodeNanodet(cv::Mat::ones(84, 34, CV_32FC1), {64, 64}, 2, 0.1).empty());
+  EXPECT_TRUE(decodeNanodet(cv::Mat::ones(85, 33, CV_32FC1), {64, 64}, 2, 0.1).empty());
+  EXPECT_TRUE(decodeNanodet(cv::Mat(), {64, 64}, 2, 0.1).empty());
+}
+
+TEST(Decoders, YoloxOffsetsAndLogSizes) {
+  cv::Mat output = cv::Mat::zeros(84, 5 + 3, CV_32FC1);
+  float* row = output.ptr<float>(2 * 8 + 3);  // stride 8, row 2, column 3
+  row[0] = 0.5f;
+  row[1] = 0.25f;
+  row[2] = std::log(2.f);
+  row[3] = std::log(4.f);
+  row[4] = 0.5f;
+  row[7] = 0.9f;
+  const auto boxes = decodeYolox(output, {64, 64}, 0.4);
+  ASSERT_EQ(boxes.size(), 1u);
+  EXPECT_EQ(boxes[0].class_index, 2);
+  EXPECT_NEAR(boxes[0].score, 0.45, 1e-6);
+  expectBox(boxes[0].box, 28 - 8, 18 - 16, 28 + 8, 18 + 16);
+  EXPECT_TRUE(decodeYolox(output, {64, 64}, 0.46).empty());
+}
+
+TEST(Decoders, DarknetRelativeBoxes) {
+  cv::Mat output = cv::Mat::zeros(3, 5 + 2, CV_32FC1);
+  output.row(1) = cv::Mat((cv::Mat_<float>(1, 7) << 0.5f, 0.5f, 0.25f, 0.5f, 0.9f, 0.6f, 0.1f)) * 1.0;
+  output.at<float>(2, 6) = std::numeric_limits<float>::quiet_NaN();
+  const auto boxes = decodeDarknet(output, {320, 160}, 0.5);
+  ASSERT_EQ(boxes.size(), 1u);
+  EXPECT_EQ(boxes[0].class_index, 0);
+  expectBox(boxes[0].box, 120, 40, 200, 120);
+}
+
+TEST(Decoders, NonFiniteBoxesAreDropped) {
+  cv::Mat output = cv::Mat::zeros(84, 6, CV_32FC1);
+  float* row = output.ptr<float>(0);
+  row[2] = 1000;  // exp overflows
+  row[4] = row[5] = 1;
+  EXPECT_TRUE(decodeYolox(output, {64, 64}, 0.5).empty());
+}
+
+cv::Mat blob4(int channels, int rows, int cols) {
+  const int size[] = {1, channels, rows, cols};
+  return cv::Mat(4, size, CV_32FC1, cv::Scalar(0));
+}
+
+TEST(Decoders, SegmentationComponentsOfTheWantedClass) {
+  cv::Mat logits = blob4(3, 8, 10);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 10; ++x) {
+      const bool first = x >= 1 && x <= 2 && y >= 2 && y <= 6, second = x >= 6 && x <= 8 && y >= 1 && y <= 4;
+      if (first || second) *logits.ptr<float>(0, 2, y) = 0, logits.ptr<float>(0, 2, y)[x] = std::log(8.f);
+      if (x == 4) logits.ptr<float>(0, 1, y)[x] = 5;  // another class
+    }
+  logits.ptr<float>(0, 2, 2)[8] = 0;  // a hole in the second component's corner
+  const auto boxes = decodeSegmentation(logits, {100, 160}, {2}, 0.5);
+  ASSERT_EQ(boxes.size(), 2u);
+  const RawBox& second = boxes[0].box.u_min > 30 ? boxes[0] : boxes[1];
+  const RawBox& first = boxes[0].box.u_min > 30 ? boxes[1] : boxes[0];
+  expectBox(first.box, 10, 40, 30, 140);
+  expectBox(second.box, 60, 20, 90, 100);
+  EXPECT_NEAR(first.score, 0.8, 1e-5);  // 8 / (8 + 1 + 1)
+  EXPECT_EQ(first.mask.size(), cv::Size(2, 5));
+  EXPECT_EQ(cv::countNonZero(second.mask), 11);
+  EXPECT_TRUE(decodeSegmentation(logits, {100, 160}, {2}, 0.81).empty());
+  EXPECT_TRUE(decodeSegmentation(logits, {100, 160}, {2}, 0.5, 0.2).empty());
+  EXPECT_TRUE(decodeSegmentation(cv::Mat::zeros(3, 3, CV_32FC1), {100, 160}, {2}, 0.5).empty());
+}
+
+TEST(Decoders, SuppressionIsPerClass) {
+  const std::vector<RawBox> boxes{{{0, 0, 10, 10}, 0, 0.6, {}},
+                                  {{1, 0, 11, 10}, 0, 0.9, {}},    // IoU 9/11 with the first
+                                  {{1, 0, 11, 10}, 1, 0.7, {}},    // the same place, another class
+                                  {{20, 0, 30, 10}, 0, 0.5, {}}};  // elsewhere
+  EXPECT_EQ(suppressPerClass(boxes, 0.5), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(suppressPerClass(boxes, 0.9), (std::vector<int>{1, 2, 0, 3}));
+  EXPECT_TRUE(suppressPerClass({}, 0.5).empty());
+}
+
+TEST(Decoders, CocoLabels) {
+  EXPECT_STREQ(cocoLabel(0), "person");
+  EXPECT_STREQ(cocoLabel(56), "chair");
+  EXPECT_STREQ(cocoLabel(57), "couch");
+  EXPECT_STREQ(cocoLabel(79), "toothbrush");
+  EXPECT_STREQ(cocoLabel(80), "");
+  EXPECT_STREQ(cocoLabel(-1), "");
+}
+
+}  // namespace
+}  // namespace roomgraph

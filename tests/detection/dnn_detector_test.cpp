@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/dnn_detector.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+
+#include "roomgraph/core/class_registry.h"
+#include "roomgraph/core/config.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/detection/register_classes.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase db =
+      ObjectDatabase::fromText("[swivel_chair]\nlabels = chair\nshape = cylinder\n[door]\nlabels = door\n");
+  return db;
+}
+
+fs::path modelFolder() {
+  const char* env = std::getenv("ROOMGRAPH_DATA");
+  return (env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data") / "models";
+}
+
+class DnnDetectorTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("roomgraph_dnn_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void prepare(const std::string& ini) {
+    Config::fromText("[detection]\n" + ini, "test").read("detection", detector_);
+    detector_.setDatabase(database());
+    detector_.prepare();
+  }
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  template <class E>
+  std::string messageOf(const std::string& ini) {
+    try {
+      prepare(ini);
+    } catch (const E& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  static Frame frame(int id) {
+    Frame out;
+    out.id = FrameId{id};
+    out.color = cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 120, 150));
+    cv::rectangle(out.color, {200, 100}, {330, 400}, {20, 40, 60}, cv::FILLED);
+    return out;
+  }
+
+  fs::path folder_;
+  DnnDetector detector_;
+};
+
+TEST_F(DnnDetectorTest, WithoutNetworkTheReasonNamesSuitableOnes) {
+  prepare("");
+  const auto found = detector_.detect(frame(0));
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.reason(), AllOf(HasSubstr("[detection] models"), HasSubstr("NanoDet-Plus-m-1.5x")));
+}
+
+TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
+  EXPECT_THAT(messageOf<InputError>("models = /nowhere/x.onnx"),
+              HasSubstr("/nowhere/x.onnx: no such network"));
+  const std::string model = write("junk.onnx", "this is not a network");
+  EXPECT_THAT(messageOf<InputError>("models = " + model), HasSubstr("labels.txt: no such label file"));
+  write("labels.txt", "person\nchair\n");
+  EXPECT_THAT(messageOf<InputError>("models = " + model),
+              AllOf(HasSubstr(model), HasSubstr("not a network")));
+  EXPECT_THAT(messageOf<InputError>("models = " + write("a.txt", "x")),
+              HasSubstr("not a network file; known"));
+  EXPECT_THAT(messageOf<InputError>("models = " + write("a.weights", "x")),
+              HasSubstr("a.cfg: no such Darknet"));
+  write("a.cfg", "[net]\nbatch=1\n");
+  EXPECT_THAT(messageOf<InputError>("models = " + (folder_ / "a.weights").string()), HasSubstr("a"));
+}
+
+TEST_F(DnnDetectorTest, UnknownFormatListsTheKnown) {
+  EXPECT_THAT(messageOf<ConfigError>("models = a.onnx:nanodett"),
+              AllOf(HasSubstr("nanodett"), HasSubstr("nanodet, yolox, darknet, ade20k")));
+}
+
+TEST_F(DnnDetectorTest, MadeByClassName) {
+  detection::registerClasses();
+  detection::registerClasses();
+  EXPECT_NE(createStage<Detector>("DnnDetector", "[detection] class"), nullptr);
+  EXPECT_NE(createStage<Detector>("RecordedDetector", "[detection] class"), nullptr);
+}
+
+// The four networks that the README names load, tell their format, and run.
+TEST_F(DnnDetectorTest, KnownNetworksRun) {
+  if (!fs::exists(modelFolder())) GTEST_SKIP() << "no networks in " << modelFolder();
+  for (const char* file : {"nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-320.onnx", "yolox-nano/yolox_nano.onnx",
+                           "yolo-fastest-1.1-xl/yolo-fastest-1.1-xl.weights",
+                           "deeplabv3-mnv2-ade20k/deeplabv3_mnv2_ade20k_256x256.onnx"}) {
+    SCOPED_TRACE(file);
+    prepare("every_nth_frame = 2\nmodels = " + (modelFolder() / file).string());
+    EXPECT_TRUE(detector_.detect(frame(2)));
+    EXPECT_THAT(detector_.detect(frame(1)).reason(), HasSubstr("once in 2 frames"));
+    Frame gray = frame(0);
+    gray.color.release();
+    EXPECT_THAT(detector_.detect(gray).reason(), HasSubstr("no colour image"));
+  }
+}
+
+TEST_F(DnnDetectorTest, AWrongFormatIsRefused) {
+  const fs::path file = modelFolder() / "yolox-nano/yolox_nano.onnx";
+  if (!fs::exists(file)) GTEST_SKIP() << "no network " << file;
+  EXPECT_THAT(messageOf<InputError>("models = " + file.string() + ":nanodet"),
+              HasSubstr("not the format 'nanodet'"));
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/detection/recorded_detector.h"
+
+#include <gmock/gmock.h>
+#include <mrpt/core/Clock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "roomgraph/core/config.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase db = ObjectDatabase::fromText(
+      "[swivel_chair]\nlabels = chair\nshape = cylinder\n[sofa]\nlabels = couch, sofa\n");
+  return db;
+}
+
+class RecordedDetectorTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("roomgraph_recorded_" + std::to_string(getpid()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& text) {
+    const auto file = folder_ / "boxes";
+    std::ofstream(file) << text;
+    return file.string();
+  }
+  void prepare(const std::string& ini) {
+    Config::fromText("[detection]\n" + ini, "test").read("detection", detector_);
+    detector_.setDatabase(database());
+    detector_.prepare();
+  }
+  static Frame frameAt(double t, const std::string& label = "") {
+    Frame frame;
+    frame.t = t;
+    frame.camera = {640, 480, 500, 500, 320, 240, {}};
+    frame.sensor_label = label;
+    return frame;
+  }
+  static CObservationDetections record(double t, const std::string& label, const std::string& camera = "") {
+    CObservationDetections out;
+    out.timestamp = mrpt::Clock::fromDouble(t);
+    out.image_label = camera;
+    out.items.push_back({label, 0.9f, 10, 20, 110, 220, 7});
+    return out;
+  }
+
+  std::filesystem::path folder_;
+  RecordedDetector detector_;
+};
+
+TEST_F(RecordedDetectorTest, NearestRecordWinsBeforeOrAfterTheFrame) {
+  prepare("tolerance_s = 0.05");
+  detector_.feed(record(9.97, "couch"));
+  detector_.feed(record(10.01, "chair"));
+  const auto found = detector_.detect(frameAt(10.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_EQ((*found)[0].class_name, "swivel_chair");
+  EXPECT_EQ((*found)[0].label, "chair");
+  EXPECT_EQ((*found)[0].track.value, 7);
+  EXPECT_EQ((*found)[0].box, (Box2{10, 20, 110, 220}));
+  EXPECT_EQ((*detector_.detect(frameAt(9.98)))[0].class_name, "sofa");
+}
+
+TEST_F(RecordedDetectorTest, OutsideTheToleranceThereIsAReason) {
+  prepare("tolerance_s = 0.05");
+  EXPECT_FALSE(detector_.detect(frameAt(10.0)));
+  detector_.feed(record(10.0, "chair"));
+  const auto missing = detector_.detect(frameAt(10.06));
+  EXPECT_FALSE(missing);
+  EXPECT_THAT(missing.reason(), HasSubstr("0.05 s"));
+}
+
+TEST_F(RecordedDetectorTest, RecordsOfAnotherCameraAreIgnored) {
+  prepare("");
+  detector_.feed(record(10.0, "couch", "REAR"));
+  EXPECT_FALSE(detector_.detect(frameAt(10.0, "FRONT")));
+  detector_.feed(record(10.0, "chair", "FRONT"));
+  EXPECT_EQ((*detector_.detect(frameAt(10.0, "FRONT")))[0].class_name, "swivel_chair");
+}
+
+TEST_F(RecordedDetectorTest, JsonLinesAreClippedFilteredAndSorted) {
+  prepare(
+      "score_threshold = 0.3\nfile = " +
+      write(
+          R"({"timestamp": 5.0, "boxes": [{"class": "swivel_chair", "score": 0.5, "bbox": [-10, 0, 50, 500]}, )"
+          R"({"class": "chair", "score": 0.1, "bbox": [0, 0, 9, 9]}, )"
+          R"({"class": "couch", "score": 0.7, "bbox": [1, 2, 30, 40]}, )"
+          R"({"class": "unicorn", "score": 0.9, "bbox": [1, 2, 30, 40]}]})"
+          "\n\n{\"timestamp\": \"6.5\", \"boxes\": []}\n"));
+  const auto found = detector_.detect(frameAt(5.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 2u);
+  EXPECT_EQ((*found)[0].class_name, "sofa");
+  EXPECT_EQ((*found)[1].class_name, "swivel_chair");
+  EXPECT_EQ((*found)[1].box, (Box2{0, 0, 50, 480}));
+  const auto empty = detector_.detect(frameAt(6.5));
+  ASSERT_TRUE(empty);
+  EXPECT_TRUE(empty->empty());
+}
+
+TEST_F(RecordedDetectorTest, TextLinesOfCocoIndices) {
+  prepare("file = " +
+          write("# t id x y w h score\n5.0 39 1 1 5 5 0.9\n5.0 56 16 256 220 215 0.9\n6.0 57 0 0 9 9 0.8\n"));
+  const auto found = detector_.detect(frameAt(5.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);  // the bottle (39) is no class of the database
+  EXPECT_EQ((*found)[0].box, (Box2{16, 256, 236, 471}));
+  EXPECT_EQ((*detector_.detect(frameAt(6.0)))[0].class_name, "sofa");
+}
+
+TEST_F(RecordedDetectorTest, BrokenFilesNameTheLine) {
+  try {
+    prepare("file = " + write("5.0 56 1 1 5 5 0.9\n5.0 chair 1 1 5 5\n"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("boxes:2"));
+  }
+  EXPECT_THROW(prepare("file = " + write("5.0 56 1 1 -5 5 0.9\n")), InputError);
+  EXPECT_THROW(prepare("file = " + (folder_ / "none").string()), InputError);
+}
+
+}  // namespace
+}  // namespace roomgraph
