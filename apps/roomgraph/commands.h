@@ -12,5 +12,6 @@ void addImportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 
 void addRunCommand(CLI::App& app);
+void addEvaluateCommand(CLI::App& app);
 
 }  // namespace roomgraph

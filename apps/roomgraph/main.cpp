@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   roomgraph::addInfoCommand(app);
 
   roomgraph::addRunCommand(app);
+  roomgraph::addEvaluateCommand(app);
 
   try {
     app.parse(argc, argv);

@@ -18,9 +18,16 @@ std::string trim(const std::string& text) {
 }
 
 std::string withoutComment(const std::string& line) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  const auto equals = line.find('=');
+  const auto value = equals == std::string::npos ? equals : line.find_first_not_of(" \t", equals + 1);
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool marker = line[i] == '#' || line[i] == ';';
-    if (marker && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
+    if (!marker || (i > 0 && !blank(line[i - 1]))) continue;
+    // "color = #e6862a": a marker with text attached to it, first after the equals sign, belongs to the
+    // value.
+    const bool begins_value = i == value && i + 1 < line.size() && !blank(line[i + 1]);
+    if (!begins_value) return line.substr(0, i);
   }
   return line;
 }
@@ -47,7 +54,8 @@ std::vector<IniEntry> parseIni(const std::string& text, const std::string& name)
     IniEntry entry{section, trim(line.substr(0, equals)), trim(line.substr(equals + 1)), place};
     const auto [first, inserted] = seen.try_emplace({section, entry.key}, place);
     if (!inserted)
-      throw ConfigError(place + ": [" + section + "] " + entry.key + " is set twice, first at " + first->second);
+      throw ConfigError(place + ": [" + section + "] " + entry.key + " is set twice, first at " +
+                        first->second);
     entries.push_back(std::move(entry));
   }
   return entries;

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/evaluation/object_error.h"
+#include "roomgraph/evaluation/relations.h"
+#include "roomgraph/evaluation/report.h"
+#include "roomgraph/evaluation/trajectory_error.h"
+#include "roomgraph/evaluation/trajectory_file.h"
+
+namespace roomgraph {
+namespace {
+
+TrajectoryFile readAndWarn(const std::string& file) {
+  TrajectoryFile read = readTrajectory(file);
+  if (!read.sorted) std::cerr << file << ": stamps are out of order, sorted\n";
+  if (read.duplicates > 0)
+    std::cerr << file << ": " << read.duplicates << " poses with a repeated stamp dropped\n";
+  return read;
+}
+
+template <class Errors>
+void report(const Errors& errors, const std::string& json_file) {
+  std::cout << toTable(errors);
+  if (json_file.empty()) return;
+  std::ofstream out(json_file);
+  out << toJson(errors);
+  if (!out.flush()) throw RunError(json_file + ": cannot be written");
+}
+
+void addTrajectory(CLI::App& parent) {
+  struct Arguments {
+    std::string truth, estimate, json;
+    TrajectoryOptions options;
+    bool unaligned = false;
+  };
+  auto* command = parent.add_subcommand("trajectory", "ATE after SE(3) alignment (no scale), RPE, coverage");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("truth", a->truth, "True poses: t tx ty tz qx qy qz qw, or t x y yaw")->required();
+  command->add_option("estimate", a->estimate, "Estimated poses, the same formats")->required();
+  command->add_option("--json", a->json, "Write the figures here, too");
+  command
+      ->add_option("--max-difference", a->options.max_difference_s, "Largest difference of paired stamps, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--interpolate", a->options.interpolate_truth,
+                    "Interpolate the truth at the estimate's stamps");
+  command->add_flag("--no-align", a->unaligned, "Compare as they are");
+  auto* seconds =
+      command->add_option("--delta", a->options.rpe_delta_s, "Time between the poses of a relative error, s")
+          ->check(CLI::PositiveNumber)
+          ->capture_default_str();
+  command->add_option("--delta-frames", a->options.rpe_delta_frames, "That many pairs instead of seconds")
+      ->check(CLI::PositiveNumber)
+      ->excludes(seconds);
+  command->footer(
+      "Example:\n  roomgraph evaluate trajectory groundtruth.txt OUT/trajectory_camera.tum --json ate.json");
+  command->callback([a] {
+    a->options.align = !a->unaligned;
+    const auto truth = readAndWarn(a->truth), estimate = readAndWarn(a->estimate);
+    const auto errors = evaluateTrajectory(truth.trajectory, estimate.trajectory, a->options);
+    report(errors, a->json);
+    if (errors.pairs == 0)
+      throw RunError("no stamp of " + a->estimate + " is within " +
+                     std::to_string(a->options.max_difference_s) + " s of one in " + a->truth);
+  });
+}
+
+void addRelations(CLI::App& parent) {
+  struct Arguments {
+    std::string relations, estimate, json;
+    RelationOptions options;
+  };
+  auto* command = parent.add_subcommand("relations", "Verified relative poses (Kuemmerle et al. 2009)");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("relations", a->relations, "Lines t1 t2 x y z roll pitch yaw")->required();
+  command->add_option("estimate", a->estimate, "Estimated robot poses, TUM format or t x y yaw")->required();
+  command->add_option("--json", a->json, "Write the figures here, too");
+  command->footer(
+      "Example:\n  roomgraph evaluate relations intel.relations OUT/trajectory.tum --json relations.json");
+  command->callback([a] {
+    const auto relations = readRelations(a->relations);
+    const auto errors = evaluateRelations(relations, readAndWarn(a->estimate).trajectory, a->options);
+    report(errors, a->json);
+    if (errors.used == 0)
+      throw RunError(a->estimate + " has poses for none of the relations in " + a->relations);
+  });
+}
+
+struct ObjectArguments {
+  std::string truth, landmarks, json, boxes, truth_trajectory, trajectory, database;
+  ObjectOptions options;
+  VisibilityRule rule;
+};
+
+void runObjects(ObjectArguments& a) {
+  const auto truth = readObjects(a.truth), landmarks = readObjects(a.landmarks);
+  if (!a.database.empty()) a.options.classes = classRules(ObjectDatabase::fromFile(a.database));
+  if (!a.boxes.empty()) a.options.seen = readSeenObjects(a.boxes, a.rule);
+  if (!a.trajectory.empty()) {
+    TrajectoryOptions association;
+    association.interpolate_truth = true;
+    const auto pairs = associate(readAndWarn(a.truth_trajectory).trajectory,
+                                 readAndWarn(a.trajectory).trajectory, association);
+    if (pairs.empty()) throw RunError(a.trajectory + " has no pose within the time of " + a.truth_trajectory);
+    a.options.truth_from_map = alignPlanar(pairs);
+  }
+  report(evaluateObjects(truth, landmarks, a.options), a.json);
+}
+
+void addObjects(CLI::App& parent) {
+  auto* command = parent.add_subcommand("objects", "Landmarks against true objects");
+  auto a = std::make_shared<ObjectArguments>();
+  command->add_option("truth", a->truth, "True objects: objects.json")->required();
+  command->add_option("landmarks", a->landmarks, "Mapped objects: landmarks.json")->required();
+  command->add_option("--json", a->json, "Write the figures here, too");
+  command->add_option("--gate", a->options.gate_m, "Largest distance of the centres on the ground, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--min-existence", a->options.min_existence, "Skip landmarks that are less probable")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--database", a->database, "objects.ini: shape and yaw symmetry of each class");
+  auto* boxes = command->add_option("--truth-boxes", a->boxes,
+                                    "boxes.jsonl: only objects really seen count for recall");
+  command->add_option("--min-frames", a->rule.min_frames, "Seen: in so many frames")
+      ->needs(boxes)
+      ->capture_default_str();
+  command->add_option("--min-visible", a->rule.min_visible, "... with a larger visible share")
+      ->needs(boxes)
+      ->capture_default_str();
+  command->add_option("--min-height-px", a->rule.min_height_px, "... a higher box, px")
+      ->needs(boxes)
+      ->capture_default_str();
+  command->add_option("--max-depth", a->rule.max_depth_m, "... and nearer, m")
+      ->needs(boxes)
+      ->capture_default_str();
+  auto* truth_path =
+      command->add_option("--truth-trajectory", a->truth_trajectory, "Align by trajectories: truth");
+  auto* path = command->add_option("--trajectory", a->trajectory, "Align by trajectories: the map's");
+  truth_path->needs(path);
+  path->needs(truth_path);
+  command->footer(
+      "Example:\n  roomgraph evaluate objects lab_a/objects.json OUT/landmarks.json \\\n"
+      "      --truth-boxes lab_a/boxes.jsonl --json objects_score.json");
+  command->callback([a] { runObjects(*a); });
+}
+
+}  // namespace
+
+void addEvaluateCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("evaluate", "Compare results with the truth");
+  command->require_subcommand(1);
+  command->footer(
+      "Examples:\n"
+      "  roomgraph evaluate trajectory groundtruth.txt OUT/trajectory_camera.tum\n"
+      "  roomgraph evaluate relations intel.relations OUT/trajectory.tum --json relations.json\n"
+      "  roomgraph evaluate objects objects.json OUT/landmarks.json --truth-boxes boxes.jsonl");
+  addTrajectory(*command);
+  addRelations(*command);
+  addObjects(*command);
+}
+
+}  // namespace roomgraph

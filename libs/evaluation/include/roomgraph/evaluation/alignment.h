@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/geometry/pose.h"
+
+namespace roomgraph {
+
+/// Two poses of the same instant.
+struct PosePair {
+  double t = 0;  ///< stamp of the estimate, s
+  Pose3 truth = Pose3::Identity(), estimate = Pose3::Identity();
+};
+
+/// truth_from_estimate in SE(3) that minimises the squared distances of the positions, without scale (Umeyama
+/// 1991, Eq. 40-42). What the positions leave open (all on one line, or at one point) is taken from the
+/// orientations. Identity when there are no pairs.
+Pose3 alignSpatial(const std::vector<PosePair>& pairs);
+
+/// The same in the plane: only x, y and yaw are moved.
+Pose2 alignPlanar(const std::vector<PosePair>& pairs);
+
+/// True when no pose of either side leaves the horizontal plane: constant z, no roll or pitch.
+bool isPlanar(const std::vector<PosePair>& pairs);
+
+/// alignPlanar for planar pairs, for which a rotation in space could also mirror the path; else alignSpatial.
+Pose3 align(const std::vector<PosePair>& pairs);
+
+}  // namespace roomgraph

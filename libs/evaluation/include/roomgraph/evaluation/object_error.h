@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "roomgraph/evaluation/object_files.h"
+#include "roomgraph/evaluation/statistics.h"
+#include "roomgraph/geometry/shape.h"
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph {
+
+/// What has to be known about a class to compare two of its objects.
+struct ClassRule {
+  ShapeKind shape = ShapeKind::kCuboid;
+  int symmetry = 1;  ///< of yaw: 0 any angle, n by 360 deg / n
+};
+
+struct ObjectOptions {
+  double gate_m = 0.5;       ///< largest distance of the centres on the ground
+  double min_existence = 0;  ///< landmarks below are not looked at
+  std::map<std::string, ClassRule> classes = {{"swivel_chair", {ShapeKind::kCylinder, 0}},
+                                              {"sofa", {ShapeKind::kCuboid, 1}},
+                                              {"door", {ShapeKind::kPlanar, 2}}};
+  /// A landmark of the class on an `other` object whose kind contains the text is neither right nor wrong.
+  std::map<std::string, std::string> forgiven_kinds = {{"swivel_chair", "chair"}};
+  std::optional<std::set<int>> seen;  ///< ids that count for recall; nothing: all do
+  Pose2 truth_from_map;               ///< moves the landmarks before they are compared
+};
+
+enum class Verdict {
+  kCorrect,    ///< matched with a true object that counts
+  kUncounted,  ///< on a true object that was seen too little to count, or on one of another kind
+  kDuplicate,  ///< second landmark on an object that already has one; a false alarm
+  kFalseAlarm,
+  kIgnored,  ///< class is not evaluated, or existence too low
+};
+std::string toString(Verdict verdict);
+
+/// What became of one landmark.
+struct LandmarkVerdict {
+  int landmark = -1;  ///< id
+  std::string class_name;
+  Verdict verdict = Verdict::kFalseAlarm;
+  int truth = -1;             ///< id of the true object concerned, -1: none
+  double distance_m = 0;      ///< to it, on the ground
+  double yaw_error_deg = -1;  ///< modulo symmetry; -1: does not apply
+  double size_error_m = 0;    ///< mean of |dw|, |dd|, |dh|
+  double iou3d = 0;
+};
+
+struct ObjectFigures {
+  int correct = 0, false_alarms = 0, missed = 0, duplicates = 0, uncounted = 0;
+  double precision = 0, recall = 0, f1 = 0;  ///< 0 where nothing is to divide
+  ErrorStatistics position_m, yaw_deg, size_m;
+  double iou3d_mean = 0;
+};
+
+struct ObjectErrors {
+  ObjectFigures all;
+  std::map<std::string, ObjectFigures> per_class;
+  std::vector<LandmarkVerdict> verdicts;  ///< one per landmark, in the order of the map
+  std::vector<int> missed;                ///< ids of true objects that count and have no landmark
+};
+
+/// The rules of all classes that may become landmarks.
+std::map<std::string, ClassRule> classRules(const ObjectDatabase& database);
+
+/// Compares a map with the truth: optimal one-to-one matching per class within the gate. True objects of
+/// class `person` or `other` never count; a landmark of class person is a false alarm; a landmark of a class
+/// without rule is not looked at.
+ObjectErrors evaluateObjects(const std::vector<EvaluatedObject>& truth,
+                             const std::vector<EvaluatedObject>& landmarks,
+                             const ObjectOptions& options = {});
+
+}  // namespace roomgraph

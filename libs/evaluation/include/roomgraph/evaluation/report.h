@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+
+#include "roomgraph/evaluation/object_error.h"
+#include "roomgraph/evaluation/relations.h"
+#include "roomgraph/evaluation/trajectory_error.h"
+
+namespace roomgraph {
+
+/// Tables for people.
+std::string toTable(const TrajectoryErrors& errors);
+std::string toTable(const RelationErrors& errors);
+std::string toTable(const ObjectErrors& errors);
+
+/// The same figures as one JSON object with stable names. A figure that has nothing to be computed from is
+/// null.
+std::string toJson(const TrajectoryErrors& errors);
+std::string toJson(const RelationErrors& errors);
+std::string toJson(const ObjectErrors& errors);
+
+}  // namespace roomgraph

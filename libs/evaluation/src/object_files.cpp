@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/evaluation/object_files.h"
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+using nlohmann::json;
+
+std::ifstream open(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
+  return in;
+}
+
+EvaluatedObject toObject(const json& record) {
+  EvaluatedObject out;
+  out.id = record.at("id").get<int>();
+  out.class_name = record.at("class").get<std::string>();
+  out.kind = record.value("kind", out.class_name);
+  out.position = {record.at("x").get<double>(), record.at("y").get<double>(), record.at("z").get<double>()};
+  const auto yaw = record.find("yaw");
+  out.has_yaw = yaw != record.end() && !yaw->is_null() && record.value("has_yaw", true);
+  if (out.has_yaw) out.yaw = yaw->get<double>();
+  const auto size = record.at("size_wdh").get<std::vector<double>>();
+  if (size.size() != 3) throw std::invalid_argument("size_wdh must have 3 numbers");
+  out.width = size[0];
+  out.depth = size[1];
+  out.height = size[2];
+  out.existence = record.value("existence", 1.0);
+  return out;
+}
+
+bool isGoodView(const json& object, const VisibilityRule& rule) {
+  const auto box = object.at("bbox").get<std::vector<double>>();
+  if (box.size() != 4) throw std::invalid_argument("bbox must have 4 numbers");
+  const json& depth = object.at("z_med");
+  return object.at("visible").get<double>() > rule.min_visible && box[3] - box[1] > rule.min_height_px &&
+         depth.is_number() && depth.get<double>() < rule.max_depth_m;
+}
+
+}  // namespace
+
+std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file) {
+  auto in = open(file);
+  std::vector<EvaluatedObject> objects;
+  std::string place = file.string();
+  try {
+    const json content = json::parse(in);
+    const char* key = content.contains("landmarks") ? "landmarks" : "objects";
+    const json& records = content.at(key);
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      place = file.string() + ": " + key + "[" + std::to_string(i) + "]";
+      objects.push_back(toObject(records.at(i)));
+    }
+  } catch (const std::exception& error) {
+    throw InputError(place + ": " + error.what());
+  }
+  return objects;
+}
+
+std::set<int> readSeenObjects(const std::filesystem::path& boxes_jsonl, const VisibilityRule& rule) {
+  auto in = open(boxes_jsonl);
+  std::map<int, int> good_frames;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    try {
+      const json frame = json::parse(line);
+      for (const auto& object : frame.at("objects"))
+        if (isGoodView(object, rule)) ++good_frames[object.at("id").get<int>()];
+    } catch (const std::exception& error) {
+      throw InputError(boxes_jsonl.string() + ":" + std::to_string(number) + ": " + error.what());
+    }
+  }
+  if (number == 0) throw InputError(boxes_jsonl.string() + ": is empty");
+  std::set<int> seen;
+  for (const auto& [id, frames] : good_frames)
+    if (frames >= rule.min_frames) seen.insert(id);
+  return seen;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/core/class_registry.h"
+
+#include <gmock/gmock.h>
+
+#include "errors_of.h"
+#include "example_stages.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Greeter, Stage, roomgraph)
+IMPLEMENTS_MRPT_OBJECT(PoliteGreeter, Greeter, roomgraph)
+IMPLEMENTS_MRPT_OBJECT(CurtGreeter, Greeter, roomgraph)
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::messageOf;
+
+class ClassRegistry : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (int twice = 0; twice < 2; ++twice) {
+      mrpt::rtti::registerClass(CLASS_ID(Greeter));
+      mrpt::rtti::registerClass(CLASS_ID(PoliteGreeter));
+      mrpt::rtti::registerClass(CLASS_ID(CurtGreeter));
+    }
+  }
+};
+
+TEST_F(ClassRegistry, MakesImplementationsByNameWithOrWithoutNamespace) {
+  EXPECT_EQ(createStage<Greeter>("PoliteGreeter", "test")->greet(), "good day");
+  EXPECT_EQ(createStage<Greeter>("roomgraph::CurtGreeter", "test")->greet(), "hi");
+}
+
+TEST_F(ClassRegistry, EachCallMakesAnObjectOfItsOwn) {
+  EXPECT_NE(createStage<Greeter>("CurtGreeter", "test"), createStage<Greeter>("CurtGreeter", "test"));
+}
+
+TEST_F(ClassRegistry, ListsImplementationsOnceWithoutTheInterface) {
+  EXPECT_THAT(implementationsOf(CLASS_ID(Greeter)), ElementsAre("CurtGreeter", "PoliteGreeter"));
+}
+
+TEST_F(ClassRegistry, UnknownNameListsTheKnownOnes) {
+  const auto message =
+      messageOf<ConfigError>([] { createStage<Greeter>("PoliteGreter", "[greeting] class"); });
+  EXPECT_THAT(message, HasSubstr("[greeting] class: no class 'PoliteGreter' that is a Greeter"));
+  EXPECT_THAT(message, HasSubstr("did you mean 'PoliteGreeter'?"));
+  EXPECT_THAT(message, HasSubstr("known: CurtGreeter, PoliteGreeter"));
+}
+
+TEST_F(ClassRegistry, TheInterfaceItselfAndStrangersAreNoImplementations) {
+  EXPECT_THROW(createStage<Greeter>("Greeter", "test"), ConfigError);
+  EXPECT_THROW(createStage<Greeter>("Stage", "test"), ConfigError);
+  EXPECT_THROW(createStage<Greeter>("", "test"), ConfigError);
+}
+
+TEST_F(ClassRegistry, MissingPluginIsAConfigError) {
+  const auto message = messageOf<ConfigError>([] { loadPlugin("no_such_plugin.so"); });
+  EXPECT_THAT(message, HasSubstr("no_such_plugin.so"));
+  EXPECT_EQ(ConfigError("").exit_code, 2);
+  EXPECT_EQ(InputError("").exit_code, 3);
+  EXPECT_EQ(RunError("").exit_code, 1);
+}
+
+}  // namespace
+}  // namespace roomgraph

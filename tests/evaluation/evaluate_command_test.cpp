@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+// The sub-command as a user runs it: exit codes, JSON, one clear line on bad input.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "temp_file.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TempFolder;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+Outcome run(const TempFolder& folder, const std::string& arguments) {
+  const auto out = folder.path() / "stdout", err = folder.path() / "stderr";
+  const std::string command = "cd '" + folder.path().string() + "' && '" ROOMGRAPH_APP "' evaluate " +
+                              arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(out), contentOf(err)};
+}
+
+TEST(EvaluateCommand, TrajectoryTableAndJson) {
+  const TempFolder folder;
+  folder.write("truth.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n");
+  folder.write("moved.txt", "0 5 5 0\n1 6 5 0\n1 6 5 0\n2 6 6 0\n");
+  const auto result = run(folder, "trajectory truth.tum moved.txt --json ate.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("ATE"));
+  EXPECT_THAT(result.err, HasSubstr("moved.txt: 1 poses with a repeated stamp dropped"));
+  const auto figures = nlohmann::json::parse(contentOf(folder.path() / "ate.json"));
+  EXPECT_NEAR(figures.at("ate_rmse_m").get<double>(), 0, 1e-9);
+  EXPECT_EQ(figures.at("pairs"), 3);
+  const auto raw = run(folder, "trajectory truth.tum moved.txt --no-align --json ate.json");
+  EXPECT_EQ(raw.exit_code, 0);
+  EXPECT_NEAR(nlohmann::json::parse(contentOf(folder.path() / "ate.json")).at("ate_mean_m").get<double>(),
+              std::sqrt(50.0), 1e-9);
+}
+
+TEST(EvaluateCommand, Relations) {
+  const TempFolder folder;
+  folder.write("a.relations", "0 1 1 0 0 0 0 0\n1 9 0 0 0 0 0 0\n");
+  folder.write("e.tum", "0 0 0 0\n1 1.5 0 0\n");
+  const auto result = run(folder, "relations a.relations e.tum --json r.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto figures = nlohmann::json::parse(contentOf(folder.path() / "r.json"));
+  EXPECT_NEAR(figures.at("trans_abs_mean_m").get<double>(), 0.5, 1e-9);
+  EXPECT_EQ(figures.at("used"), 1);
+  EXPECT_EQ(figures.at("missing"), 1);
+}
+
+TEST(EvaluateCommand, ObjectsAlignedByTrajectories) {
+  const TempFolder folder;
+  folder.write(
+      "t.json",
+      R"({"objects": [{"id": 1, "class": "sofa", "x": 2, "y": 0, "z": 0, "yaw": 0, "size_wdh": [1, 1, 1]}]})");
+  folder.write(
+      "m.json",
+      R"({"landmarks": [{"id": 1, "class": "sofa", "x": 5, "y": 2, "z": 0, "yaw": 1.5707963267948966, "size_wdh": [1, 1, 1]}]})");
+  folder.write("t.tum", "0 0 0 0\n1 1 0 0\n");
+  folder.write("m.tum", "0 5 0 1.5707963267948966\n1 5 1 1.5707963267948966\n");
+  EXPECT_THAT(run(folder, "objects t.json m.json").out, HasSubstr("missed"));
+  const auto result =
+      run(folder, "objects t.json m.json --truth-trajectory t.tum --trajectory m.tum --json o.json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto figures = nlohmann::json::parse(contentOf(folder.path() / "o.json"));
+  EXPECT_EQ(figures.at("recall"), 1.0);
+  EXPECT_NEAR(figures.at("position_error_mean_m").get<double>(), 0, 1e-9);
+  EXPECT_NEAR(figures.at("yaw_error_mean_deg").get<double>(), 0, 1e-6);
+}
+
+TEST(EvaluateCommand, ExitCodes) {
+  const TempFolder folder;
+  folder.write("a.tum", "0 0 0 0\n1 1 0 0\n");
+  folder.write("late.tum", "100 0 0 0\n");
+  folder.write("bad.tum", "0 0 0 0\n1 x 0 0\n");
+  const auto bad = run(folder, "trajectory a.tum bad.tum");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("bad.tum:2: 'x' is not a finite number"));
+  EXPECT_EQ(run(folder, "trajectory a.tum none.tum").exit_code, 3);
+  EXPECT_EQ(run(folder, "trajectory a.tum late.tum").exit_code, 1);
+  EXPECT_EQ(run(folder, "trajectory a.tum").exit_code, 2);
+  EXPECT_EQ(run(folder, "trajectory a.tum a.tum --delta 0").exit_code, 2);
+  EXPECT_EQ(run(folder, "trajectory a.tum a.tum --json no/such/folder.json").exit_code, 1);
+  EXPECT_EQ(run(folder, "").exit_code, 2);
+  const auto help = run(folder, "objects --help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, HasSubstr("--truth-boxes"));
+  EXPECT_THAT(help.out, HasSubstr("Example"));
+}
+
+}  // namespace
+}  // namespace roomgraph

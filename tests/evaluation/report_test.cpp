@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/evaluation/report.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace roomgraph {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+TEST(Report, StableNames) {
+  TrajectoryErrors trajectory;
+  trajectory.ate_m = summarize({0.1, 0.3});
+  trajectory.rpe_trans_m = summarize({0.02});
+  trajectory.rpe_rot_deg = summarize({1.5});
+  trajectory.pairs = 2;
+  trajectory.coverage = 0.75;
+  const json t = json::parse(toJson(trajectory));
+  EXPECT_DOUBLE_EQ(t.at("ate_mean_m"), 0.2);
+  EXPECT_DOUBLE_EQ(t.at("ate_median_m"), 0.2);
+  EXPECT_DOUBLE_EQ(t.at("ate_max_m"), 0.3);
+  EXPECT_NEAR(t.at("ate_rmse_m").get<double>(), 0.2236068, 1e-6);
+  EXPECT_DOUBLE_EQ(t.at("rpe_trans_rmse_m"), 0.02);
+  EXPECT_DOUBLE_EQ(t.at("rpe_rot_rmse_deg"), 1.5);
+  EXPECT_EQ(t.at("pairs"), 2);
+  EXPECT_EQ(t.at("coverage"), 0.75);
+
+  RelationErrors relations;
+  relations.trans_m = summarize({0.2, 0.4});
+  relations.rot_deg = summarize({1, 2});
+  const json r = json::parse(toJson(relations));
+  EXPECT_NEAR(r.at("trans_abs_mean_m").get<double>(), 0.3, 1e-12);
+  EXPECT_NEAR(r.at("trans_abs_std_m").get<double>(), 0.1, 1e-12);
+  EXPECT_NEAR(r.at("trans_sqr_mean_m2").get<double>(), 0.1, 1e-12);
+  EXPECT_NEAR(r.at("rot_abs_mean_deg").get<double>(), 1.5, 1e-12);
+  EXPECT_NEAR(r.at("rot_abs_std_deg").get<double>(), 0.5, 1e-12);
+}
+
+TEST(Report, WhatCannotBeComputedIsNull) {
+  const json t = json::parse(toJson(TrajectoryErrors{}));
+  EXPECT_TRUE(t.at("ate_rmse_m").is_null());
+  EXPECT_EQ(t.at("pairs"), 0);
+  const json o = json::parse(toJson(evaluateObjects({}, {})));
+  EXPECT_TRUE(o.at("precision").is_null());
+  EXPECT_TRUE(o.at("recall").is_null());
+  EXPECT_TRUE(o.at("iou3d_mean").is_null());
+  EXPECT_EQ(o.at("correct"), 0);
+}
+
+TEST(Report, ObjectFiguresAndVerdicts) {
+  EvaluatedObject sofa;
+  sofa.id = 7;
+  sofa.class_name = sofa.kind = "sofa";
+  sofa.width = sofa.depth = sofa.height = 1;
+  auto elsewhere = sofa;
+  elsewhere.id = 8;
+  elsewhere.position.x() = 9;
+  const auto errors = evaluateObjects({sofa}, {sofa, elsewhere});
+  const json o = json::parse(toJson(errors));
+  EXPECT_EQ(o.at("precision"), 0.5);
+  EXPECT_EQ(o.at("recall"), 1.0);
+  EXPECT_EQ(o.at("position_error_mean_m"), 0.0);
+  EXPECT_EQ(o.at("yaw_error_mean_deg"), 0.0);
+  EXPECT_EQ(o.at("per_class").at("sofa").at("false_alarms"), 1);
+  EXPECT_TRUE(o.at("per_class").at("door").at("recall").is_null());
+  EXPECT_EQ(o.at("landmarks").at(1).at("verdict"), "false alarm");
+  EXPECT_TRUE(o.at("landmarks").at(1).at("truth").is_null());
+  const std::string table = toTable(errors);
+  EXPECT_THAT(table, HasSubstr("landmark 8 (sofa): false alarm\n"));
+  EXPECT_THAT(table, HasSubstr("0.500"));
+}
+
+}  // namespace
+}  // namespace roomgraph

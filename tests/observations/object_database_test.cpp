@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/observations/object_database.h"
+
+#include <gmock/gmock.h>
+
+#include "errors_of.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::messageOf;
+
+TEST(ObjectDatabase, ShippedFileLoads) {
+  const auto database = ObjectDatabase::fromFile(std::string(ROOMGRAPH_SOURCE_DIR) + "/objects.ini");
+  for (const char* name : {"swivel_chair", "sofa", "door", "person"})
+    ASSERT_TRUE(database.find(name)) << name;
+  EXPECT_EQ(database.find("swivel_chair")->nominal().kind, ShapeKind::kCylinder);
+  EXPECT_EQ(database.find("swivel_chair")->color, "#e6862a") << "# is no comment inside a value";
+  EXPECT_EQ(database.find("door")->symmetry, 2);
+  EXPECT_FALSE(database.find("person")->landmark);
+  EXPECT_TRUE(database.find("sofa")->landmark);
+}
+
+TEST(ObjectDatabase, LooksUpByLabelWhateverTheCase) {
+  const auto database = ObjectDatabase::fromText("[seat]\nlabels = Chair, arm chair\n[lamp]\n");
+  EXPECT_EQ(database.byLabel("chair"), database.find("seat"));
+  EXPECT_EQ(database.byLabel("ARM CHAIR"), database.find("seat"));
+  EXPECT_EQ(database.byLabel("lamp"), nullptr) << "a class without labels is never detected";
+  EXPECT_EQ(database.byLabel(""), nullptr);
+  EXPECT_EQ(database.find("Seat"), nullptr);
+  EXPECT_EQ(database.models().size(), 1u) << "a section without any key is none";
+}
+
+TEST(ObjectDatabase, NewClassNeedsNoCode) {
+  const auto database =
+      ObjectDatabase::fromText("[desk]\nlabels = table\nwidth_m = 1.6\ndepth_m = 0.8\nheight_m = 0.75\n");
+  const auto shape = database.find("desk")->nominal();
+  EXPECT_EQ(shape.kind, ShapeKind::kCuboid);
+  EXPECT_EQ(shape.width, 1.6);
+  EXPECT_EQ(shape.depth, 0.8);
+  EXPECT_EQ(shape.height, 0.75);
+}
+
+std::string complaint(const std::string& text) {
+  return messageOf<ConfigError>([&] { ObjectDatabase::fromText(text, "o.ini"); });
+}
+
+TEST(ObjectDatabase, IsStrict) {
+  EXPECT_THAT(complaint("[a]\nwidth = 1\n"),
+              AllOf(HasSubstr("o.ini:2"), HasSubstr("did you mean 'width_m'?")));
+  EXPECT_THAT(complaint("[a]\nshape = sphere\n"), HasSubstr("one of cylinder, cuboid, planar"));
+  EXPECT_THAT(complaint("[a]\nwidth_m = 0\n"), HasSubstr("a number in [0.01, 20]"));
+  EXPECT_THAT(complaint("[a]\nsymmetry = 7\n"), HasSubstr("[0, 4]"));
+  EXPECT_THAT(complaint("[a]\ncolor = #fff000\ncolor = #000000\n"), HasSubstr("is set twice"));
+  EXPECT_THAT(complaint("[b]\nlandmark = true\n[a]\nlandmark = perhaps\n"),
+              HasSubstr("o.ini:4: [a] landmark"));
+  EXPECT_THROW(ObjectDatabase::fromFile("no_such_objects.ini"), InputError);
+}
+
+TEST(ObjectDatabase, MarkdownNamesTheKeys) {
+  const auto page = ObjectDatabase::markdown();
+  for (const char* key : {"labels", "shape", "width_m", "symmetry", "landmark", "color"})
+    EXPECT_THAT(page, HasSubstr("| `" + std::string(key) + "` |"));
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+#include <mrpt/core/Clock.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/rtti/CObject.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <functional>
+#include <sstream>
+
+#include "random_poses.h"
+#include "roomgraph/observations/CObservationDetections.h"
+#include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/observations/register_classes.h"
+
+namespace roomgraph {
+namespace {
+
+using mrpt::serialization::CSerializable;
+using testing::Random;
+
+mrpt::serialization::CSerializable::Ptr roundTrip(const CSerializable& object) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << object;
+  stream.Seek(0);
+  CSerializable::Ptr back;
+  archive >> back;
+  EXPECT_EQ(stream.getPosition(), stream.getTotalBytesCount()) << "everything that was written is read";
+  return back;
+}
+
+CObservationDetections detections() {
+  CObservationDetections out;
+  out.timestamp = mrpt::Clock::fromDouble(1700000001.5);
+  out.sensorLabel = "DETECTOR";
+  out.setSensorPose(mrpt::poses::CPose3D(1, 2, 3, 0.1, 0.2, 0.3));
+  out.image_label = "KINECT";
+  out.image_width = 640;
+  out.image_height = 480;
+  out.model = "yolox-nano";
+  out.model_hash = "abc123";
+  out.score_threshold = 0.25f;
+  out.nms_threshold = 0.5f;
+  out.items = {{"chair", 0.75f, 1, 2, 30.5f, 40, 7}, {"door", 0.5f, -3, 0, 10, 20, -1}};
+  return out;
+}
+
+Landmark landmark(Random& random, ShapeKind kind, int id) {
+  Landmark out;
+  out.id = LandmarkId{id};
+  out.class_name = "sofa";
+  out.model = "model " + std::to_string(id);
+  out.shape = {kind, random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)};
+  out.position = random.vector(5);
+  out.yaw = random.uniform(-3, 3);
+  out.has_yaw = id % 2 == 0;
+  for (int i = 0; i < 16; ++i) out.covariance(i / 4, i % 4) = random.uniform(-1, 1);
+  out.existence = random.uniform(0, 1);
+  out.class_posterior = {{"sofa", 0.75}, {"door", 0.25}};
+  out.observations = 40 + id;
+  return out;
+}
+
+CSemanticMap semanticMap() {
+  Random random(1);
+  CSemanticMap out;
+  out.origin = "lab.rawlog";
+  out.planar = false;
+  out.occupancy = mrpt::maps::COccupancyGridMap2D::Create(-1.0f, 1.0f, -2.0f, 2.0f, 0.1f);
+  out.occupancy->setCell(3, 4, 0.9f);
+  for (int i = 0; i < 3; ++i) out.landmarks.push_back(landmark(random, static_cast<ShapeKind>(i), i));
+  for (int i = 0; i < 4; ++i) out.world_from_robot.push_back({1700000000.0 + 0.1 * i, random.pose(5)});
+  return out;
+}
+
+std::string describe(const CObservationDetections& observation) {
+  std::ostringstream text;
+  observation.getDescriptionAsText(text);
+  return text.str();
+}
+
+std::string describe(const CSemanticMap& map) {
+  std::ostringstream text;
+  text.precision(17);
+  text << map.origin << map.planar << (map.occupancy ? map.occupancy->asString() : "none") << "\n";
+  for (const auto& l : map.landmarks) {
+    text << l.id << l.class_name << l.model << toString(l.shape.kind) << l.shape.width << " " << l.shape.depth
+         << " " << l.shape.height << l.position << l.yaw << l.has_yaw << l.covariance << l.existence
+         << l.observations;
+    for (const auto& [name, probability] : l.class_posterior) text << name << probability;
+  }
+  for (const auto& p : map.world_from_robot) text << p.t << p.pose.matrix();
+  return text.str();
+}
+
+template <class T>
+std::string describedAfterRoundTrip(const T& object) {
+  const auto back = std::dynamic_pointer_cast<T>(roundTrip(object));
+  return back ? describe(*back) : "another class";
+}
+
+TEST(Serialization, EveryClassComesBackAsItWas) {
+  observations::registerClasses();
+  observations::registerClasses();
+  struct Case {
+    std::string name, before, after;
+  };
+  const std::vector<Case> cases = {
+      {"roomgraph::CObservationDetections", describe(detections()), describedAfterRoundTrip(detections())},
+      {"roomgraph::CObservationDetections", describe(CObservationDetections()),
+       describedAfterRoundTrip(CObservationDetections())},
+      {"roomgraph::CSemanticMap", describe(semanticMap()), describedAfterRoundTrip(semanticMap())},
+      {"roomgraph::CSemanticMap", describe(CSemanticMap()), describedAfterRoundTrip(CSemanticMap())}};
+  for (const auto& c : cases) {
+    EXPECT_EQ(c.after, c.before) << c.name;
+    EXPECT_NE(mrpt::rtti::findRegisteredClass(c.name), nullptr) << c.name;
+  }
+}
+
+TEST(Serialization, DetectionsKeepEveryField) {
+  const auto original = detections();
+  const auto back = std::dynamic_pointer_cast<CObservationDetections>(roundTrip(original));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->timestamp, original.timestamp);
+  EXPECT_EQ(back->sensorLabel, "DETECTOR");
+  EXPECT_EQ(back->sensorPose(), original.sensorPose());
+  ASSERT_EQ(back->items.size(), 2u);
+  EXPECT_EQ(back->items[0].track, 7);
+  EXPECT_EQ(back->items[1].u_min, -3);
+  EXPECT_THAT(describe(*back), ::testing::HasSubstr("chair 0.75 [1, 2, 30.5, 40] track 7"));
+}
+
+TEST(Serialization, MapKeepsItsCells) {
+  const auto original = semanticMap();
+  const auto back = std::dynamic_pointer_cast<CSemanticMap>(roundTrip(original));
+  ASSERT_TRUE(back && back->occupancy);
+  ASSERT_EQ(back->occupancy->getSizeX(), original.occupancy->getSizeX());
+  ASSERT_EQ(back->occupancy->getSizeY(), original.occupancy->getSizeY());
+  for (int y = 0; y < static_cast<int>(original.occupancy->getSizeY()); ++y)
+    for (int x = 0; x < static_cast<int>(original.occupancy->getSizeX()); ++x)
+      ASSERT_EQ(back->occupancy->getCell(x, y), original.occupancy->getCell(x, y));
+}
+
+TEST(Serialization, ReadingReplacesWhatWasThere) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << CSemanticMap();
+  stream.Seek(0);
+  CSemanticMap full = semanticMap();
+  archive >> full;
+  EXPECT_TRUE(full.landmarks.empty());
+  EXPECT_TRUE(full.world_from_robot.empty());
+  EXPECT_FALSE(full.occupancy);
+}
+
+TEST(Serialization, TruncatedDataIsAnErrorNotAnObject) {
+  mrpt::io::CMemoryStream whole;
+  auto out = mrpt::serialization::archiveFrom(whole);
+  out << semanticMap();
+  for (const double share : {0.1, 0.5, 0.99}) {
+    mrpt::io::CMemoryStream part;
+    part.Write(whole.getRawBufferData(),
+               static_cast<std::size_t>(share * static_cast<double>(whole.getTotalBytesCount())));
+    part.Seek(0);
+    auto in = mrpt::serialization::archiveFrom(part);
+    CSemanticMap map;
+    EXPECT_ANY_THROW(in >> map) << share;
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph
