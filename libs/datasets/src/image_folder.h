@@ -7,8 +7,9 @@
 
 namespace roomgraph {
 
-/// Folder of a rawlog's external images by MRPT's convention: "x_Images" beside "x.rawlog" (or "x.rawlog.gz"),
-/// otherwise "Images". CRawlog::detectImagesDirectory() of MRPT 2.5 loses the slash after the folder of a full path.
+/// Folder of a rawlog's external images by MRPT's convention: "x_Images" beside "x.rawlog" (or
+/// "x.rawlog.gz"), otherwise "Images". CRawlog::detectImagesDirectory() of MRPT 2.5 loses the slash after the
+/// folder of a full path.
 inline std::string imageFolderOf(std::filesystem::path file) {
   file = std::filesystem::absolute(file);
   if (file.extension() == ".gz") file.replace_extension();

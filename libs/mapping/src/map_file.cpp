@@ -18,7 +18,7 @@ namespace {
 /// happened.
 std::string cause(const std::exception& error) {
   std::string text = error.what();
-  const auto mark = text.find("Message:");
+  const auto mark = text.rfind("Message:");
   if (mark != std::string::npos) text = text.substr(mark + 8);
   const auto start = text.find_first_not_of(" \t\n");
   if (start == std::string::npos) return "unreadable";

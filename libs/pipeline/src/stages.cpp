@@ -3,12 +3,9 @@
 #include "roomgraph/pipeline/stages.h"
 
 #include "roomgraph/association/register_classes.h"
-#include "roomgraph/backend/register_classes.h"
 #include "roomgraph/core/class_registry.h"
-#include "roomgraph/datasets/register_classes.h"
 #include "roomgraph/detection/register_classes.h"
 #include "roomgraph/lidar/register_classes.h"
-#include "roomgraph/mapping/register_classes.h"
 #include "roomgraph/observations/register_classes.h"
 #include "roomgraph/proposals/register_classes.h"
 #include "roomgraph/selection/register_classes.h"
@@ -97,15 +94,12 @@ void prepareAll(Stages& stages) {
 
 void registerAllClasses() {
   observations::registerClasses();
-  datasets::registerClasses();
   detection::registerClasses();
   tracking::registerClasses();
   lidar::registerClasses();
   proposals::registerClasses();
   selection::registerClasses();
   association::registerClasses();
-  backend::registerClasses();
-  mapping::registerClasses();
 }
 
 std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& folder) {

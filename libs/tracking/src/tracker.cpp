@@ -14,6 +14,9 @@
 namespace roomgraph::tracking {
 namespace {
 
+constexpr int kCoastFrames = 3;  // lost frames over which the velocity is extrapolated
+constexpr int kLoopPause = 3;    // keyframes between two loop closures
+
 /// Why a frame cannot be used at all; empty when it can.
 std::string unusable(const Frame& frame, double last_t) {
   if (frame.gray.empty() && frame.color.empty()) return "no image";
@@ -35,6 +38,21 @@ int countDepth(const Features& features) {
       std::count_if(features.depth.begin(), features.depth.end(), [](float z) { return z > 0; }));
 }
 
+/// Covariance (translation, rotation) turned from frame b into frame a.
+Matrix6d turned(const Matrix6d& covariance, const Pose3& a_from_b) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = a_from_b.linear();
+  return turn * covariance * turn.transpose();
+}
+
+/// Errors that no residual shows: calibration, depth bias, wrong but consistent matches.
+Matrix6d floorCovariance(double sigma_m, double sigma_rad) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
+  covariance.diagonal().tail<3>().setConstant(sigma_rad * sigma_rad);
+  return covariance;
+}
+
 }  // namespace
 
 Pose3 Tracker::lastPose() const {
@@ -42,7 +60,9 @@ Pose3 Tracker::lastPose() const {
 }
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
-  dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(velocity_));
+  // Without other sensors the last velocity is trusted for a moment only.
+  const Pose3 guess = lost_frames_ < kCoastFrames ? velocity_ : Pose3::Identity();
+  dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
   last_t_ = frame.t;
   View view;
@@ -72,10 +92,9 @@ TrackingResult Tracker::start(View view) {
   velocity_ = dead_reckoned_ = Pose3::Identity();
   lost_frames_ = 0;
   last_covariance_.setZero();
-  result.tracked = result.keyframe = true;
-  result.segment = segment_;
-  result.odom_from_camera = view.odom_from_camera;
+  result.keyframe = true;
   result.inliers = result.matches = static_cast<int>(last_points_.size());
+  report(view.features, map_.keyframe(reference_).points, result);
   return result;
 }
 
@@ -92,30 +111,35 @@ TrackingResult Tracker::lost(const std::string& reason, View* view) {
 
 TrackingResult Tracker::accept(View view, const Pose3& previous) {
   velocity_ = normalized(previous.inverse() * view.odom_from_camera);
-  dead_reckoned_ = Pose3::Identity();
   TrackingResult result;
   result.step_covariance = stepCovariance(velocity_, view.solution);
-  if (lost_frames_ > 0) velocity_ = Pose3::Identity();
+  if (lost_frames_ > 0) velocity_ = Pose3::Identity();  // it spans several frames
+  dead_reckoned_ = Pose3::Identity();
   lost_frames_ = 0;
-  result.tracked = true;
-  result.segment = segment_ = map_.keyframe(reference_).segment;
+  segment_ = map_.keyframe(reference_).segment;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
-  last_points_.clear();
-  for (std::size_t i = 0; i < view.points.size(); ++i)
-    if (view.points[i] >= 0) {
-      last_points_.push_back(view.points[i]);
-      result.features.emplace_back(view.features.pixel(i), view.points[i]);
-    }
   if (reference_inliers_ == 0) reference_inliers_ = view.solution.inliers;
+  last_points_.clear();
+  for (const auto id : view.points)
+    if (id >= 0) last_points_.push_back(id);
   result.keyframe = needsKeyframe(view);
   if (result.keyframe) addKeyframe(view);
   records_.push_back({view.frame->t, reference_,
                       result.keyframe
                           ? Pose3::Identity()
                           : map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera});
-  result.odom_from_camera = lastPose();
+  report(view.features, result.keyframe ? map_.keyframe(reference_).points : view.points, result);
   return result;
+}
+
+void Tracker::report(const Features& features, const std::vector<std::int64_t>& points,
+                     TrackingResult& result) const {
+  result.tracked = true;
+  result.segment = segment_;
+  result.odom_from_camera = lastPose();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i] >= 0) result.features.emplace_back(features.pixel(i), points[i]);
 }
 
 bool Tracker::needsKeyframe(const View& view) const {
@@ -138,21 +162,15 @@ void Tracker::addKeyframe(const View& view) {
 }
 
 Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution) {
-  // Both ends of the step were located in the map with an error of their own; both are turned into the older
-  // frame.
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = previous_from_current.linear();
-  Matrix6d covariance = turn * solution.covariance * turn.transpose() + last_covariance_;
+  // Both ends of the step were located in the map with an error of their own.
+  const Matrix6d sum = turned(solution.covariance, previous_from_current) + last_covariance_;
   last_covariance_ = solution.covariance;
-  covariance *= parameters_.covariance_scale;
-  const double m = parameters_.min_step_sigma_m, r = parameters_.min_step_sigma_rad;
-  covariance.diagonal().head<3>().array() += m * m;
-  covariance.diagonal().tail<3>().array() += r * r;
-  return covariance;
+  return parameters_.covariance_scale * sum +
+         floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
 }
 
 void Tracker::closeLoops(int index) {
-  if (index - last_loop_ < 3) return;
+  if (index - last_loop_ < kLoopPause) return;
   const Keyframe& current = map_.keyframe(index);
   for (const int candidate : loopCandidates(map_, index, parameters_)) {
     const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
@@ -161,11 +179,8 @@ void Tracker::closeLoops(int index) {
     closure.t_a = map_.keyframe(candidate).t;
     closure.t_b = current.t;
     closure.a_from_b = found.solution.camera_from_world.inverse();
-    Matrix6d turn = Matrix6d::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = closure.a_from_b.linear();
-    closure.covariance = parameters_.covariance_scale * turn * found.solution.covariance * turn.transpose();
-    closure.covariance.diagonal().head<3>().array() += std::pow(parameters_.min_step_sigma_m, 2);
-    closure.covariance.diagonal().tail<3>().array() += std::pow(parameters_.min_step_sigma_rad, 2);
+    closure.covariance = parameters_.covariance_scale * turned(found.solution.covariance, closure.a_from_b) +
+                         floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
     closure.source = "tracking";
     closures_.push_back(closure);
     last_loop_ = index;

@@ -37,13 +37,15 @@ bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
 }
 
 bool Tracker::trackLastPoints(View& view, double radius_px) const {
-  const View before = view;
+  const auto no_points = view.points;
+  const Pose3 predicted = view.odom_from_camera;
   const Pose3 camera_from_odom = view.odom_from_camera.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, radius_px};
   assign(view.points, search.match(last_points_, view.features, view.points, parameters_));
   // Half of what was matched must agree, otherwise the prediction was wrong.
   if (solve(view, parameters_.min_inliers, false) && view.solution.inliers > view.matches / 2) return true;
-  view = before;
+  view.points = no_points;
+  view.odom_from_camera = predicted;
   return false;
 }
 

@@ -85,6 +85,16 @@ void declareRecovery(ParameterVisitor& v, TrackingParameters& p) {
         {.doc = "Least standard deviation of a step's translation.", .unit = "m", .min = 1e-6, .max = 1});
   v.add("min_step_sigma_rad", p.min_step_sigma_rad,
         {.doc = "Least standard deviation of a step's rotation.", .unit = "rad", .min = 1e-6, .max = 1});
+  v.add("min_loop_sigma_m", p.min_loop_sigma_m,
+        {.doc = "Least standard deviation of a loop closure's translation.",
+         .unit = "m",
+         .min = 1e-6,
+         .max = 1});
+  v.add("min_loop_sigma_rad", p.min_loop_sigma_rad,
+        {.doc = "Least standard deviation of a loop closure's rotation.",
+         .unit = "rad",
+         .min = 1e-6,
+         .max = 1});
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class OccupancyMapper : public Configurable {
   double max_range_m_ = 12;
   double no_return_free_m_ = 4;
   double hit_probability_ = 0.7;
-  double pass_probability_ = 0.4;
+  double pass_probability_ = 0.45;
   double min_move_m_ = 0.1;
   double min_turn_rad_ = 0.1;
   double max_wait_s_ = 2;

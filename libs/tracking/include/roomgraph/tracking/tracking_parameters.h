@@ -42,10 +42,12 @@ struct TrackingParameters : Configurable {
   int loop_candidates = 2;
   int loop_min_gap = 15;
   int loop_min_inliers = 40;
-  // covariance of a step
+  // covariance of steps and loop closures
   double covariance_scale = 4;
   double min_step_sigma_m = 0.003;
   double min_step_sigma_rad = 0.002;
+  double min_loop_sigma_m = 0.02;
+  double min_loop_sigma_rad = 0.01;
 
   void declareParameters(ParameterVisitor& visitor) override;
 };

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/core/progress.h"
+#include "roomgraph/datasets/tum_import.h"
+
+namespace roomgraph {
+namespace {
+
+struct Arguments {
+  std::filesystem::path folder, rawlog;
+  TumImportOptions options;
+};
+
+void importFolder(const Arguments& arguments) {
+  std::unique_ptr<Progress> line;
+  const auto result = importTum(
+      arguments.folder, arguments.rawlog, arguments.options, [&](std::size_t done, std::size_t total) {
+        if (!line)
+          line = std::make_unique<Progress>(&std::cerr, "import", "images", static_cast<double>(total));
+        line->update(static_cast<double>(done));
+      });
+  if (line) line->finish();
+  for (const auto& warning : result.warnings) std::cerr << "roomgraph: warning: " << warning << "\n";
+  std::cout << arguments.rawlog.string() << ": " << result.written << " records '" << arguments.options.label
+            << "', " << result.camera.width << "x" << result.camera.height << " px";
+  if (result.missing > 0) std::cout << "; " << result.missing << " pairs left out";
+  std::cout << "\n";
+  if (!result.ground_truth.empty())
+    std::cout << result.ground_truth.string() << ": ground truth, camera poses (optical frame)\n";
+}
+
+}  // namespace
+
+void addImportCommand(CLI::App& app) {
+  auto* import = app.add_subcommand("import", "Turn other recordings into a rawlog");
+  import->require_subcommand(1);
+  auto* tum =
+      import->add_subcommand("tum", "TUM or ICL-NUIM folder: associations.txt, or rgb.txt and depth.txt");
+  auto arguments = std::make_shared<Arguments>();
+  auto& options = arguments->options;
+  tum->add_option("DIR", arguments->folder, "folder with the images and their lists")->required();
+  tum->add_option("-o,--output", arguments->rawlog, "rawlog to write (gzip inside)")->required();
+  tum->add_option(
+      "--camera", options.camera_file,
+      "JSON with fx, fy, cx, cy, depth_scale, and if known width, height, distortion [k1 k2 p1 p2 k3]; "
+      "default: camera.json in DIR");
+  tum->add_option("--fx", options.fx, "focal length, px");
+  tum->add_option("--fy", options.fy, "focal length, px; negative for ICL-NUIM");
+  tum->add_option("--cx", options.cx, "principal point, px");
+  tum->add_option("--cy", options.cy, "principal point, px");
+  tum->add_option("--depth-scale", options.depth_scale,
+                  "depth PNG value / scale = metres (TUM, ICL-NUIM: 5000)");
+  tum->add_option("--max-difference", options.max_time_difference_s,
+                  "largest time between colour and depth, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  tum->add_option("--frame-rate", options.frame_rate_hz, "time stamps are frame numbers at this rate, Hz");
+  tum->add_option("--label", options.label, "sensor label of the records")->capture_default_str();
+  tum->add_flag("--external-images", options.external_images, "keep the images as files in X_Images/");
+  tum->callback([arguments] { importFolder(*arguments); });
+}
+
+}  // namespace roomgraph

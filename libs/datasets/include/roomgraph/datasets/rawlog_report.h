@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roomgraph/geometry/camera.h"
+#include "roomgraph/geometry/pose.h"
+
+namespace roomgraph {
+
+enum class Severity { kNote, kWarning, kError };
+const char* toString(Severity severity);
+
+/// Something about a recording that will, or may, spoil what is computed from it.
+struct Finding {
+  Severity severity = Severity::kNote;
+  std::string what;
+  std::string place;  ///< sensor label, with record number or time where one record is to blame
+  std::string hint;   ///< what to do about it
+};
+
+/// Camera of a sensor and what its images are like.
+struct ImageSummary {
+  int color = 0, depth = 0;    ///< records that have one
+  PinholeCamera color_camera;  ///< of the first record, as calibrated; size of its image
+  PinholeCamera depth_camera;
+  int color_width = 0, color_height = 0, depth_width = 0, depth_height = 0;  ///< px
+  bool registered = false;  ///< depth and colour have one camera in common
+  bool range_is_depth = true;
+  double depth_unit_m = 0;
+  double median_depth_m = 0;  ///< of the valid pixels looked at; 0 when there are none
+  double valid_depth_share = 0;
+  int external_present = 0, external_missing = 0;  ///< records with images in files outside the rawlog
+  std::string first_missing;                       ///< file
+};
+
+struct ScanSummary {
+  int beams = 0;  ///< of the first scan
+  bool beams_change = false;
+  double aperture_rad = 0;
+  double max_range_m = 0;
+  bool right_to_left = true;
+  double valid_share = 0;       ///< returns among all beams
+  double at_max_share = 0;      ///< beams at the maximum range among all
+  double largest_change_m = 0;  ///< mean difference per beam of a scan to the first one, largest
+  /// Rotation by odometry over that seen in the scans, in turns on the spot (1 when all is well, negative
+  /// when the scans are mirrored); nothing when there are too few such turns.
+  std::optional<double> rotation_ratio;
+};
+
+struct SensorReport {
+  std::string label, class_name;
+  bool used = false;  ///< a kind of record that roomgraph uses
+  int count = 0;
+  int invalid_times = 0;
+  int out_of_order = 0;                  ///< records older than the one before them of the same sensor
+  int first_out_of_order = -1;           ///< number of the record among the sensor's own
+  double first_time = 0, last_time = 0;  ///< s
+  double rate_hz = 0;
+  double median_interval_s = 0;
+  double largest_gap_s = 0, largest_gap_time = 0;
+  std::optional<Pose3> robot_from_sensor;  ///< MRPT's sensorPose of the first record (x forward)
+  bool pose_changes = false;
+  std::optional<ImageSummary> images;
+  std::optional<ScanSummary> scans;
+  std::optional<double> path_length_m;  ///< odometry
+  double odometry_turn_rad = 0;         ///< sum of the turns, without sign
+};
+
+struct RawlogReport {
+  std::filesystem::path file;
+  std::uint64_t file_bytes = 0;
+  std::string format;                    ///< "observations", "actions and sensory frames" or "mixed"
+  int records = 0;                       ///< top-level objects
+  double first_time = 0, last_time = 0;  ///< s, of all sensors
+  double largest_step_back_s = 0;        ///< how far a record is older than one before it in the file
+  std::vector<SensorReport> sensors;     ///< in the order they first appear
+  std::map<std::string, int> skipped;    ///< broken records by reason
+  std::string truncation;                ///< file ends too early: where; empty otherwise
+  std::vector<Finding> findings;         ///< worst first
+
+  double duration() const { return last_time - first_time; }
+};
+
+/// Reads the whole file and says what is inside and what is wrong with it. Throws InputError like
+/// RawlogReader. `progress` gets the share read, [0, 1].
+RawlogReport inspectRawlog(const std::filesystem::path& file,
+                           const std::function<void(double)>& progress = nullptr);
+
+/// The findings for a report (the report's own list is not looked at), worst first.
+std::vector<Finding> findProblems(const RawlogReport& report);
+
+}  // namespace roomgraph

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "roomgraph/datasets/rawlog_report.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kRad = 180 / M_PI;
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[400];
+  va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(text, sizeof text, pattern, values);
+  va_end(values);
+  return text;
+}
+
+class Findings {
+ public:
+  void at(std::string place) { place_ = std::move(place); }
+  void error(const std::string& what, const std::string& hint) { add(Severity::kError, what, hint); }
+  void warning(const std::string& what, const std::string& hint) { add(Severity::kWarning, what, hint); }
+  void note(const std::string& what, const std::string& hint) { add(Severity::kNote, what, hint); }
+  std::vector<Finding> sorted() {
+    std::stable_sort(list_.begin(), list_.end(),
+                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
+    return std::move(list_);
+  }
+
+ private:
+  void add(Severity severity, const std::string& what, const std::string& hint) {
+    list_.push_back({severity, what, place_, hint});
+  }
+  std::string place_;
+  std::vector<Finding> list_;
+};
+
+std::string nameOf(const SensorReport& sensor) {
+  return sensor.label.empty() ? sensor.class_name : sensor.label;
+}
+
+void checkTimes(const SensorReport& sensor, Findings& out) {
+  constexpr double kLongGapS = 1, kGapIntervals = 10;
+  const int valid = sensor.count - sensor.invalid_times;
+  if (sensor.invalid_times > 0 && sensor.class_name == "CActionCollection")
+    out.note(format("%d of %d actions have no time stamp", sensor.invalid_times, sensor.count),
+             "they take the time of the next observation");
+  else if (sensor.invalid_times > 0)
+    out.warning(format("%d of %d records have no valid time stamp", sensor.invalid_times, sensor.count),
+                "such records are left out; set the stamps, e.g. with rawlog-edit");
+  if (valid > 1 && sensor.first_time == sensor.last_time)
+    out.error("all time stamps are equal",
+              "the order and speed of movement are lost: export the recording again");
+  if (sensor.out_of_order > 0)
+    out.warning(format("%d records are older than the one before; first: record %d", sensor.out_of_order,
+                       sensor.first_out_of_order),
+                "sort by time: rawlog-edit --sort-by-timestamp");
+  if (sensor.largest_gap_s > kLongGapS && sensor.largest_gap_s > kGapIntervals * sensor.median_interval_s)
+    out.warning(format("gap of %.1f s after t = %.3f s (usual interval %.3f s)", sensor.largest_gap_s,
+                       sensor.largest_gap_time, sensor.median_interval_s),
+                "tracking will have to bridge it by odometry, or will be lost");
+}
+
+void checkCamera(const char* which, const PinholeCamera& camera, int width, Findings& out) {
+  if (width == 0) return;
+  if (!camera.valid()) {
+    out.error(format("no %s intrinsics that fit the image size", which),
+              "set cameraParams to the calibration");
+    return;
+  }
+  const double off_x = std::abs(camera.cx / camera.width - 0.5),
+               off_y = std::abs(camera.cy / camera.height - 0.5);
+  const double view = 2 * std::atan(0.5 * camera.width / camera.fx) * kRad;
+  if (off_x > 0.3 || off_y > 0.3)
+    out.warning(format("%s principal point (%.1f, %.1f) is far from the centre", which, camera.cx, camera.cy),
+                "check the calibration and the image size it was made for");
+  if (view < 15 || view > 150)
+    out.warning(format("%s field of view is %.0f deg wide", which, view), "check the focal length");
+}
+
+void checkDepth(const ImageSummary& images, Findings& out) {
+  constexpr double kNearestM = 0.1, kFarthestM = 50, kCoarsestUnitM = 0.1;
+  if (images.depth == 0) {
+    out.warning("colour without depth", "objects cannot be measured without depth");
+    return;
+  }
+  const std::string unit_hint = "rangeUnits must be the metres of one step of rangeImage (usually 0.001)";
+  if (images.valid_depth_share == 0) {
+    out.error("depth images are empty", "no pixel has a depth: check the driver or the conversion");
+  } else if (images.median_depth_m < kNearestM || images.median_depth_m > kFarthestM) {
+    out.error(format("median depth is %.3g m: the depth unit (%.3g m) is wrong", images.median_depth_m,
+                     images.depth_unit_m),
+              unit_hint);
+  } else if (images.depth_unit_m >= kCoarsestUnitM) {
+    out.error(format("depth unit of %.3g m is too coarse", images.depth_unit_m), unit_hint);
+  }
+  if (images.color > 0 && !images.registered)
+    out.note("depth is not registered to colour",
+             "it is projected into the colour image when read; gaps may appear");
+  if (!images.range_is_depth)
+    out.note("depth images hold ranges along the ray", "converted to depth when read");
+}
+
+void checkImages(const SensorReport& sensor, Findings& out) {
+  const auto& images = *sensor.images;
+  if (images.external_missing > 0) {
+    const auto text = format("%d of %d records lack their image file, e.g. %s", images.external_missing,
+                             images.external_missing + images.external_present, images.first_missing.c_str());
+    const std::string hint = "put the images into the folder <rawlog>_Images beside the rawlog";
+    if (images.external_present == 0)
+      out.error(text, hint);
+    else
+      out.warning(text, hint);
+  }
+  if (images.color + images.depth == 0) {
+    if (images.external_missing == 0)
+      out.error("no images in the records", "only points or nothing was recorded");
+    return;
+  }
+  checkCamera("colour", images.color_camera, images.color_width, out);
+  checkCamera("depth", images.depth_camera, images.depth_width, out);
+  checkDepth(images, out);
+}
+
+/// Whether an angle is a usual step between beams: 1/12 deg to 2 deg, or a circle cut into 2^n.
+bool usualStep(double degrees) {
+  constexpr std::array<double, 12> kSteps = {2,       1,    0.5,  0.25, 0.125, 1 / 3.0,
+                                             1 / 6.0, 0.36, 0.72, 0.2,  0.1,   360 / 1024.0};
+  return std::any_of(kSteps.begin(), kSteps.end(),
+                     [&](double s) { return std::abs(degrees / s - 1) < 5e-4; });
+}
+
+void checkAperture(const ScanSummary& scans, Findings& out) {
+  const double aperture = scans.aperture_rad;
+  if (!(aperture > 0) || aperture > 2 * M_PI + 0.01) {
+    out.error(format("aperture of %.4f rad is impossible", aperture),
+              "aperture is in radians, first beam to last");
+    return;
+  }
+  if (scans.beams < 2) return;
+  const double step = aperture / (scans.beams - 1) * kRad, rival = aperture / scans.beams * kRad;
+  if (!usualStep(step) && usualStep(rival))
+    out.note(
+        format("%d beams over %.2f deg are %.4f deg apart; with one interval more it would be %.4f",
+               scans.beams, aperture * kRad, step, rival),
+        "aperture is the angle from the first beam to the last: (beams - 1) * step; check which was meant");
+  if (!scans.rotation_ratio) return;
+  if (*scans.rotation_ratio < 0)
+    out.warning("scans turn the same way as the robot: they are mirrored",
+                "check rightToLeft, or upside-down mounting");
+  else if (std::abs(*scans.rotation_ratio - 1) > 0.15)
+    out.warning(format("odometry turns %.2f times as much as the scans show", *scans.rotation_ratio),
+                format("if odometry is right, the aperture is %.1f deg instead of %.1f",
+                       aperture * kRad * *scans.rotation_ratio, aperture * kRad));
+}
+
+void checkScans(const SensorReport& sensor, Findings& out) {
+  const auto& scans = *sensor.scans;
+  checkAperture(scans, out);
+  if (scans.beams_change) out.note("the number of beams changes", "each scan is read with its own");
+  if (scans.beams == 0)
+    out.error("scans without beams", "check the driver or the conversion");
+  else if (scans.at_max_share > 0.99)
+    out.error(format("all ranges are at the maximum (%.2f m)", scans.max_range_m),
+              "check the unit of the ranges, and maxRange");
+  else if (scans.valid_share == 0)
+    out.error("all ranges are invalid", "check the unit of the ranges, and the validity flags");
+  else if (scans.valid_share < 0.05)
+    out.warning(format("only %.1f %% of the beams have a return", 100 * scans.valid_share), "check maxRange");
+  if (!(scans.max_range_m > 0))
+    out.note("maximum range is not set", "beams without return cannot be told apart");
+}
+
+void checkOdometry(const RawlogReport& report, const SensorReport& sensor, Findings& out) {
+  constexpr double kMovedM =
+      0.3;  // mean change per beam that cannot come from noise or one person walking by
+  if (sensor.count < 2 || *sensor.path_length_m > 0 || sensor.odometry_turn_rad > 0) return;
+  const bool moving = std::any_of(
+      report.sensors.begin(), report.sensors.end(),
+      [](const SensorReport& other) { return other.scans && other.scans->largest_change_m > kMovedM; });
+  if (moving)
+    out.error("odometry never changes while the scans do", "run with --set odometry.enabled=false");
+  else
+    out.note("odometry never changes", "the robot stands still, or run with --set odometry.enabled=false");
+}
+
+void checkPose(const SensorReport& sensor, Findings& out) {
+  if (sensor.pose_changes)
+    out.note("the sensor's pose on the robot changes", "each record is used with its own");
+  const auto& pose = sensor.robot_from_sensor;
+  if (sensor.used && pose && pose->isApprox(Pose3::Identity(), 1e-9) && (sensor.images || sensor.scans))
+    out.note(
+        "the sensor sits at the robot's origin, looking ahead",
+        "if this is not so, set it: rawlog-edit --set-sensor-pose (heights above the floor depend on it)");
+}
+
+void checkWhole(const RawlogReport& report, Findings& out) {
+  constexpr double kLargeStepBackS = 1;
+  const auto has = [&](auto predicate) {
+    return std::any_of(report.sensors.begin(), report.sensors.end(), predicate);
+  };
+  out.at("file");
+  if (!report.truncation.empty()) out.warning(report.truncation, "what comes before is used");
+  for (const auto& [reason, count] : report.skipped)
+    out.warning(format("%d x %s", count, reason.c_str()), "such records are left out");
+  if (!has([](const SensorReport& s) { return s.images || s.scans; }))
+    out.error("no usable sensor", "needs CObservation3DRangeScan (RGB-D) or CObservation2DRangeScan (lidar)");
+  else if (!has([](const SensorReport& s) { return s.path_length_m.has_value(); }))
+    out.note("no odometry", "movement is found from images or scans alone");
+  if (report.largest_step_back_s > kLargeStepBackS)
+    out.warning(
+        format("records are out of order by up to %.3f s between sensors", report.largest_step_back_s),
+        "sort by time: rawlog-edit --sort-by-timestamp");
+}
+
+}  // namespace
+
+std::vector<Finding> findProblems(const RawlogReport& report) {
+  Findings out;
+  checkWhole(report, out);
+  for (const auto& sensor : report.sensors) {
+    out.at(nameOf(sensor));
+    if (!sensor.used) {
+      out.note(format("%d records of class %s are not used", sensor.count, sensor.class_name.c_str()), "");
+      continue;
+    }
+    checkTimes(sensor, out);
+    checkPose(sensor, out);
+    if (sensor.images) checkImages(sensor, out);
+    if (sensor.scans) checkScans(sensor, out);
+    if (sensor.path_length_m) checkOdometry(report, sensor, out);
+  }
+  return out.sorted();
+}
+
+}  // namespace roomgraph

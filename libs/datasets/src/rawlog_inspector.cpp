@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "image_folder.h"
+#include "odometry_sum.h"
+#include "record_source.h"
+#include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/observations/CObservationDetections.h"
+#include "sensor_statistics.h"
+
+namespace roomgraph {
+namespace {
+
+using mrpt::obs::CActionCollection;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationOdometry;
+
+constexpr double kPoseTolerance = 1e-6;  // m, rad
+
+struct Sensor {
+  SensorReport report;
+  TimeStatistics times;
+  std::optional<ImageStatistics> images;
+  std::optional<ScanStatistics> scans;
+  std::optional<Pose2> last_odometry;
+};
+
+class Inspector {
+ public:
+  explicit Inspector(const std::filesystem::path& file) : image_folder_(imageFolderOf(file)) {}
+
+  void add(const mrpt::serialization::CSerializable::Ptr& object) {
+    if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
+      ++paired_;
+      addActions(*actions);
+    } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+      ++paired_;
+      for (const auto& observation : *frame) addObservation(observation);
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+      ++single_;
+      addObservation(observation);
+    } else if (object) {
+      sensor("", shortClassName(object->GetRuntimeClass()->className)).times.add(std::nullopt);
+    }
+  }
+
+  void report(RawlogReport& out) const {
+    out.format = paired_ == 0 ? "observations" : single_ == 0 ? "actions and sensory frames" : "mixed";
+    out.records = paired_ + single_;
+    out.largest_step_back_s = largest_step_back_;
+    out.first_time = std::numeric_limits<double>::infinity();
+    out.last_time = -out.first_time;
+    for (const auto& entry : sensors_) {
+      SensorReport line = entry->report;
+      entry->times.report(line);
+      if (entry->images) line.images = entry->images->report();
+      if (entry->scans) line.scans = entry->scans->report(odometry_);
+      if (line.count > line.invalid_times) {
+        out.first_time = std::min(out.first_time, line.first_time);
+        out.last_time = std::max(out.last_time, line.last_time);
+      }
+      out.sensors.push_back(std::move(line));
+    }
+    if (out.first_time > out.last_time) out.first_time = out.last_time = 0;
+  }
+
+ private:
+  Sensor& sensor(const std::string& label, const std::string& class_name) {
+    for (const auto& entry : sensors_)
+      if (entry->report.label == label && entry->report.class_name == class_name) return *entry;
+    sensors_.push_back(std::make_unique<Sensor>());
+    sensors_.back()->report.label = label;
+    sensors_.back()->report.class_name = class_name;
+    return *sensors_.back();
+  }
+
+  void addTime(Sensor& entry, std::optional<double> t) {
+    entry.times.add(t);
+    if (!t) return;
+    largest_step_back_ = std::max(largest_step_back_, latest_ - *t);
+    latest_ = std::max(latest_, *t);
+  }
+
+  void addOdometry(Sensor& entry, std::optional<double> t, const Pose2& pose) {
+    entry.report.used = true;
+    const Pose2 before = entry.last_odometry.value_or(pose);
+    entry.report.path_length_m =
+        entry.report.path_length_m.value_or(0) + std::hypot(pose.x - before.x, pose.y - before.y);
+    entry.report.odometry_turn_rad += std::abs(wrapAngle(pose.yaw - before.yaw));
+    entry.last_odometry = pose;
+    if (t && (odometry_.empty() || *t > odometry_.lastTime())) odometry_.add(*t, toPose3(pose));
+  }
+
+  void addActions(const CActionCollection& actions) {
+    Sensor& entry = sensor("", "CActionCollection");
+    if (!sum_.add(actions)) {
+      entry.times.add(std::nullopt);
+      return;
+    }
+    addTime(entry, sum_.time());
+    addOdometry(entry, sum_.time(), sum_.pose());
+  }
+
+  void addPose(Sensor& entry, const CObservation& observation) {
+    mrpt::poses::CPose3D sensor_pose;
+    observation.getSensorPose(sensor_pose);
+    const Pose3 pose = toPose3(sensor_pose);
+    if (!entry.report.robot_from_sensor) entry.report.robot_from_sensor = pose;
+    entry.report.pose_changes =
+        entry.report.pose_changes || !pose.isApprox(*entry.report.robot_from_sensor, kPoseTolerance);
+  }
+
+  void addObservation(const CObservation::Ptr& observation) {
+    Sensor& entry =
+        sensor(observation->sensorLabel, shortClassName(observation->GetRuntimeClass()->className));
+    const auto t = toSeconds(observation->timestamp);
+    addTime(entry, t);
+    if (const auto wheels = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+      addOdometry(entry, t, {wheels->odometry.x(), wheels->odometry.y(), wheels->odometry.phi()});
+      return;
+    }
+    addPose(entry, *observation);
+    if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
+      entry.report.used = true;
+      if (!entry.scans) entry.scans.emplace();
+      entry.scans->add(*scan);
+    } else if (const auto images = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
+      entry.report.used = true;
+      if (!entry.images) entry.images.emplace();
+      entry.images->add(*images, image_folder_);
+    } else {
+      entry.report.used = std::dynamic_pointer_cast<CObservationDetections>(observation) != nullptr;
+    }
+  }
+
+  std::string image_folder_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+  OdometrySum sum_;
+  Trajectory odometry_;
+  int paired_ = 0, single_ = 0;
+  double latest_ = -std::numeric_limits<double>::infinity(), largest_step_back_ = 0;
+};
+
+}  // namespace
+
+const char* toString(Severity severity) {
+  switch (severity) {
+    case Severity::kError:
+      return "error";
+    case Severity::kWarning:
+      return "warning";
+    default:
+      return "note";
+  }
+}
+
+RawlogReport inspectRawlog(const std::filesystem::path& file, const std::function<void(double)>& progress) {
+  RecordSource source(file);
+  Inspector inspector(file);
+  RawlogReport report;
+  report.file = file;
+  report.file_bytes = std::filesystem::file_size(file);
+  while (const auto item = source.next()) {
+    if (item->object)
+      inspector.add(item->object);
+    else
+      ++report.skipped[item->reason];
+    if (progress) progress(source.progress());
+  }
+  inspector.report(report);
+  report.truncation = source.truncation();
+  report.findings = findProblems(report);
+  return report;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "sensor_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame_conversion.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr int kImageStride = 10;  // every n-th image is looked at for its depths,
+constexpr int kPixelStride = 7;   // and in it every n-th pixel, along both axes
+constexpr std::size_t kMaxScans = 20000;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void TimeStatistics::add(std::optional<double> t) {
+  if (t)
+    times_.push_back(*t);
+  else
+    ++invalid_;
+}
+
+void TimeStatistics::report(SensorReport& out) const {
+  out.count = static_cast<int>(times_.size()) + invalid_;
+  out.invalid_times = invalid_;
+  if (times_.empty()) return;
+  const auto [first, last] = std::minmax_element(times_.begin(), times_.end());
+  out.first_time = *first;
+  out.last_time = *last;
+  if (*last > *first) out.rate_hz = static_cast<double>(times_.size() - 1) / (*last - *first);
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < times_.size(); ++i) {
+    const double interval = times_[i] - times_[i - 1];
+    intervals.push_back(interval);
+    if (interval < 0 && out.out_of_order++ == 0) out.first_out_of_order = static_cast<int>(i);
+    if (interval > out.largest_gap_s) {
+      out.largest_gap_s = interval;
+      out.largest_gap_time = times_[i - 1];
+    }
+  }
+  out.median_interval_s = median(intervals);
+}
+
+void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observation) {
+  const auto& ranges = observation.rangeImage;
+  for (int v = 0; v < static_cast<int>(ranges.rows()); v += kPixelStride)
+    for (int u = 0; u < static_cast<int>(ranges.cols()); u += kPixelStride) {
+      ++samples_;
+      if (ranges(v, u) > 0) depths_m_.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
+    }
+}
+
+void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder) {
+  const bool external = (observation.hasIntensityImage && observation.intensityImage.isExternallyStored()) ||
+                        (observation.hasRangeImage && observation.rangeImage_isExternallyStored());
+  if (external) {
+    const std::string missing = missingExternalFile(observation, image_folder);
+    ++(missing.empty() ? summary_.external_present : summary_.external_missing);
+    if (!missing.empty() && summary_.first_missing.empty()) summary_.first_missing = missing;
+    if (!missing.empty()) return;
+  }
+  summary_.color += observation.hasIntensityImage;
+  summary_.depth += observation.hasRangeImage;
+  const bool first = seen_++ == 0;
+  if (!first && seen_ % kImageStride != 0) return;
+  observation.load();
+  if (observation.hasRangeImage) addDepth(observation);
+  if (!first) return;
+  const auto& ranges = observation.rangeImage;
+  summary_.depth_width = static_cast<int>(ranges.cols());
+  summary_.depth_height = static_cast<int>(ranges.rows());
+  if (observation.hasIntensityImage) {
+    summary_.color_width = static_cast<int>(observation.intensityImage.getWidth());
+    summary_.color_height = static_cast<int>(observation.intensityImage.getHeight());
+  }
+  summary_.color_camera =
+      cameraForImage(observation.cameraParamsIntensity, summary_.color_width, summary_.color_height);
+  summary_.depth_camera =
+      cameraForImage(observation.cameraParams, summary_.depth_width, summary_.depth_height);
+  summary_.registered = depthIsRegistered(observation, summary_.color_camera, summary_.depth_camera);
+  summary_.range_is_depth = observation.range_is_depth;
+  summary_.depth_unit_m = observation.rangeUnits;
+}
+
+ImageSummary ImageStatistics::report() const {
+  ImageSummary out = summary_;
+  out.median_depth_m = median({depths_m_.begin(), depths_m_.end()});
+  if (samples_ > 0)
+    out.valid_depth_share = static_cast<double>(depths_m_.size()) / static_cast<double>(samples_);
+  return out;
+}
+
+void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) {
+  Stamped scan{mrpt::Clock::toDouble(observation.timestamp), {}};
+  const std::size_t beams = observation.getScanSize();
+  if (scans_.empty()) {
+    summary_.beams = static_cast<int>(beams);
+    summary_.aperture_rad = observation.aperture;
+    summary_.max_range_m = observation.maxRange;
+    summary_.right_to_left = observation.rightToLeft;
+  }
+  summary_.beams_change = summary_.beams_change || static_cast<int>(beams) != summary_.beams;
+  scan.ranges_m.resize(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
+    const float range = observation.getScanRange(i);
+    const bool at_max = observation.maxRange > 0 && range >= 0.999f * observation.maxRange;
+    const bool valid = observation.getScanRangeValidity(i) && std::isfinite(range) && range > 0 && !at_max;
+    at_max_ += at_max;
+    valid_ += valid;
+    scan.ranges_m[i] = valid ? range : 0.f;
+  }
+  beams_ += beams;
+  if (scans_.size() < kMaxScans) scans_.push_back(std::move(scan));
+}
+
+ScanSummary ScanStatistics::report(const Trajectory& odometry) const {
+  ScanSummary out = summary_;
+  if (beams_ > 0) {
+    out.valid_share = static_cast<double>(valid_) / static_cast<double>(beams_);
+    out.at_max_share = static_cast<double>(at_max_) / static_cast<double>(beams_);
+  }
+  for (const auto& scan : scans_) {
+    double sum = 0;
+    int both = 0;
+    const auto& first = scans_.front().ranges_m;
+    for (std::size_t i = 0; i < std::min(first.size(), scan.ranges_m.size()); ++i)
+      if (first[i] > 0 && scan.ranges_m[i] > 0) {
+        sum += std::abs(first[i] - scan.ranges_m[i]);
+        ++both;
+      }
+    if (both > 0) out.largest_change_m = std::max(out.largest_change_m, sum / both);
+  }
+  out.rotation_ratio = rotationRatio(odometry);
+  return out;
+}
+
+std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) const {
+  constexpr double kLeastTurn = 0.1, kLargestTurn = 0.5;  // rad
+  constexpr double kLargestMove = 0.08;                   // m: more would change the ranges themselves
+  constexpr std::size_t kLeastPairs = 5, kMostPairs = 200;
+  if (odometry.size() < 2 || summary_.beams < 30 || !(summary_.aperture_rad > 0)) return std::nullopt;
+  const double step = summary_.aperture_rad / (summary_.beams - 1);
+  const double direction = summary_.right_to_left ? 1 : -1;
+  std::vector<double> ratios;
+  for (std::size_t i = 0, j = 1; j < scans_.size() && ratios.size() < kMostPairs; ++j) {
+    const auto moved = odometry.between(scans_[i].t, scans_[j].t);
+    const double turn = moved ? std::abs(planarPart(*moved).yaw) : 0;
+    if (!moved || moved->translation().norm() > kLargestMove || turn > kLargestTurn) {
+      i = j;
+      continue;
+    }
+    if (turn < kLeastTurn) continue;
+    // Twice the turn in both directions leaves room for an aperture that is wrong by a factor of two.
+    const auto shift = beamShift(scans_[i].ranges_m, scans_[j].ranges_m, static_cast<int>(2.5 * turn / step));
+    if (shift && *shift != 0) ratios.push_back(direction * planarPart(*moved).yaw / (*shift * step));
+    i = j;
+  }
+  if (ratios.size() < kLeastPairs) return std::nullopt;
+  return median(ratios);
+}
+
+std::optional<double> beamShift(const std::vector<float>& before, const std::vector<float>& after,
+                                int largest_shift) {
+  const int count = static_cast<int>(std::min(before.size(), after.size()));
+  constexpr double kLargestMismatch = 0.1;  // m per beam, robust
+  double best = kLargestMismatch;
+  std::optional<double> found;
+  for (int shift = -largest_shift; shift <= largest_shift; ++shift) {
+    double sum = 0;
+    int both = 0;
+    for (int i = std::max(0, -shift); i < std::min(count, count - shift); ++i) {
+      const float a = before[static_cast<std::size_t>(i + shift)], b = after[static_cast<std::size_t>(i)];
+      if (a <= 0 || b <= 0) continue;
+      sum += std::min(0.5f, std::abs(a - b));
+      ++both;
+    }
+    if (both < count / 3 || sum / both >= best) continue;
+    best = sum / both;
+    found = shift;
+  }
+  return found;
+}
+
+}  // namespace roomgraph

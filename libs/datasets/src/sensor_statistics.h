@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/observations/trajectory.h"
+
+namespace roomgraph {
+
+/// Stamps of one sensor in file order.
+class TimeStatistics {
+ public:
+  void add(std::optional<double> t);
+  void report(SensorReport& out) const;
+
+ private:
+  std::vector<double> times_;
+  int invalid_ = 0;
+};
+
+class ImageStatistics {
+ public:
+  void add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder);
+  ImageSummary report() const;
+
+ private:
+  void addDepth(const mrpt::obs::CObservation3DRangeScan& observation);
+  ImageSummary summary_;
+  std::vector<float> depths_m_;  ///< samples of the valid ones
+  std::size_t samples_ = 0;
+  int seen_ = 0;
+};
+
+class ScanStatistics {
+ public:
+  void add(const mrpt::obs::CObservation2DRangeScan& observation);
+  /// `odometry` may be empty.
+  ScanSummary report(const Trajectory& odometry) const;
+
+ private:
+  struct Stamped {
+    double t;
+    std::vector<float> ranges_m;  ///< 0: no return
+  };
+  std::optional<double> rotationRatio(const Trajectory& odometry) const;
+  ScanSummary summary_;
+  std::vector<Stamped> scans_;
+  std::size_t beams_ = 0, valid_ = 0, at_max_ = 0;
+};
+
+/// Rotation between two scans of the same place as a number of beams, found by shifting one over the other:
+/// range of beam i + shift in `before` equals that of beam i in `after`. Nothing when they do not match well.
+std::optional<double> beamShift(const std::vector<float>& before, const std::vector<float>& after,
+                                int largest_shift);
+
+}  // namespace roomgraph

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace roomgraph {
+
+/// Ground truth file of a TUM / ICL-NUIM folder: groundtruth.txt, or the only *.gt.freiburg; empty when there
+/// is none.
+std::filesystem::path findGroundTruth(const std::filesystem::path& folder);
+
+/// Copies "t tx ty tz qx qy qz qw" lines; `mirrored`: poses become S T S, S = diag(1, -1, 1); frame numbers
+/// become seconds at `frame_rate_hz`. Throws RunError when the output cannot be written.
+void copyGroundTruth(const std::filesystem::path& from, const std::filesystem::path& to, bool mirrored,
+                     std::optional<double> frame_rate_hz);
+
+}  // namespace roomgraph

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/datasets/tum_import.h"
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgcodecs.hpp>
+
+#include "roomgraph/core/errors.h"
+#include "tum_camera.h"
+#include "tum_ground_truth.h"
+#include "tum_lists.h"
+
+namespace roomgraph {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::obs::CObservation3DRangeScan;
+
+constexpr float kMaxRangeM = 10;  // for viewers only
+constexpr int kWarningsShown = 5;
+
+mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
+  mrpt::img::TCamera out;
+  out.ncols = static_cast<std::uint32_t>(camera.width);
+  out.nrows = static_cast<std::uint32_t>(camera.height);
+  out.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
+  const auto& d = camera.distortion;
+  if (d != std::array<double, 5>{}) out.setDistortionPlumbBob(d[0], d[1], d[2], d[3], d[4]);
+  return out;
+}
+
+class Writer {
+ public:
+  Writer(const fs::path& rawlog, const TumCamera& camera, const TumImportOptions& options)
+      : rawlog_(rawlog), camera_(camera), options_(options) {
+    if (!stream_.open(rawlog.string())) throw RunError(rawlog.string() + ": cannot be written");
+    if (options.external_images) {
+      images_ = rawlog.parent_path() / (rawlog.stem().string() + "_Images");
+      std::error_code error;
+      fs::create_directories(images_, error);
+      if (error) throw RunError(images_.string() + ": cannot be made: " + error.message());
+    }
+  }
+
+  /// Empty, or why the pair was left out. Throws InputError when the images do not fit the camera.
+  std::string write(const TumPair& pair) {
+    for (const auto& file : {pair.color, pair.depth})
+      if (!fs::is_regular_file(file)) return "no such file: " + file.string();
+    const cv::Mat depth = cv::imread(pair.depth.string(), cv::IMREAD_UNCHANGED);
+    if (depth.type() != CV_16UC1) return "not a 16 bit depth image: " + pair.depth.string();
+    CObservation3DRangeScan record;
+    if (!record.intensityImage.loadFromFile(pair.color.string()))
+      return "unreadable image: " + pair.color.string();
+    checkSize(pair.color, static_cast<int>(record.intensityImage.getWidth()),
+              static_cast<int>(record.intensityImage.getHeight()));
+    checkSize(pair.depth, depth.cols, depth.rows);
+    fill(record, depth);
+    const double rate = options_.frame_rate_hz.value_or(1);
+    record.timestamp = mrpt::Clock::fromDouble(pair.t / rate);
+    if (options_.external_images) storeOutside(record, pair);
+    mrpt::serialization::archiveFrom(stream_) << record;
+    return "";
+  }
+  const PinholeCamera& camera() const { return camera_.camera; }
+
+ private:
+  void checkSize(const fs::path& file, int width, int height) {
+    if (camera_.camera.width == 0) {
+      camera_.camera.width = width;
+      camera_.camera.height = height;
+    }
+    if (width != camera_.camera.width || height != camera_.camera.height)
+      throw InputError(file.string() + ": is " + std::to_string(width) + "x" + std::to_string(height) +
+                       " px, the camera " + std::to_string(camera_.camera.width) + "x" +
+                       std::to_string(camera_.camera.height));
+  }
+
+  void fill(CObservation3DRangeScan& record, const cv::Mat& depth) const {
+    record.sensorLabel = options_.label;
+    record.hasIntensityImage = record.hasRangeImage = true;
+    record.range_is_depth = true;
+    record.rangeUnits = static_cast<float>(1 / camera_.depth_scale);
+    record.maxRange = kMaxRangeM;
+    record.rangeImage_setSize(depth.rows, depth.cols);
+    for (int v = 0; v < depth.rows; ++v)
+      for (int u = 0; u < depth.cols; ++u) record.rangeImage(v, u) = depth.at<std::uint16_t>(v, u);
+    record.cameraParams = record.cameraParamsIntensity = toMrpt(camera_.camera);
+  }
+
+  void storeOutside(CObservation3DRangeScan& record, const TumPair& pair) {
+    char stamp[64];
+    std::snprintf(stamp, sizeof stamp, "_%.6f", pair.t);
+    const std::string name = options_.label + stamp;
+    const std::string color = name + "_rgb" + pair.color.extension().string();
+    std::error_code error;
+    fs::copy_file(pair.color, images_ / color, fs::copy_options::overwrite_existing, error);
+    if (error) throw RunError((images_ / color).string() + ": cannot be written: " + error.message());
+    record.intensityImage.setExternalStorage(color);
+    record.rangeImage_convertToExternalStorage(name + "_depth.bin", images_.string() + "/");
+  }
+
+  fs::path rawlog_, images_;
+  TumCamera camera_;
+  const TumImportOptions& options_;
+  mrpt::io::CFileGZOutputStream stream_;
+};
+
+bool lookLikeFrameNumbers(const std::vector<TumPair>& pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].t != std::floor(pairs[i].t) || (i > 0 && pairs[i].t - pairs[i - 1].t > 10)) return false;
+  return pairs.size() > 1;
+}
+
+void writeAll(Writer& writer, const std::vector<TumPair>& pairs, TumImportResult& result,
+              const std::function<void(std::size_t, std::size_t)>& progress) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::string problem = writer.write(pairs[i]);
+    if (problem.empty())
+      ++result.written;
+    else if (++result.missing <= kWarningsShown)
+      result.warnings.push_back("pair left out: " + problem);
+    if (progress) progress(i + 1, pairs.size());
+  }
+  if (result.missing > kWarningsShown)
+    result.warnings.push_back(std::to_string(result.missing - kWarningsShown) + " more pairs left out");
+  result.camera = writer.camera();
+}
+
+}  // namespace
+
+TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const TumImportOptions& options,
+                          const std::function<void(std::size_t, std::size_t)>& progress) {
+  if (options.frame_rate_hz && !(*options.frame_rate_hz > 0))
+    throw ConfigError("the frame rate must be positive");
+  TumImportResult result;
+  const auto pairs = readTumPairs(folder, options.max_time_difference_s, result.warnings);
+  const TumCamera camera = readTumCamera(folder, options);
+  result.mirrored = camera.mirrored;
+  if (camera.mirrored)
+    result.warnings.push_back(
+        "fy < 0: |fy| is used and the ground truth is mirrored in y to a right-handed world");
+  if (!options.frame_rate_hz && lookLikeFrameNumbers(pairs))
+    result.warnings.push_back("the time stamps look like frame numbers: give the frame rate (ICL-NUIM: 30)");
+  try {
+    Writer writer(rawlog, camera, options);
+    writeAll(writer, pairs, result, progress);
+    if (result.written == 0)
+      throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
+                       " pairs can be used; " + result.warnings.back());
+  } catch (const std::exception&) {
+    std::error_code ignored;
+    fs::remove(rawlog, ignored);
+    throw;
+  }
+  if (const auto truth = findGroundTruth(folder); !truth.empty()) {
+    result.ground_truth = rawlog.parent_path() / (rawlog.stem().string() + ".groundtruth.txt");
+    copyGroundTruth(truth, result.ground_truth, camera.mirrored, options.frame_rate_hz);
+  }
+  return result;
+}
+
+}  // namespace roomgraph

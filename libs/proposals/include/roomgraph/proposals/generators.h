@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/observations/proposal.h"
+#include "roomgraph/proposals/depth_mask.h"
+
+namespace roomgraph {
+
+/// What a generator knows about one detection.
+struct BoxEvidence {
+  PinholeCamera camera;
+  Plane ground;  ///< camera frame
+  Pose3 camera_from_ground = Pose3::Identity();
+  Box2 box;
+  bool cut_left = false, cut_top = false, cut_right = false,
+       cut_bottom = false;  ///< box side at the image border
+  DepthMask mask;           ///< of the object; may be empty
+  DepthMask all;            ///< everything in the box
+  const ObjectModel* model = nullptr;
+};
+
+BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const ObjectModel& model,
+                           const Plane& ground);
+
+/// An upright model on the ground.
+struct PlacedShape {
+  ObjectShape shape;
+  double x = 0, y = 0, yaw = 0;  ///< ground frame
+  double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
+  double box_iou = 0;
+  bool has_yaw = false;
+  std::string source;
+};
+
+Pose3 groundFromObject(const PlacedShape& placed);
+std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
+/// IoU of the projected model with the box, both cut by the image border; 0 when it is out of view.
+double boxIou(const PlacedShape& placed, const BoxEvidence& evidence);
+/// Where the middle of the box's bottom side meets the ground (paper Eq. 2), ground frame; nothing when that
+/// side is at the image border or above the horizon.
+std::optional<Eigen::Vector2d> contactPoint(const BoxEvidence& evidence);
+/// Direction of the box's middle on the ground, rad, and the half angle between its sides.
+double bearingOf(const BoxEvidence& evidence);
+double halfAngleOf(const BoxEvidence& evidence);
+/// Quantile (ratio in [0, 1]) of the values; 0 for none.
+double quantile(std::vector<double> values, double ratio);
+
+/// Generators of method.md sec. 1.A to 1.C: best hypotheses first, at most `max_count`, none with a box IoU
+/// below `min_iou`.
+struct GeneratorLimits {
+  int max_count = 4;
+  double min_iou = 0.3;
+};
+std::vector<PlacedShape> cylinderHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
+std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
+std::vector<PlacedShape> doorHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
+
+}  // namespace roomgraph

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/proposals/fit_shape.h"
+#include "roomgraph/proposals/generators.h"
+#include "roomgraph/proposals/rectangle_fit.h"
+
+namespace roomgraph {
+namespace {
+
+// One axis of the model: the observed extent when it is as long as usual; otherwise the usual size, grown
+// away from the camera from the side that is seen.
+struct AxisFit {
+  double center = 0, size = 0;
+};
+
+AxisFit fitAxis(double center, double observed, double usual, double sigma, bool camera_on_positive_side) {
+  if (observed >= usual - sigma) return {center, std::min(observed, usual + 2 * sigma)};
+  const double grown = (usual - observed) / 2;
+  return {center + (camera_on_positive_side ? -grown : grown), usual};
+}
+
+// `quarter` turns of the rectangle's first axis give the front direction.
+PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvidence& e) {
+  const ObjectModel& m = *e.model;
+  const double yaw = r.yaw + quarter * std::numbers::pi / 2;
+  const Eigen::Vector2d front(std::cos(yaw), std::sin(yaw)), left(-front.y(), front.x());
+  const double along = quarter % 2 ? r.size_second : r.size_first,
+               across = quarter % 2 ? r.size_first : r.size_second;
+  const double x = front.dot(r.center), y = left.dot(r.center);
+  // The camera is at the origin: on the positive side of an axis when the centre's coordinate is negative.
+  const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, x < 0);
+  const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, y < 0);
+  const Eigen::Vector2d center = front * depth.center + left * width.center;
+  PlacedShape placed;
+  placed.shape = m.nominal();
+  placed.shape.depth = depth.size;
+  placed.shape.width = width.size;
+  placed.x = center.x();
+  placed.y = center.y();
+  placed.yaw = wrapAngle(yaw);
+  placed.has_yaw = true;
+  placed.source = "depth";
+  return placed;
+}
+
+std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
+  std::vector<Eigen::Vector2d> points;
+  for (const auto& p : e.mask.points) points.push_back(p.in_ground.head<2>());
+  std::vector<PlacedShape> out;
+  const int turns = e.model->symmetry == 1 ? 4 : (e.model->symmetry == 2 ? 2 : 1);
+  for (const auto& rectangle : fitRectangles(points))
+    for (int quarter = 0; quarter < turns; ++quarter) out.push_back(fromRectangle(rectangle, quarter, e));
+  return out;
+}
+
+// Without depth: the nearest corner or side touches the ground at the box's bottom; yaw is sampled relative
+// to the viewing direction and the box's sides decide.
+std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
+  std::vector<PlacedShape> out;
+  const auto contact = contactPoint(e);
+  if (!contact || contact->norm() < 0.1 || !e.model->rests_on_ground) return out;
+  const Eigen::Vector2d ahead = contact->normalized();
+  for (int k = 0; k < 8; ++k) {
+    PlacedShape placed;
+    placed.shape = e.model->nominal();
+    placed.yaw = wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + k * std::numbers::pi / 4);
+    double reach = 0;
+    for (const auto& corner : footprint(placed.shape))
+      reach = std::max(reach, ahead.dot(Pose2{0, 0, placed.yaw} * corner));
+    const Eigen::Vector2d center = *contact + ahead * reach;
+    placed.x = center.x();
+    placed.y = center.y();
+    placed.has_yaw = true;
+    placed.source = "contact";
+    out.push_back(placed);
+  }
+  return out;
+}
+
+bool sameAs(const PlacedShape& a, const PlacedShape& b) {
+  return std::hypot(a.x - b.x, a.y - b.y) < 0.05 && std::abs(wrapAngle(a.yaw - b.yaw)) < 0.1;
+}
+
+}  // namespace
+
+std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
+  auto guesses = evidence.mask.points.empty() ? guessesFromContact(evidence) : guessesFromDepth(evidence);
+  for (PlacedShape& guess : guesses) judge(guess, evidence);
+  const auto better = [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; };
+  std::stable_sort(guesses.begin(), guesses.end(), better);
+  if (static_cast<int>(guesses.size()) > limits.max_count + 1) guesses.resize(limits.max_count + 1);
+  std::vector<PlacedShape> kept;
+  for (const PlacedShape& guess : guesses) {
+    const PlacedShape fitted = fitShape(guess, evidence);
+    const bool known =
+        std::any_of(kept.begin(), kept.end(), [&](const PlacedShape& k) { return sameAs(k, fitted); });
+    if (!known && fitted.box_iou >= limits.min_iou) kept.push_back(fitted);
+  }
+  std::stable_sort(kept.begin(), kept.end(), better);
+  if (static_cast<int>(kept.size()) > limits.max_count) kept.resize(limits.max_count);
+  return kept;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/depth_mask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <nanoflann.hpp>
+#include <tuple>
+
+#include "roomgraph/proposals/generators.h"
+#include "roomgraph/proposals/plane_fit.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kShrink = 0.02;        // of the box's size, per side: its rim is background
+constexpr double kVoxel = 0.04;         // m
+constexpr double kLinkDistance = 0.09;  // m, between voxels of one object
+
+bool maskedOut(const Detection& detection, int u, int v) {
+  if (detection.mask.empty()) return false;
+  const Box2& box = detection.box;
+  const int x = static_cast<int>((u - box.u_min) / box.width() * detection.mask.cols);
+  const int y = static_cast<int>((v - box.v_min) / box.height() * detection.mask.rows);
+  return x < 0 || y < 0 || x >= detection.mask.cols || y >= detection.mask.rows ||
+         detection.mask.at<unsigned char>(y, x) == 0;
+}
+
+struct Voxel {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::vector<int> points;
+  int cluster = -1;
+  Eigen::Vector3d mean() const { return sum / static_cast<double>(points.size()); }
+};
+
+std::vector<Voxel> voxelize(const std::vector<MaskPoint>& points) {
+  std::map<std::tuple<int, int, int>, Voxel> cells;  // ordered: the result does not depend on hashing
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    const Eigen::Vector3d& p = points[i].in_ground;
+    const auto cell = [](double x) { return static_cast<int>(std::floor(x / kVoxel)); };
+    Voxel& voxel = cells[{cell(p.x()), cell(p.y()), cell(p.z())}];
+    voxel.sum += p;
+    voxel.points.push_back(i);
+  }
+  std::vector<Voxel> out;
+  for (auto& [key, voxel] : cells) out.push_back(std::move(voxel));
+  return out;
+}
+
+struct Cloud {
+  std::vector<Eigen::Vector3d> points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points[i][static_cast<Eigen::Index>(axis)];
+  }
+  template <class B>
+  bool kdtree_get_bbox(B&) const {
+    return false;
+  }
+};
+
+// Connected components of voxels closer than `distance`; returns their number.
+int cluster(std::vector<Voxel>& voxels, double distance) {
+  Cloud cloud;
+  for (const Voxel& voxel : voxels) cloud.points.push_back(voxel.mean());
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3>;
+  Tree tree(3, cloud, {16});
+  int count = 0;
+  std::vector<std::pair<std::uint32_t, double>> found;
+  for (std::size_t seed = 0; seed < voxels.size(); ++seed) {
+    if (voxels[seed].cluster >= 0) continue;
+    std::vector<std::size_t> open{seed};
+    voxels[seed].cluster = count;
+    while (!open.empty()) {
+      const std::size_t current = open.back();
+      open.pop_back();
+      tree.radiusSearch(cloud.points[current].data(), distance * distance, found, {32, 0.f, false});
+      for (const auto& [index, squared] : found)
+        if (voxels[index].cluster < 0) {
+          voxels[index].cluster = count;
+          open.push_back(index);
+        }
+    }
+    ++count;
+  }
+  return count;
+}
+
+std::vector<DepthMask> clusters(const std::vector<MaskPoint>& points, double distance) {
+  std::vector<Voxel> voxels = voxelize(points);
+  std::vector<DepthMask> out(cluster(voxels, distance));
+  for (const Voxel& voxel : voxels)
+    for (const int i : voxel.points) out[voxel.cluster].points.push_back(points[i]);
+  return out;
+}
+
+Box2 boundsOf(const std::vector<MaskPoint>& points) {
+  Box2 bounds{1e9, 1e9, -1e9, -1e9};
+  for (const auto& p : points)
+    bounds = {std::min(bounds.u_min, p.u), std::min(bounds.v_min, p.v), std::max(bounds.u_max, p.u),
+              std::max(bounds.v_max, p.v)};
+  return bounds;
+}
+
+// Large, filling the box, central in it; of equals the nearer (what is behind cannot hide it).
+double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
+  double range = 0;
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  for (const auto& p : cluster.points) {
+    range += p.in_ground.head<2>().norm();
+    offset +=
+        (Eigen::Vector2d(p.u, p.v) - box.center()).cwiseQuotient(Eigen::Vector2d(box.width(), box.height()));
+  }
+  const double n = static_cast<double>(cluster.points.size());
+  const double share = n / static_cast<double>(total), fill = iou(boundsOf(cluster.points), box);
+  return std::sqrt(share) * (0.2 + fill) * std::exp(-2 * (offset / n).squaredNorm()) / (1 + 0.15 * range / n);
+}
+
+// Parts apart from the main cluster that lie within the usual size around its middle.
+void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::size_t skip,
+                 const ObjectModel& model) {
+  std::vector<double> x, y;
+  for (const auto& p : main.points) {
+    x.push_back(p.in_ground.x());
+    y.push_back(p.in_ground.y());
+  }
+  const Eigen::Vector2d middle((quantile(x, 0.05) + quantile(x, 0.95)) / 2,
+                               (quantile(y, 0.05) + quantile(y, 0.95)) / 2);
+  const double reach = std::min(model.width_m, model.depth_m) / 2 + 0.05;
+  for (std::size_t k = 0; k < others.size(); ++k)
+    for (const auto& p : others[k].points)
+      if (k != skip && (p.in_ground.head<2>() - middle).norm() < reach) main.points.push_back(p);
+}
+
+}  // namespace
+
+DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
+                    int max_points) {
+  DepthMask out;
+  const Box2 box = clipped(detection.box, frame.depth.cols, frame.depth.rows);
+  if (!frame.hasDepth() || box.empty()) return out;
+  const int stride = std::max(1, static_cast<int>(std::ceil(std::sqrt(box.area() / max_points))));
+  const int u_end = static_cast<int>(box.u_max - kShrink * box.width());
+  const int v_end = static_cast<int>(box.v_max - kShrink * box.height());
+  int tried = 0;
+  for (int v = static_cast<int>(box.v_min + kShrink * box.height()); v < v_end; v += stride)
+    for (int u = static_cast<int>(box.u_min + kShrink * box.width()); u < u_end; u += stride) {
+      if (maskedOut(detection, u, v)) continue;
+      ++tried;
+      const float z = frame.depth.at<float>(v, u);
+      if (!(z > 0) || !std::isfinite(z)) continue;
+      out.points.push_back({static_cast<double>(u), static_cast<double>(v),
+                            ground_from_camera * frame.camera.backProject(u, v, z)});
+    }
+  out.valid_ratio = tried > 0 ? static_cast<double>(out.points.size()) / tried : 0;
+  return out;
+}
+
+DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px) {
+  DepthMask out;
+  out.valid_ratio = all.valid_ratio;
+  const double ceiling = model.height_m + 3 * model.height_sigma_m + 0.1;
+  std::vector<MaskPoint> standing;
+  std::vector<double> ranges;
+  for (const auto& p : all.points) {
+    const double range = p.in_ground.norm(), floor = 0.03 + 2 * depthSigma(range);
+    if (p.in_ground.z() < floor || p.in_ground.z() > ceiling) continue;
+    standing.push_back(p);
+    ranges.push_back(range);
+  }
+  if (standing.size() < 8) return out;
+  const double spacing = std::sqrt(box.area() / static_cast<double>(all.points.size())) / focal_px;
+  const double noise = quantile(ranges, 0.5);
+  const auto parts = clusters(standing, kLinkDistance + 2 * spacing * noise + 2 * depthSigma(noise));
+  std::size_t best = 0;
+  double best_score = -1;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (const double score = explains(parts[k], standing.size(), box); score > best_score) {
+      best_score = score;
+      best = k;
+    }
+  out.points = parts[best].points;
+  takeInParts(out, parts, best, model);
+  if (out.points.size() < 8) out.points.clear();
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/geometric_proposal_generator.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "roomgraph/proposals/initial_score.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
+
+namespace {
+
+// Along the viewing ray the error grows with z² (disparity), across it with z; a cut box, few points or none
+// make the place less certain. Turned into the ground frame's axes.
+Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e) {
+  const double range = std::hypot(placed.x, placed.y);
+  double along = 0.04 + 0.012 * range * range, across = 0.03 + 0.006 * range, yaw = 0.12;
+  const bool few = e.mask.points.size() < 60;
+  if (e.mask.points.empty()) along += 0.08 * range;
+  if (few) along *= 1.5, across *= 1.3, yaw *= 2;
+  if (e.cut_left || e.cut_right) across *= 2, along *= 1.3, yaw *= 1.5;
+  if (e.cut_bottom) along *= 1.3;
+  if (placed.shape.kind != ShapeKind::kCylinder) along *= 1.5, across *= 1.5;
+  if (!placed.has_yaw) yaw = std::numbers::pi;
+  const double bearing = std::atan2(placed.y, placed.x);
+  Eigen::Matrix2d turn;
+  turn << std::cos(bearing), -std::sin(bearing), std::sin(bearing), std::cos(bearing);
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  covariance.topLeftCorner<2, 2>() =
+      turn * Eigen::Vector2d(along * along, across * across).asDiagonal() * turn.transpose();
+  covariance(2, 2) = 0.02 * 0.02;
+  covariance(3, 3) = yaw * yaw;
+  return covariance;
+}
+
+std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
+  switch (evidence.model->nominal().kind) {
+    case ShapeKind::kCylinder:
+      return cylinderHypotheses(evidence, limits);
+    case ShapeKind::kPlanar:
+      return doorHypotheses(evidence, limits);
+    default:
+      return cuboidHypotheses(evidence, limits);
+  }
+}
+
+}  // namespace
+
+void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
+  v.add("use_depth", use_depth_, {.doc = "false: box and expected ground only, as without a depth camera"});
+  v.add("max_proposals", limits_.max_count, {.doc = "hypotheses kept per detection", .min = 1, .max = 5});
+  v.add("min_box_iou", limits_.min_iou,
+        {.doc = "smallest IoU of projected shape and box", .min = 0, .max = 1});
+  v.add(
+      "ground_max_angle_error", search_.max_angle_error,
+      {.doc = "largest angle between seen and expected ground normal", .unit = "rad", .min = 0, .max = 1.5});
+  v.add(
+      "ground_max_height_error_m", search_.max_height_error_m,
+      {.doc = "largest difference between seen and expected camera height", .unit = "m", .min = 0, .max = 2});
+  v.add("ground_max_tilt", search_.max_tilt,
+        {.doc = "without expectation: largest angle between ground normal and the image's up",
+         .unit = "rad",
+         .min = 0,
+         .max = 1.5});
+  v.add("ground_min_camera_height_m", search_.min_camera_height_m,
+        {.doc = "without expectation: a plane nearer than this is a table", .unit = "m", .min = 0, .max = 5});
+  v.add("ground_max_range_m", search_.max_range_m,
+        {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
+}
+
+FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
+                                                    const std::vector<Detection>& detections,
+                                                    const std::optional<Plane>& expected_ground) {
+  FrameProposals out;
+  out.frame = frame.id;
+  out.t = frame.t;
+  out.detections = detections;
+  if (!frame.camera.valid()) {
+    out.ground_reason = "no camera intrinsics";
+    return out;
+  }
+  Frame used = frame;
+  if (!use_depth_) used.depth.release();
+  const auto found = findGround(used, expected_ground, search_);
+  if (found) {
+    out.ground = *found;
+  } else {
+    out.ground_reason = found.reason();
+    if (expected_ground)
+      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * 1e-3, false};
+  }
+  if (!out.ground || !database_) return out;
+  for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
+  return out;
+}
+
+void GeometricProposalGenerator::propose(const Frame& frame, int index, FrameProposals& out) const {
+  const Detection& detection = out.detections[index];
+  const ObjectModel* model = database_->find(detection.class_name);
+  if (!model || clipped(detection.box, frame.camera.width, frame.camera.height).empty()) return;
+  const BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
+  const InitialScore start = initialScore(frame, detection, evidence.mask.valid_ratio);
+  for (const PlacedShape& placed : hypotheses(evidence, limits_)) {
+    const auto projected = project(placed, evidence);
+    if (!projected) continue;
+    Proposal proposal;
+    proposal.detection = index;
+    proposal.model = proposal.class_name = model->class_name;
+    proposal.shape = placed.shape;
+    proposal.camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
+    proposal.covariance = covarianceOf(placed, evidence);
+    proposal.has_yaw = placed.has_yaw;
+    proposal.projected = *projected;
+    proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
+    proposal.box_iou = placed.box_iou;
+    proposal.source = placed.source;
+    char fit[64];
+    std::snprintf(fit, sizeof fit, "; fit %.2f, %zu depth points", placed.quality,
+                  evidence.mask.points.size());
+    proposal.reasons = start.text() + fit;
+    out.proposals.push_back(proposal);
+  }
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/rectangle_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/proposals/generators.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr int kSteps = 45;  // of 2 degrees over [0, 90)
+
+struct Extent {
+  double low = 0, high = 0;
+  double size() const { return high - low; }
+};
+
+Extent extentAlong(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& axis,
+                   std::vector<double>& values) {
+  values.clear();
+  for (const auto& p : points) values.push_back(axis.dot(p));
+  return {quantile(values, 0.02), quantile(values, 0.98)};
+}
+
+// Of both ends of an axis the one with more points near it is the visible side: distances from that side.
+void distancesToSide(std::vector<double>& values, const Extent& extent) {
+  double to_low = 0, to_high = 0;
+  for (const double x : values) {
+    to_low += std::abs(x - extent.low);
+    to_high += std::abs(extent.high - x);
+  }
+  for (double& x : values) x = std::abs(to_low < to_high ? x - extent.low : extent.high - x);
+}
+
+struct Trial {
+  FootprintRectangle rectangle;
+  double score = 0;
+};
+
+Trial tryYaw(const std::vector<Eigen::Vector2d>& points, double yaw) {
+  const Eigen::Vector2d first(std::cos(yaw), std::sin(yaw)), second(-first.y(), first.x());
+  std::vector<double> a, b;
+  const Extent ea = extentAlong(points, first, a), eb = extentAlong(points, second, b);
+  distancesToSide(a, ea);
+  distancesToSide(b, eb);
+  double closeness = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) closeness += 1 / std::max(0.03, std::min(a[i], b[i]));
+  const double area = std::max(ea.size(), 0.05) * std::max(eb.size(), 0.05);
+  Trial trial;
+  trial.rectangle.center = first * (ea.low + ea.high) / 2 + second * (eb.low + eb.high) / 2;
+  trial.rectangle.yaw = yaw;
+  trial.rectangle.size_first = ea.size();
+  trial.rectangle.size_second = eb.size();
+  trial.score = closeness / static_cast<double>(points.size()) / std::sqrt(area);
+  return trial;
+}
+
+}  // namespace
+
+std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points, int max_count) {
+  std::vector<FootprintRectangle> out;
+  if (points.size() < 5) return out;
+  std::vector<Trial> trials;
+  for (int k = 0; k < kSteps; ++k) trials.push_back(tryYaw(points, k * std::numbers::pi / 2 / kSteps));
+  std::vector<Trial> peaks;
+  for (int k = 0; k < kSteps; ++k) {
+    bool peak = true;
+    for (int step = -4; step <= 4; ++step)
+      if (trials[(k + step + kSteps) % kSteps].score > trials[k].score) peak = false;
+    if (peak) peaks.push_back(trials[k]);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Trial& a, const Trial& b) { return a.score > b.score; });
+  for (const Trial& peak : peaks)
+    if (static_cast<int>(out.size()) < max_count) out.push_back(peak.rectangle);
+  return out;
+}
+
+}  // namespace roomgraph

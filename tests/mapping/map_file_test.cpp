@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/poses/CPose3D.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/map_files.h"
+#include "sample_map.h"
+#include "temporary_folder.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+std::string loadError(const std::filesystem::path& file) {
+  try {
+    loadMap(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+void writeObject(const std::filesystem::path& file, const mrpt::serialization::CSerializable& object) {
+  mrpt::io::CFileGZOutputStream out(file.string());
+  mrpt::serialization::archiveFrom(out) << object;
+}
+
+void expectSame(const Landmark& a, const Landmark& b) {
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.class_name, b.class_name);
+  EXPECT_EQ(a.model, b.model);
+  EXPECT_EQ(a.shape.kind, b.shape.kind);
+  EXPECT_EQ(a.shape.width, b.shape.width);
+  EXPECT_EQ(a.shape.depth, b.shape.depth);
+  EXPECT_EQ(a.shape.height, b.shape.height);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.yaw, b.yaw);
+  EXPECT_EQ(a.has_yaw, b.has_yaw);
+  EXPECT_EQ(a.covariance, b.covariance);
+  EXPECT_EQ(a.existence, b.existence);
+  EXPECT_EQ(a.class_posterior, b.class_posterior);
+  EXPECT_EQ(a.observations, b.observations);
+}
+
+TEST(MapFile, GivesBackEveryField) {
+  const TemporaryFolder folder;
+  const CSemanticMap map = testing::sampleMap();
+  saveMap(map, folder.file("map.rgmap"));
+  EXPECT_EQ(folder.count(), 1u) << "a temporary file was left";
+  const CSemanticMap again = loadMap(folder.file("map.rgmap"));
+  EXPECT_EQ(again.origin, map.origin);
+  EXPECT_EQ(again.planar, map.planar);
+  ASSERT_TRUE(again.occupancy);
+  EXPECT_EQ(again.occupancy->getRawMap(), map.occupancy->getRawMap());
+  EXPECT_EQ(again.occupancy->getXMin(), map.occupancy->getXMin());
+  EXPECT_EQ(again.occupancy->getYMin(), map.occupancy->getYMin());
+  EXPECT_EQ(again.occupancy->getResolution(), map.occupancy->getResolution());
+  ASSERT_EQ(again.landmarks.size(), map.landmarks.size());
+  for (std::size_t i = 0; i < map.landmarks.size(); ++i) expectSame(again.landmarks[i], map.landmarks[i]);
+  ASSERT_EQ(again.world_from_robot.size(), map.world_from_robot.size());
+  for (std::size_t i = 0; i < map.world_from_robot.size(); ++i) {
+    EXPECT_EQ(again.world_from_robot[i].t, map.world_from_robot[i].t);
+    EXPECT_EQ(again.world_from_robot[i].pose.matrix(), map.world_from_robot[i].pose.matrix());
+  }
+}
+
+TEST(MapFile, MapWithoutOccupancyAndBytesAreReproducible) {
+  const TemporaryFolder folder;
+  CSemanticMap map = testing::sampleMap();
+  map.occupancy.reset();
+  map.planar = false;
+  saveMap(map, folder.file("a.rgmap"));
+  saveMap(map, folder.file("b.rgmap"));
+  EXPECT_EQ(folder.read("a.rgmap"), folder.read("b.rgmap"));
+  EXPECT_FALSE(loadMap(folder.file("a.rgmap")).occupancy);
+  EXPECT_FALSE(loadMap(folder.file("a.rgmap")).planar);
+}
+
+TEST(MapFile, SaysWhatIsWrongWithAFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(loadError(folder.file("none.rgmap")), HasSubstr("none.rgmap: no such file"));
+  EXPECT_THAT(loadError(folder.path()), HasSubstr("not a file"));
+  EXPECT_THAT(loadError(folder.write("empty.rgmap", "")), HasSubstr("empty"));
+  EXPECT_THAT(loadError(folder.write("text.rgmap", "[section]\nkey = value, and so on\n")),
+              HasSubstr("not a roomgraph map"));
+  writeObject(folder.file("pose.rgmap"), mrpt::poses::CPose3D());
+  EXPECT_THAT(loadError(folder.file("pose.rgmap")), HasSubstr("CPose3D"));
+}
+
+TEST(MapFile, TruncatedFileIsAnError) {
+  const TemporaryFolder folder;
+  saveMap(testing::sampleMap(), folder.file("map.rgmap"));
+  const std::string whole = folder.read("map.rgmap");
+  for (const std::size_t size : {std::size_t{5}, whole.size() / 4, whole.size() / 2, whole.size() * 3 / 4})
+    EXPECT_THAT(loadError(folder.write("cut.rgmap", whole.substr(0, size))), HasSubstr("cut.rgmap")) << size;
+}
+
+TEST(MapFile, NewerVersionIsNamed) {
+  const TemporaryFolder folder;
+  // Layout of MRPT's archive: one byte 0x80 | length of the class name, the name, one byte version, the
+  // fields.
+  CSemanticMap map;
+  mrpt::io::CMemoryStream memory;
+  auto archive = mrpt::serialization::archiveFrom(memory);
+  archive << map;
+  std::string bytes(static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount());
+  const std::string name = map.GetRuntimeClass()->className;
+  ASSERT_EQ(bytes.substr(1, name.size()), name);
+  bytes[1 + name.size()] = static_cast<char>(99);
+  EXPECT_THAT(loadError(folder.write("new.rgmap", bytes)), HasSubstr("newer version"));
+}
+
+TEST(MapFile, UnwritablePlaceIsARunError) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(saveMap(testing::sampleMap(), folder.file("missing/map.rgmap")), RunError);
+  std::filesystem::create_directories(folder.file("taken.rgmap/inside"));
+  EXPECT_THROW(saveMap(testing::sampleMap(), folder.file("taken.rgmap")), RunError);
+  EXPECT_EQ(folder.count(), 1u) << "a temporary file was left";
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/mapping/occupancy_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "roomgraph/core/config.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kWest = -2.5, kEast = 3.5, kSouth = -1.5, kNorth = 2.5;  // walls of the room
+constexpr double kBox = 0.5;  // a square obstacle [1.5, 2] x [1, 1.5]
+
+/// Distance along a ray to the room's walls or the obstacle, by intersecting with each line.
+double castRay(const Eigen::Vector2d& eye, double angle) {
+  const Eigen::Vector2d d(std::cos(angle), std::sin(angle));
+  double best = std::min(d.x() > 0 ? (kEast - eye.x()) / d.x() : (kWest - eye.x()) / d.x(),
+                         d.y() > 0 ? (kNorth - eye.y()) / d.y() : (kSouth - eye.y()) / d.y());
+  for (const double x : {1.5, 1.5 + kBox}) {
+    const double s = (x - eye.x()) / d.x(), y = eye.y() + s * d.y();
+    if (s > 0 && y >= 1 && y <= 1 + kBox) best = std::min(best, s);
+  }
+  for (const double y : {1.0, 1.0 + kBox}) {
+    const double s = (y - eye.y()) / d.y(), x = eye.x() + s * d.x();
+    if (s > 0 && x >= 1.5 && x <= 1.5 + kBox) best = std::min(best, s);
+  }
+  return best;
+}
+
+Pose3 robotAt(double t) {
+  return toPose3(Pose2{-1.5 + 0.4 * t, -0.5 + 0.1 * t, 0.3 * t});
+}
+
+Scan scanAt(double t, const Pose3& world_from_robot) {
+  Scan scan;
+  scan.t = t;
+  scan.max_range_m = 20;
+  scan.robot_from_lidar = poseFromYpr(0.2, 0.1, 0.3, 0.5, 0, 0);
+  scan.angle_min_rad = -M_PI;
+  scan.angle_step_rad = M_PI / 360;
+  const Pose2 world_from_lidar = planarPart(world_from_robot * scan.robot_from_lidar);
+  for (int i = 0; i < 720; ++i) {
+    const double angle = scan.angle_min_rad + i * scan.angle_step_rad + world_from_lidar.yaw;
+    scan.ranges_m.push_back(static_cast<float>(castRay({world_from_lidar.x, world_from_lidar.y}, angle)));
+    scan.valid.push_back(1);
+  }
+  return scan;
+}
+
+/// How many of the test's scans have a free line of sight to well beyond p.
+int scansThatSee(const Eigen::Vector2d& p) {
+  int count = 0;
+  for (int i = 0; i <= 40; ++i) {
+    const Eigen::Vector2d eye = (robotAt(0.25 * i) * Eigen::Vector3d(0.2, 0.1, 0.3)).head<2>();
+    const Eigen::Vector2d way = p - eye;
+    count += castRay(eye, std::atan2(way.y(), way.x())) > way.norm() + 0.1;
+  }
+  return count;
+}
+
+Trajectory roomTrajectory() {
+  Trajectory trajectory;
+  for (int i = 0; i <= 100; ++i) trajectory.add(0.1 * i, robotAt(0.1 * i));
+  return trajectory;
+}
+
+TEST(OccupancyMapper, RoomHasWallsWhereTheyAre) {
+  OccupancyMapper mapper;
+  for (int i = 0; i <= 40; ++i) mapper.add(scanAt(0.25 * i, robotAt(0.25 * i)));
+  const auto grid = mapper.build(roomTrajectory());
+  ASSERT_TRUE(grid);
+  int occupied = 0;
+  for (unsigned y = 0; y < grid->getSizeY(); ++y) {
+    for (unsigned x = 0; x < grid->getSizeX(); ++x) {
+      const Eigen::Vector2d p(static_cast<double>(grid->idx2x(x)), static_cast<double>(grid->idx2y(y)));
+      const float p_free = grid->getCell(static_cast<int>(x), static_cast<int>(y));
+      const double to_wall = std::min({std::abs(p.x() - kWest), std::abs(p.x() - kEast),
+                                       std::abs(p.y() - kSouth), std::abs(p.y() - kNorth)});
+      const double to_box = std::max(std::abs(p.x() - 1.75), std::abs(p.y() - 1.25)) - kBox / 2;
+      const bool inside = p.x() > kWest && p.x() < kEast && p.y() > kSouth && p.y() < kNorth;
+      if (p_free < 0.3f) {
+        ++occupied;
+        EXPECT_TRUE(to_wall < 0.08 || std::abs(to_box) < 0.08) << "obstacle at " << p.transpose();
+      }
+      if (inside && to_wall > 0.1 && to_box > 0.1 && scansThatSee(p) > 8) {
+        EXPECT_GT(p_free, 0.7f) << "not free: " << p.transpose();
+      }
+      if (to_box < -0.08) {
+        EXPECT_NEAR(p_free, 0.5f, 0.05) << "inside of the obstacle known at " << p.transpose();
+      }
+      if (!inside && to_wall > 0.08) {
+        EXPECT_NEAR(p_free, 0.5f, 0.05) << "behind the wall: " << p.transpose();
+      }
+    }
+  }
+  // 20 m of wall and 2 m of obstacle in cells of 0.05 m.
+  EXPECT_GT(occupied, 380);
+  EXPECT_NEAR(grid->getXMax() - grid->getXMin(), 6 + 1, 0.15) << "the grid does not fit what was seen";
+}
+
+TEST(OccupancyMapper, MovesWithTheTrajectory) {
+  OccupancyMapper mapper;
+  for (int i = 0; i <= 10; ++i) mapper.add(scanAt(i, robotAt(i)));
+  const auto before = mapper.build(roomTrajectory());
+  Trajectory shifted;
+  const Pose3 shift = toPose3(Pose2{10, -4, 0});
+  const Trajectory original = roomTrajectory();
+  for (const auto& stamped : original.poses()) shifted.add(stamped.t, shift * stamped.pose);
+  const auto after = mapper.build(shifted);
+  for (double x = kWest; x < kEast; x += 0.31) {
+    const auto fx = static_cast<float>(x);
+    EXPECT_EQ(before->getPos(fx, 0.03f) > 0.6f, after->getPos(fx + 10, -3.97f) > 0.6f) << x;
+  }
+  EXPECT_LT(after->getPos(static_cast<float>(kEast + 10.01), -3.97f), 0.4f);
+}
+
+TEST(OccupancyMapper, WithoutScansOrPosesThereIsNoGrid) {
+  OccupancyMapper mapper;
+  EXPECT_FALSE(mapper.build(roomTrajectory()));
+  mapper.add(scanAt(500, robotAt(0)));
+  EXPECT_FALSE(mapper.build(roomTrajectory())) << "the scan lies outside the trajectory";
+  EXPECT_FALSE(mapper.build({}));
+}
+
+TEST(OccupancyMapper, AbsurdExtentIsARunError) {
+  OccupancyMapper mapper;
+  mapper.add(scanAt(0, robotAt(0)));
+  mapper.add(scanAt(1, robotAt(1)));
+  Trajectory trajectory;
+  trajectory.add(0, Pose3::Identity());
+  trajectory.add(1, toPose3(Pose2{1e7, 1e7, 0}));
+  EXPECT_THROW(mapper.build(trajectory), RunError);
+}
+
+TEST(OccupancyMapper, ReturnsBeyondTheRangeOnlyFree) {
+  OccupancyMapper mapper;
+  Config config = Config::fromText("[mapping]\nmax_range_m = 1.3\n");
+  config.read("mapping", mapper);
+  mapper.add(scanAt(0, robotAt(0)));
+  const auto grid = mapper.build(roomTrajectory());
+  const Eigen::Vector3d lidar = robotAt(0) * Eigen::Vector3d(0.2, 0.1, 0);
+  EXPECT_GT(grid->getPos(static_cast<float>(lidar.x() + 0.9), static_cast<float>(lidar.y())), 0.5f);
+  EXPECT_LT(grid->getXMax(), lidar.x() + 2);
+  int occupied = 0;
+  for (const auto cell : grid->getRawMap()) occupied += cell < 0;
+  for (unsigned y = 0; y < grid->getSizeY(); ++y)
+    for (unsigned x = 0; x < grid->getSizeX(); ++x)
+      if (grid->getCell(static_cast<int>(x), static_cast<int>(y)) < 0.4f) {
+        EXPECT_LT(std::hypot(grid->idx2x(x) - lidar.x(), grid->idx2y(y) - lidar.y()), 1.35);
+      }
+  EXPECT_GT(occupied, 0) << "the wall 1.1 m away must still be there";
+}
+
+}  // namespace
+}  // namespace roomgraph

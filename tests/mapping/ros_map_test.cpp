@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/map_files.h"
+#include "temporary_folder.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+/// 4 x 3 cells of 0.5 m from (-1, 2): all unknown but the lower left one (occupied) and the one right of it
+/// (free).
+mrpt::maps::COccupancyGridMap2D smallGrid() {
+  mrpt::maps::COccupancyGridMap2D grid(-1.f, 1.f, 2.f, 3.5f, 0.5f);
+  grid.fill(0.5f);
+  grid.setCell(0, 0, 0.f);
+  grid.setCell(1, 0, 1.f);
+  grid.setCell(3, 2, 1.f);
+  return grid;
+}
+
+TEST(RosMap, ImageHasLargestYFirst) {
+  const TemporaryFolder folder;
+  saveOccupancyRos(smallGrid(), folder.file("map"));
+  const std::string header = "P5\n4 3\n255\n";
+  const std::string image = folder.read("map.pgm");
+  ASSERT_EQ(image.size(), header.size() + 12);
+  EXPECT_EQ(image.substr(0, header.size()), header);
+  const unsigned char expected[12] = {205, 205, 205, 254, 205, 205, 205, 205, 0, 254, 205, 205};
+  for (std::size_t i = 0; i < 12; ++i)
+    EXPECT_EQ(static_cast<unsigned char>(image[header.size() + i]), expected[i]) << "pixel " << i;
+  const std::string yaml = folder.read("map.yaml");
+  for (const char* line : {"image: map.pgm\n", "resolution: 0.5\n", "origin: [-1, 2, 0.0]\n", "negate: 0\n",
+                           "occupied_thresh: 0.65\n", "free_thresh: 0.196\n"})
+    EXPECT_THAT(yaml, HasSubstr(line));
+}
+
+TEST(RosMap, RoundTrip) {
+  const TemporaryFolder folder;
+  const auto grid = smallGrid();
+  saveOccupancyRos(grid, folder.file("map"));
+  const auto again = loadOccupancyRos(folder.file("map.yaml"));
+  ASSERT_EQ(again.getSizeX(), 4u);
+  ASSERT_EQ(again.getSizeY(), 3u);
+  EXPECT_EQ(again.getXMin(), -1.f);
+  EXPECT_EQ(again.getYMin(), 2.f);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 4; ++x) EXPECT_NEAR(again.getCell(x, y), grid.getCell(x, y), 0.02) << x << " " << y;
+}
+
+TEST(RosMap, ErrorsNameTheCause) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(saveOccupancyRos(smallGrid(), folder.file("missing/map")), RunError);
+  EXPECT_THROW(loadOccupancyRos(folder.file("none.yaml")), InputError);
+  EXPECT_THROW(loadOccupancyRos(folder.write("a.yaml", "image: x.pgm\n")), InputError);
+  const auto no_image = folder.write("b.yaml",
+                                     "image: x.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+                                     "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  try {
+    loadOccupancyRos(no_image);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("x.pgm cannot be read"));
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph

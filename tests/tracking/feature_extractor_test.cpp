@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "feature_extractor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <set>
+
+#include "matcher.h"
+#include "textured_room.h"
+
+namespace roomgraph::tracking {
+namespace {
+
+TEST(FeatureGrid, FindsWhatBruteForceFinds) {
+  std::mt19937 random(3);
+  std::vector<cv::KeyPoint> keypoints;
+  for (int i = 0; i < 500; ++i)
+    keypoints.emplace_back(static_cast<float>(random() % 3200) / 10, static_cast<float>(random() % 2400) / 10,
+                           1.F);
+  const FeatureGrid grid(keypoints, 320, 240);
+  for (int round = 0; round < 50; ++round) {
+    const double u = static_cast<double>(random() % 340) - 10, v = static_cast<double>(random() % 260) - 10;
+    std::vector<int> found, expected;
+    grid.query(u, v, 25, found);
+    for (int i = 0; i < 500; ++i)
+      if (std::hypot(keypoints[static_cast<std::size_t>(i)].pt.x - u,
+                     keypoints[static_cast<std::size_t>(i)].pt.y - v) <= 25)
+        expected.push_back(i);
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(FeatureExtractor, SpreadsFeaturesEvenly) {
+  // Strong corners on the left half, weak ones on the right: both halves must get features.
+  const testing::TexturedRoom room;
+  Frame frame = room.render(0, Pose3::Identity());
+  cv::Mat right = frame.gray.colRange(160, 320);
+  right.convertTo(right, CV_8U, 0.3, 90);
+  const auto features = extractFeatures(frame.gray, frame, {}, {});
+  int left = 0;
+  for (const auto& k : features.keypoints) left += k.pt.x < 160;
+  EXPECT_GT(features.size(), 500u);
+  EXPECT_GT(static_cast<int>(features.size()) - left, left / 2);
+}
+
+TEST(FeatureExtractor, LeavesOutExcludedBoxes) {
+  const testing::TexturedRoom room;
+  const Frame frame = room.render(0, Pose3::Identity());
+  const Box2 box{100, 60, 220, 180};
+  const auto inside = [&](const Features& features) {
+    return std::count_if(features.keypoints.begin(), features.keypoints.end(),
+                         [&](const cv::KeyPoint& k) { return box.contains(k.pt.x, k.pt.y); });
+  };
+  EXPECT_GT(inside(extractFeatures(frame.gray, frame, {}, {})), 50);
+  // Coarse levels round to their own pixels.
+  const Box2 inner{box.u_min + 3, box.v_min + 3, box.u_max - 3, box.v_max - 3};
+  for (const auto& k : extractFeatures(frame.gray, frame, {box}, {}).keypoints)
+    EXPECT_FALSE(inner.contains(k.pt.x, k.pt.y));
+}
+
+TEST(FeatureExtractor, DropsDepthAtEdges) {
+  const testing::TexturedRoom room;
+  Frame frame = room.render(0, Pose3::Identity());
+  frame.depth.setTo(2.F);
+  frame.depth.colRange(160, 320).setTo(3.F);
+  const auto features = extractFeatures(frame.gray, frame, {}, {});
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const float u = features.keypoints[i].pt.x;
+    if (u < 155) {
+      EXPECT_FLOAT_EQ(features.depth[i], 2);
+    }
+    if (u > 158.6 && u < 160.4) {
+      EXPECT_EQ(features.depth[i], 0) << u;
+    }
+    if (u > 165) {
+      EXPECT_FLOAT_EQ(features.depth[i], 3);
+    }
+  }
+}
+
+TEST(Matcher, FindsTheSameFeaturesInTheSameImage) {
+  const testing::TexturedRoom room;
+  const Frame frame = room.render(0, Pose3::Identity());
+  const auto features = extractFeatures(frame.gray, frame, {}, {});
+  const auto matches = matchDescriptors(features.descriptors, features.descriptors, {});
+  EXPECT_GT(matches.size(), features.size() / 2);
+  for (const auto& [a, b] : matches) EXPECT_EQ(a, b);
+}
+
+TEST(Matcher, CountsDifferingBits) {
+  Descriptor a{}, b{};
+  b[0] = 0xF0;
+  b[31] = 0x01;
+  EXPECT_EQ(hammingDistance(a, b), 5);
+}
+
+}  // namespace
+}  // namespace roomgraph::tracking

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/tracking/feature_odometry.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "roomgraph/core/class_registry.h"
+#include "roomgraph/tracking/register_classes.h"
+#include "textured_room.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Smooth curve through the room, looking around.
+Pose3 poseAt(int i) {
+  const double s = 0.04 * i;
+  Pose3 pose = Pose3::Identity();
+  pose.linear() = expSO3({0.05 * std::sin(2 * s), 0.4 * std::sin(s), 0.03 * std::sin(s)});
+  pose.translation() << 0.8 * std::sin(s), 0.1 * std::sin(1.5 * s), 0.6 * (1 - std::cos(s));
+  return pose;
+}
+
+const testing::TexturedRoom& room() {
+  static const testing::TexturedRoom kRoom;
+  return kRoom;
+}
+
+double distance(const Pose3& a, const Pose3& b) {
+  return (a.inverse() * b).translation().norm();
+}
+
+TEST(FeatureOdometry, IsMadeByName) {
+  tracking::registerClasses();
+  EXPECT_TRUE(createStage<RgbdOdometry>("FeatureOdometry", "test"));
+}
+
+TEST(FeatureOdometry, FollowsAKnownMotion) {
+  FeatureOdometry odometry;
+  std::vector<Pose3> truth;
+  std::set<std::int64_t> seen_before;
+  for (int i = 0; i < 25; ++i) {
+    truth.push_back(poseAt(i));
+    const auto result = odometry.track(room().render(0.1 * i, truth.back()), {});
+    ASSERT_TRUE(result.tracked) << i << ": " << result.reason;
+    EXPECT_EQ(result.segment, 0);
+    EXPECT_LT(distance(truth.front().inverse() * truth.back(), result.odom_from_camera), 0.02) << i;
+    EXPECT_GT(result.step_covariance.llt().matrixL().determinant(), 0);
+    int known = 0;
+    for (const auto& [pixel, id] : result.features) known += seen_before.contains(id);
+    if (i > 1) {
+      EXPECT_GT(known, 50) << "point ids do not persist";
+    }
+    for (const auto& [pixel, id] : result.features) seen_before.insert(id);
+  }
+  const auto trajectory = odometry.trajectory();
+  ASSERT_EQ(trajectory.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Pose3 error = (truth.front().inverse() * truth[i]).inverse() * trajectory.poses()[i].pose;
+    EXPECT_LT(error.translation().norm(), 0.015) << i;
+    EXPECT_LT(rotationAngle(error), 0.008) << i;
+  }
+}
+
+TEST(FeatureOdometry, StandsStillWhenTheCameraDoes) {
+  FeatureOdometry odometry;
+  const Frame frame = room().render(0, poseAt(3));
+  for (int i = 0; i < 5; ++i) {
+    Frame again = frame;
+    again.t = i;
+    const auto result = odometry.track(again, {});
+    ASSERT_TRUE(result.tracked);
+    EXPECT_LT(distance(Pose3::Identity(), result.odom_from_camera), 1e-3);
+  }
+}
+
+TEST(FeatureOdometry, UsesThePriorForLargeJumps) {
+  FeatureOdometry odometry;
+  odometry.track(room().render(0, Pose3::Identity()), {});
+  Pose3 jump = Pose3::Identity();
+  jump.linear() = expSO3({0, 0.35, 0});
+  const auto result =
+      odometry.track(room().render(1, jump), {.previous_from_current = jump, .dynamic_regions = {}});
+  ASSERT_TRUE(result.tracked);
+  EXPECT_LT(rotationAngle(jump.inverse() * result.odom_from_camera), 0.01);
+}
+
+TEST(FeatureOdometry, SaysWhyAFrameCannotBeUsed) {
+  FeatureOdometry odometry;
+  Frame frame = room().render(0, Pose3::Identity());
+  Frame no_depth = frame;
+  no_depth.depth = cv::Mat();
+  EXPECT_EQ(odometry.track(no_depth, {}).reason, "no depth");
+  Frame zero_depth = frame;
+  zero_depth.depth = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(0));
+  EXPECT_EQ(odometry.track(zero_depth, {}).reason, "no depth");
+  Frame no_image = frame;
+  no_image.gray = no_image.color = cv::Mat();
+  EXPECT_EQ(odometry.track(no_image, {}).reason, "no image");
+  frame.t = 1;
+  EXPECT_TRUE(odometry.track(frame, {}).tracked);
+  EXPECT_THAT(odometry.track(frame, {}).reason, HasSubstr("time stamp"));
+  EXPECT_EQ(odometry.trajectory().size(), 1u);
+}
+
+Frame blank(double t) {
+  Frame frame = room().render(t, Pose3::Identity());
+  frame.gray.setTo(128);
+  return frame;
+}
+
+TEST(FeatureOdometry, RelocalisesAfterBlankImages) {
+  FeatureOdometry odometry;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(odometry.track(room().render(i, poseAt(i)), {}).tracked);
+  for (int i = 3; i < 20; ++i) {
+    const auto result = odometry.track(blank(i), {});
+    EXPECT_FALSE(result.tracked);
+    EXPECT_EQ(result.reason, "too few features");
+  }
+  const auto back = odometry.track(room().render(20, poseAt(1)), {});
+  ASSERT_TRUE(back.tracked);
+  EXPECT_EQ(back.segment, 0);
+  EXPECT_LT(distance(poseAt(0).inverse() * poseAt(1), back.odom_from_camera), 0.01);
+}
+
+TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
+  FeatureOdometry odometry;
+  for (int i = 0; i < 3; ++i) odometry.track(room().render(i, poseAt(i)), {});
+  const testing::TexturedRoom elsewhere(77);
+  int first_tracked = 0;
+  for (int i = 3; i < 15; ++i) {
+    const auto result = odometry.track(elsewhere.render(i, poseAt(i)), {});
+    if (!result.tracked) continue;
+    if (first_tracked == 0) first_tracked = i;
+    EXPECT_EQ(result.segment, 1);
+  }
+  EXPECT_GT(first_tracked, 3);
+  const auto trajectory = odometry.trajectory();
+  EXPECT_EQ(trajectory.segment(trajectory.size() - 1), 1);
+  EXPECT_FALSE(trajectory.between(1, 14).has_value());
+  EXPECT_LT(distance(poseAt(10).inverse() * poseAt(14), *trajectory.between(10, 14)), 0.02);
+}
+
+/// Pastes a moving textured patch, nearer than the wall, into a frame.
+void addMover(Frame& frame, int column) {
+  const Frame texture = testing::TexturedRoom(9).render(0, Pose3::Identity());
+  const cv::Rect place(column, 20, 170, 200);
+  texture.gray(cv::Rect(60, 20, 170, 200)).copyTo(frame.gray(place));
+  frame.depth(place).setTo(1.F);
+}
+
+TEST(FeatureOdometry, IgnoresDynamicRegions) {
+  FeatureOdometry odometry;
+  for (int i = 0; i < 8; ++i) {
+    Frame frame = room().render(i, Pose3::Identity());
+    const int column = 10 + 15 * i;
+    addMover(frame, column);
+    TrackingPrior prior;
+    prior.dynamic_regions = {{column - 4.0, 16, column + 174.0, 224}};
+    const auto result = odometry.track(frame, prior);
+    ASSERT_TRUE(result.tracked) << i << result.reason;
+    EXPECT_LT(distance(Pose3::Identity(), result.odom_from_camera), 0.01) << i;
+    for (const auto& [pixel, id] : result.features)
+      EXPECT_FALSE(Box2({column + 0.0, 20, column + 170.0, 220}).contains(pixel.x(), pixel.y()));
+  }
+}
+
+TEST(FeatureOdometry, TwoRunsAreIdentical) {
+  FeatureOdometry first, second;
+  for (int i = 0; i < 12; ++i) {
+    const Frame frame = room().render(0.1 * i, poseAt(2 * i));
+    EXPECT_EQ(first.track(frame, {}).odom_from_camera.matrix(),
+              second.track(frame, {}).odom_from_camera.matrix());
+  }
+  const auto a = first.trajectory(), b = second.trajectory();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_EQ(a.poses()[i].pose.matrix(), b.poses()[i].pose.matrix());
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gtest/gtest.h>
+
+#include "place_recognition.h"
+#include "roomgraph/core/config.h"
+#include "roomgraph/tracking/feature_odometry.h"
+#include "textured_room.h"
+
+namespace roomgraph {
+namespace {
+
+Pose3 looking(double yaw) {
+  Pose3 pose = Pose3::Identity();
+  pose.linear() = expSO3({0, yaw, 0});
+  pose.translation() << 0.3 * std::sin(yaw), 0, 0.3 * std::cos(yaw);
+  return pose;
+}
+
+TEST(Thumbnail, IsMostSimilarToItself) {
+  const testing::TexturedRoom room;
+  const auto a = tracking::makeThumbnail(room.render(0, looking(0)).gray);
+  const auto b = tracking::makeThumbnail(room.render(0, looking(1.5)).gray);
+  EXPECT_NEAR(tracking::similarity(a, a), 1, 1e-5);
+  EXPECT_LT(tracking::similarity(a, b), 0.7);
+}
+
+TEST(LoopClosing, FullTurnClosesALoopWithTheTrueRelativePose) {
+  const testing::TexturedRoom room;
+  FeatureOdometry odometry;
+  Config::fromText("[tracking]\nloop_min_gap = 8\n").read("tracking", odometry);
+  std::vector<RelativePose> closures;
+  const double step = 0.13;
+  for (int i = 0; i < 54; ++i) {
+    ASSERT_TRUE(odometry.track(room.render(i, looking(step * i)), {}).tracked) << i;
+    for (const auto& closure : odometry.takeLoopClosures()) closures.push_back(closure);
+  }
+  ASSERT_FALSE(closures.empty());
+  for (const auto& closure : closures) {
+    EXPECT_GT(closure.t_b - closure.t_a, 8);
+    EXPECT_EQ(closure.source, "tracking");
+    const Pose3 expected = looking(step * closure.t_a).inverse() * looking(step * closure.t_b);
+    EXPECT_LT((expected.inverse() * closure.a_from_b).translation().norm(), 0.02);
+    EXPECT_LT(rotationAngle(expected.inverse() * closure.a_from_b), 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph
