@@ -14,16 +14,18 @@ Function = collections.namedtuple("Function", "name line lines")
 TOKENS = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<tag>[^(\s]*)\(.*?\)(?P=tag)"|"(?:\\.|[^"\\\n])*"|(?<![0-9A-Fa-f])\'(?:\\.|[^\'\\\n])+\''
     r"|^[ \t]*#(?:\\\n|[^\n])*", re.DOTALL | re.MULTILINE)
+# A macro that stands alone, without a semicolon: no part of the declaration that follows.
+MACRO = re.compile(r"^[ \t]*[A-Z][A-Z0-9_]+\([^;{}]*?\)[ \t]*$(?!\s*\{)", re.MULTILINE)
 LEAD = re.compile(r"(?:\s|\b(?:public|private|protected)\s*:)*")
 SCOPE = re.compile(r'^(?:typedef\s+|inline\s+)*(?:namespace|class|struct|union|enum)\b|^extern\s*(?:""\s*)?$')
 
 
 def blanked(text):
-    """The text without comments, literals and preprocessor lines; every line keeps its number."""
+    """The text without comments, literals, preprocessor lines and lone macros; every line keeps its number."""
     def blank(match):
         token = match.group(0)
         return ('""' if token[0] in '"R' else " ") + "\n" * token.count("\n")
-    return TOKENS.sub(blank, text)
+    return MACRO.sub(blank, TOKENS.sub(blank, text))
 
 
 def without_groups(head, left, right):

@@ -129,6 +129,11 @@ class CppFunctions(unittest.TestCase):
             int g() { return 1; }
             """), [("f", 3, 4), ("g", 7, 1)])
 
+    def test_macros_without_semicolon(self):
+        self.assertEqual(self.names("REGISTER(A, ns)\nREGISTER(B,\n         ns)\nnamespace {\nint f() {\n}\n}\n"),
+                         [("f", 5, 2)])
+        self.assertEqual(self.names("INITIALIZER(a)\n{\n}\n"), [("INITIALIZER", 1, 3)])
+
     def test_tables_are_no_functions(self):
         self.assertEqual(self.names("const int kTable[] = {\n1,\n2,\n};\nstd::map<int, int> m{{1, 2}};\nint f() {}\n"),
                          [("f", 6, 1)])
