@@ -25,7 +25,7 @@ def blanked(text):
     def blank(match):
         token = match.group(0)
         return ('""' if token[0] in '"R' else " ") + "\n" * token.count("\n")
-    return MACRO.sub(blank, TOKENS.sub(blank, text))
+    return MACRO.sub(lambda match: "\n" * match.group(0).count("\n"), TOKENS.sub(blank, text))
 
 
 def without_groups(head, left, right):
