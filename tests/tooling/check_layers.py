@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Part of roomgraph, object-level semantic SLAM.
-"""A library includes and links only strictly lower levels; heavy dependencies stay out of public headers.
+"""A library includes and links only strictly lower levels; heavy dependencies stay out of public headers, windows in gui/.
 
 Usage: check_layers.py ROOT
 """
@@ -17,6 +17,7 @@ LEVELS = {"core": 0, "geometry": 1, "observations": 2,
 PRIVATE = re.compile(r"opencv2/(dnn|features2d|xfeatures2d|calib3d|video)\b|ceres/|nanoflann|CLI/|nlohmann/json\.hpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\broomgraph(?:::|_)(\w+)")
+WINDOWS = re.compile(r"\bmrpt(?:/|::|-)gui\b")
 
 
 def used_library(include):
@@ -58,6 +59,8 @@ def check_links(path, text, library):
 def check(root):
     problems, checked = [], 0
     for path in source_files.files(root, {".h", ".cpp", "CMakeLists.txt"}):
+        if path.parts[0] != "gui" and WINDOWS.search(source_files.read(root, path)):
+            problems.append(f"{path}: only gui/ opens windows (mrpt-gui)")
         if path.parts[0] != "libs" or len(path.parts) < 3:
             continue
         checked += 1

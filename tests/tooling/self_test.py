@@ -60,6 +60,12 @@ class Layers(TreeTest):
         self.assertEqual(len(found), 1)
         self.assertIn("CMakeLists.txt:2: backend (level 3) reaches sideways to mapping", found[0])
 
+    def test_only_gui_opens_windows(self):
+        self.assertEqual(self.problems("gui/a.cpp", "#include <mrpt/" "gui/CDisplayWindow3D.h>\n"), [])
+        self.assertIn("only gui/", self.problems("apps/roomgraph/a.cpp", "#include <mrpt/" "gui/CDisplayWindow3D.h>\n")[0])
+        (self.root / "apps/roomgraph/a.cpp").unlink()
+        self.assertIn("only gui/", self.problems("CMakeLists.txt", "find_package(mrpt-" + "gui REQUIRED)\n")[0])
+
     def test_library_without_level(self):
         self.assertIn("has no level", self.problems("libs/extra/src/a.cpp", "")[0])
 
