@@ -139,7 +139,9 @@ TEST(ProjectCircle, EqualsSampling) {
                  std::max(sampled.u_max, pixel.x()), std::max(sampled.v_max, pixel.y())};
     }
     const auto box = projectCircle(center, normal, radius, kCamera);
-    if (nearest < -1e-3) EXPECT_FALSE(box.has_value());
+    if (nearest < -1e-3) {
+      EXPECT_FALSE(box.has_value());
+    }
     if (nearest < 0.05) continue;
     ++in_front;
     ASSERT_TRUE(box.has_value());

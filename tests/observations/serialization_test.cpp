@@ -107,10 +107,10 @@ TEST(Serialization, EveryClassComesBackAsItWas) {
   struct Case {
     std::string name, before, after;
   };
+  const CObservationDetections no_detections;  // stamped with the time of its making
   const std::vector<Case> cases = {
       {"roomgraph::CObservationDetections", describe(detections()), describedAfterRoundTrip(detections())},
-      {"roomgraph::CObservationDetections", describe(CObservationDetections()),
-       describedAfterRoundTrip(CObservationDetections())},
+      {"roomgraph::CObservationDetections", describe(no_detections), describedAfterRoundTrip(no_detections)},
       {"roomgraph::CSemanticMap", describe(semanticMap()), describedAfterRoundTrip(semanticMap())},
       {"roomgraph::CSemanticMap", describe(CSemanticMap()), describedAfterRoundTrip(CSemanticMap())}};
   for (const auto& c : cases) {
@@ -125,7 +125,7 @@ TEST(Serialization, DetectionsKeepEveryField) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->timestamp, original.timestamp);
   EXPECT_EQ(back->sensorLabel, "DETECTOR");
-  EXPECT_EQ(back->sensorPose(), original.sensorPose());
+  EXPECT_TRUE((back->sensorPose() - original.sensorPose()).norm() < 1e-12);
   ASSERT_EQ(back->items.size(), 2u);
   EXPECT_EQ(back->items[0].track, 7);
   EXPECT_EQ(back->items[1].u_min, -3);

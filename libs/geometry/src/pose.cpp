@@ -3,10 +3,27 @@
 #include "roomgraph/geometry/pose.h"
 
 #include <mrpt/math/wrap2pi.h>
-#include <mrpt/poses/Lie/SE.h>
-#include <mrpt/poses/Lie/SO.h>
+
+#include <Eigen/LU>
+#include <numbers>
 
 namespace roomgraph {
+namespace {
+
+// Left Jacobian V of SO(3): exp(rho, w) = (exp(w), V(w) rho). MRPT's Lie::SE<3>::exp leaves V out
+// (pseudo-exponential).
+Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w) {
+  const double angle = w.norm(), square = angle * angle;
+  Eigen::Matrix3d cross;
+  cross << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  // Below this the closed forms lose digits and two terms of their series are exact.
+  const bool small = angle < 1e-3;
+  const double a = small ? 1.0 / 2 - square / 24 : (1 - std::cos(angle)) / square;
+  const double b = small ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);
+  return Eigen::Matrix3d::Identity() + a * cross + b * cross * cross;
+}
+
+}  // namespace
 
 Pose2 Pose2::operator*(const Pose2& other) const {
   const Eigen::Vector2d p = *this * Eigen::Vector2d(other.x, other.y);
@@ -23,9 +40,15 @@ Eigen::Vector2d Pose2::operator*(const Eigen::Vector2d& point) const {
   return {x + c * point.x() - s * point.y(), y + s * point.x() + c * point.y()};
 }
 
-double wrapAngle(double radians) { return mrpt::math::wrapToPi(radians); }
+double wrapAngle(double radians) {
+  // MRPT wraps into [-pi, pi).
+  const double wrapped = mrpt::math::wrapToPi(radians);
+  return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
+}
 
-Pose3 toPose3(const Pose2& pose) { return poseFromYpr(pose.x, pose.y, 0, pose.yaw, 0, 0); }
+Pose3 toPose3(const Pose2& pose) {
+  return poseFromYpr(pose.x, pose.y, 0, pose.yaw, 0, 0);
+}
 
 Pose2 planarPart(const Pose3& pose) {
   const Eigen::Vector3d x_axis = pose.linear().col(0);
@@ -34,10 +57,10 @@ Pose2 planarPart(const Pose3& pose) {
 
 Pose3 poseFromYpr(double x, double y, double z, double yaw, double pitch, double roll) {
   Pose3 pose = Pose3::Identity();
-  pose.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
-                   Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                   Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-                      .toRotationMatrix();
+  pose.linear() =
+      (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   pose.translation() = Eigen::Vector3d(x, y, z);
   return pose;
 }
@@ -60,29 +83,30 @@ Eigen::Vector3d logSO3(const Eigen::Matrix3d& rotation) {
 
 Eigen::Matrix3d expSO3(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
-  if (angle < 1e-12) return Eigen::Quaterniond(1, rotation_vector.x() / 2, rotation_vector.y() / 2,
-                                               rotation_vector.z() / 2).normalized().toRotationMatrix();
+  if (angle < 1e-12)
+    return Eigen::Quaterniond(1, rotation_vector.x() / 2, rotation_vector.y() / 2, rotation_vector.z() / 2)
+        .normalized()
+        .toRotationMatrix();
   return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
 }
 
 Vector6d logSE3(const Pose3& pose) {
-  const auto tangent = mrpt::poses::Lie::SE<3>::log(toMrpt(pose));
   Vector6d out;
-  for (int i = 0; i < 6; ++i) out[i] = tangent[i];
+  out.tail<3>() = logSO3(pose.linear());
+  out.head<3>() = leftJacobian(out.tail<3>()).partialPivLu().solve(pose.translation());
   return out;
 }
 
 Pose3 expSE3(const Vector6d& tangent) {
-  mrpt::poses::Lie::SE<3>::tangent_vector v;
-  for (int i = 0; i < 6; ++i) v[i] = tangent[i];
-  const auto matrix = mrpt::poses::Lie::SE<3>::exp(v).getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>();
-  Pose3 pose;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) pose.matrix()(i, j) = matrix(i, j);
+  Pose3 pose = Pose3::Identity();
+  pose.linear() = expSO3(tangent.tail<3>());
+  pose.translation() = leftJacobian(tangent.tail<3>()) * tangent.head<3>();
   return pose;
 }
 
-double rotationAngle(const Pose3& pose) { return Eigen::AngleAxisd(pose.linear()).angle(); }
+double rotationAngle(const Pose3& pose) {
+  return Eigen::AngleAxisd(pose.linear()).angle();
+}
 
 Pose3 interpolate(const Pose3& a, const Pose3& b, double ratio) {
   Pose3 out = Pose3::Identity();

@@ -1,0 +1,28 @@
+# Run by ctest: cmake -DBUILD= -DSOURCE= -DCOMPILER= -DLIBDIR= -P install_test.cmake
+set(work "${BUILD}/install-test")
+file(REMOVE_RECURSE "${work}")
+
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGV}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
+foreach(file bin/roomgraph share/roomgraph/objects.ini include/roomgraph/core/config.h
+        ${LIBDIR}/cmake/roomgraph/roomgraph-config.cmake)
+  if(NOT EXISTS "${work}/prefix/${file}")
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+run(${work}/prefix/bin/roomgraph --version)
+
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/consumer -DCMAKE_PREFIX_PATH=${work}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${work}/consumer)
+run(${work}/consumer/consumer ${work}/prefix/share/roomgraph/objects.ini)
+if(NOT output MATCHES "swivel_chair is a cylinder")
+  message(FATAL_ERROR "the consumer printed: ${output}")
+endif()

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Part of roomgraph, object-level semantic SLAM.
+"""The checks themselves: each must find what it is there for, and only that."""
+import pathlib
+import tempfile
+import textwrap
+import unittest
+
+import check_layers
+import check_sizes
+import check_text
+import cpp_functions
+
+HEAD = "// SPDX-License-Identifier: BSD-3-Clause\n"
+
+
+class TreeTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+
+class Layers(TreeTest):
+    def problems(self, path, text):
+        self.write(path, text)
+        return check_layers.check(self.root)[0]
+
+    def test_downward_and_own_includes_are_fine(self):
+        self.assertEqual(self.problems("libs/lidar/src/a.cpp", '#include "roomgraph/lidar/a.h"\n'
+                                       '#include "roomgraph/core/errors.h"\n#include "own.h"\n#include <vector>\n'), [])
+
+    def test_upward_sideways_unknown(self):
+        found = self.problems("libs/lidar/src/a.cpp", '#include "roomgraph/pipeline/a.h"\n'
+                              '  #  include <roomgraph/mapping/b.h>\n#include "roomgraph/nonsense/c.h"\n')
+        self.assertEqual(len(found), 3)
+        self.assertIn("a.cpp:1: lidar (level 3) reaches upwards to pipeline", found[0])
+        self.assertIn("a.cpp:2: lidar (level 3) reaches sideways to mapping", found[1])
+        self.assertIn("unknown library 'nonsense'", found[2])
+
+    def test_relative_path_out_of_the_folder(self):
+        self.assertIn("leaves its folder", self.problems("libs/core/src/a.cpp", '#include "../../lidar/src/x.h"\n')[0])
+
+    def test_heavy_headers_are_for_src_only(self):
+        text = "#include <opencv2/dnn.hpp>\n#include <ceres/ceres.h>\n#include <opencv2/features2d.hpp>\n" \
+               "#include <opencv2/core/mat.hpp>\n"
+        self.assertEqual(len(self.problems("libs/tracking/include/roomgraph/tracking/a.h", text)), 3)
+        (self.root / "libs/tracking/include/roomgraph/tracking/a.h").unlink()
+        self.assertEqual(self.problems("libs/tracking/src/a.h", text), [])
+
+    def test_links_follow_the_same_rule(self):
+        found = self.problems("libs/backend/CMakeLists.txt", "roomgraph_add_library(backend SOURCES src/a.cpp\n"
+                              "  PUBLIC roomgraph::observations roomgraph::mapping)\n")
+        self.assertEqual(len(found), 1)
+        self.assertIn("CMakeLists.txt:2: backend (level 3) reaches sideways to mapping", found[0])
+
+    def test_only_gui_opens_windows(self):
+        self.assertEqual(self.problems("gui/a.cpp", "#include <mrpt/" "gui/CDisplayWindow3D.h>\n"), [])
+        self.assertIn("only gui/", self.problems("apps/roomgraph/a.cpp", "#include <mrpt/" "gui/CDisplayWindow3D.h>\n")[0])
+        (self.root / "apps/roomgraph/a.cpp").unlink()
+        self.assertIn("only gui/", self.problems("CMakeLists.txt", "find_package(mrpt-" + "gui REQUIRED)\n")[0])
+
+    def test_library_without_level(self):
+        self.assertIn("has no level", self.problems("libs/extra/src/a.cpp", "")[0])
+
+
+LONG = "int f() {\n" + "  g();\n" * 59 + "}\n"      # 61 lines
+
+
+class Sizes(TreeTest):
+    def problems(self, path, text, allowed=""):
+        self.write(path, text)
+        self.write("allowed.txt", allowed)
+        return check_sizes.check(self.root, self.root / "allowed.txt")[0]
+
+    def test_long_function(self):
+        found = self.problems("libs/core/src/a.cpp", "\n" + LONG)
+        self.assertEqual(found, ["libs/core/src/a.cpp:2: function f of 61 lines, at most 60"])
+
+    def test_function_at_the_limit(self):
+        self.assertEqual(self.problems("libs/core/src/a.cpp", LONG.replace("  g();\n", "", 1)), [])
+
+    def test_long_file(self):
+        self.assertEqual(self.problems("tests/core/a.h", "//\n" * 400), [])
+        self.assertEqual(self.problems("tests/core/a.h", "//\n" * 401), ["tests/core/a.h: file of 401 lines, at most 400"])
+
+    def test_exceptions(self):
+        name = "libs/core/src/a.cpp"
+        self.assertEqual(self.problems(name, LONG, f"# list\n{name}:f 61 a table\n"), [])
+        self.assertEqual(len(self.problems(name, LONG, f"{name}:f 60 a table\n")), 1)
+        self.assertIn("needs no exception", self.problems(name, "int a;\n", f"{name}:f 61 a table\n")[0])
+        with self.assertRaises(SystemExit):
+            self.problems(name, LONG, f"{name}:f 61\n")
+
+
+class CppFunctions(unittest.TestCase):
+    def names(self, text):
+        return [(f.name, f.line, f.lines) for f in cpp_functions.find(textwrap.dedent(text))]
+
+    def test_scopes_members_and_templates(self):
+        self.assertEqual(self.names("""\
+            namespace a::b {
+            class X final : public Y {
+             public:
+              X() : a_{1}, b_(2) {
+                go();
+              }
+              ~X() override { stop(); }
+              bool operator==(const X&) const { return true; }
+              int a_{0}, b_ = {3};
+            };
+            template <class T, int N = 3>
+            auto f(T t, std::vector<int> v = {1, 2}) -> std::vector<T>
+            {
+              if (t) { return {}; }
+            }
+            enum class E { kA, kB };
+            }  // namespace a::b
+            """), [("X", 4, 3), ("~X", 7, 1), ("operator==", 8, 1), ("f", 11, 5)])
+
+    def test_braces_in_literals_comments_and_macros_do_not_count(self):
+        self.assertEqual(self.names("""\
+            #define OPEN {
+            // {
+            /* { */ int f() {
+              const char* a = "{"; char b = '{'; auto c = R"x({ " )x"; int d = 1'000'000;
+              return 0;  // }
+            }
+            int g() { return 1; }
+            """), [("f", 3, 4), ("g", 7, 1)])
+
+    def test_macros_without_semicolon(self):
+        self.assertEqual(self.names("REGISTER(A, ns)\nREGISTER(B,\n         ns)\nnamespace {\nint f() {\n}\n}\n"),
+                         [("f", 5, 2)])
+        self.assertEqual(self.names("INITIALIZER(a)\n{\n}\n"), [("INITIALIZER", 1, 3)])
+
+    def test_tables_are_no_functions(self):
+        self.assertEqual(self.names("const int kTable[] = {\n1,\n2,\n};\nstd::map<int, int> m{{1, 2}};\nint f() {}\n"),
+                         [("f", 6, 1)])
+
+    def test_lambdas_belong_to_their_function(self):
+        self.assertEqual(self.names("void f() {\n  run([&](int a) {\n    a = {1};\n  });\n}\n"), [("f", 1, 5)])
+
+    def test_tests_have_names(self):
+        self.assertEqual(self.names("TEST(Suite, Case) {\n}\n"), [("Suite.Case", 1, 2)])
+
+
+class Text(TreeTest):
+    def problems(self, path, text):
+        self.write(path, text)
+        return check_text.check(self.root)[0]
+
+    def test_clean(self):
+        self.assertEqual(self.problems("libs/core/src/a.cpp", HEAD + "int workload;  // see ../shared/work of others\n"), [])
+
+    def test_words_and_paths(self):
+        for bad in ("// TO" + "DO: later", "/* FIX" + "ME */", "// X" + "XX", '"/wo' + 'rk/data"', "see /ho" + "me/me"):
+            self.assertEqual(len(self.problems("libs/core/src/a.cpp", HEAD + bad + "\n")), 1, bad)
+        self.assertEqual(len(self.problems("README.md", "TO" + "DO\n")), 2)
+
+    def test_licence(self):
+        self.assertIn("no licence line", self.problems("tests/core/a.cpp", "int a;\n")[0])
+        self.assertEqual(self.problems("tests/core/a.cpp", HEAD), [])
+
+
+class Vacuous(TreeTest):
+    def test_an_empty_tree_is_noticed(self):
+        for check in (check_layers.check, check_text.check):
+            self.assertEqual(check(self.root), ([], 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
