@@ -8,5 +8,6 @@ namespace roomgraph {
 
 // Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback reports
 // failure by throwing roomgraph::Error, whose exit code main() returns.
+void addSnapshotCommand(CLI::App& app);
 
 }  // namespace roomgraph

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read.");
   roomgraph::observations::registerClasses();
+  roomgraph::addSnapshotCommand(app);
 
   try {
     app.parse(argc, argv);

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "atomic_file.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 

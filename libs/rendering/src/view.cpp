@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "view.h"
+
+#include <mrpt/opengl/COpenGLViewport.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene_parts.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+/// Corners of the content; for the top view only the floor counts.
+std::vector<Eigen::Vector3d> cornersOf(const Eigen::AlignedBox3d& box) {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  return corners;
+}
+
+}  // namespace
+
+View::View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
+           const Box2& inner)
+    : viewport_(scene.getViewport()), width_(options.width), height_(options.height) {
+  const Eigen::AlignedBox3d box = contentBounds(map);
+  const double extent = contentExtent(map);
+  viewport_->setViewportClipDistances(0.1f, static_cast<float>(10 * extent + 100));
+  const Eigen::Vector3d center = box.center();
+  camera_.setPointingAt(static_cast<float>(center.x()), static_cast<float>(center.y()), 0);
+  camera_.setZoomDistance(static_cast<float>(std::max(2 * extent, 5.0)));
+  if (options.view == SnapshotView::kTop) {
+    camera_.setOrthogonal();
+    camera_.setAzimuthDegrees(-90);
+    camera_.setElevationDegrees(90);
+    fit(cornersOf(box), inner);
+  } else if (options.view == SnapshotView::kOrbit || map.world_from_robot.empty()) {
+    camera_.setProjectiveFOVdeg(30);
+    camera_.setAzimuthDegrees(-65);
+    camera_.setElevationDegrees(42);
+    fit(cornersOf(box), inner);
+  } else {
+    const Pose3& last = map.world_from_robot.back().pose;
+    const Eigen::Vector3d ahead = last * Eigen::Vector3d(1.2, 0, 0);
+    camera_.setProjectiveFOVdeg(55);
+    camera_.setPointingAt(static_cast<float>(ahead.x()), static_cast<float>(ahead.y()), 0.5f);
+    camera_.setAzimuthDegrees(static_cast<float>(planarPart(last).yaw * kDegrees + 180));
+    camera_.setElevationDegrees(28);
+    camera_.setZoomDistance(4.5f);
+    update();
+  }
+}
+
+// MRPT's camera model in orbit mode; its own matrices exist only while it renders.
+void View::update() {
+  viewport_->getCamera() = camera_;
+  const double azimuth = static_cast<double>(camera_.getAzimuthDegrees()) / kDegrees;
+  const double elevation = static_cast<double>(camera_.getElevationDegrees()) / kDegrees;
+  const double distance = static_cast<double>(camera_.getZoomDistance());
+  const Eigen::Vector3d forward(-std::cos(azimuth) * std::cos(elevation),
+                                -std::sin(azimuth) * std::cos(elevation), -std::sin(elevation));
+  const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0), up = right.cross(forward);
+  const Eigen::Vector3d eye = Eigen::Vector3d(static_cast<double>(camera_.getPointingAtX()),
+                                              static_cast<double>(camera_.getPointingAtY()),
+                                              static_cast<double>(camera_.getPointingAtZ())) -
+                              distance * forward;
+  const double aspect = static_cast<double>(width_) / height_;
+  // Half the picture's height: in metres (orthographic), or at depth 1 m (perspective).
+  const double half = orthographic()
+                          ? distance / 2 / std::min(aspect, 1.0)
+                          : std::tan(static_cast<double>(camera_.getProjectiveFOVdeg()) / kDegrees / 2);
+  clip_from_world_.setIdentity();
+  clip_from_world_.row(0) << right.transpose() / (half * aspect), -right.dot(eye) / (half * aspect);
+  clip_from_world_.row(1) << up.transpose() / half, -up.dot(eye) / half;
+  clip_from_world_.row(2) << forward.transpose(), -forward.dot(eye);
+  if (!orthographic()) clip_from_world_.row(3) = clip_from_world_.row(2);
+}
+
+std::optional<Eigen::Vector2d> View::project(const Eigen::Vector3d& world) const {
+  const Eigen::Vector4d clip = clip_from_world_ * world.homogeneous();
+  if (clip.w() <= 1e-6) return std::nullopt;
+  return Eigen::Vector2d((clip.x() / clip.w() + 1) / 2 * width_, (1 - clip.y() / clip.w()) / 2 * height_);
+}
+
+double View::pixelsPerMeter() const {
+  return (*project(Eigen::Vector3d::UnitX()) - *project(Eigen::Vector3d::Zero())).norm();
+}
+
+/// Moves what the camera points at on the floor so that the picture moves by so many pixels.
+void View::shift(const Eigen::Vector2d& pixels) {
+  const Eigen::Vector3d at(static_cast<double>(camera_.getPointingAtX()),
+                           static_cast<double>(camera_.getPointingAtY()), 0);
+  const double step = 0.01;
+  const auto here = project(at), x = project(at + Eigen::Vector3d(step, 0, 0)),
+             y = project(at + Eigen::Vector3d(0, step, 0));
+  if (!here || !x || !y) return;
+  Eigen::Matrix2d pixels_from_floor;
+  pixels_from_floor << (*x - *here) / step, (*y - *here) / step;
+  const Eigen::Vector2d move = pixels_from_floor.inverse() * pixels;
+  camera_.setPointingAt(static_cast<float>(at.x() - move.x()), static_cast<float>(at.y() - move.y()), 0);
+}
+
+/// Alternates zooming and shifting until the content's image fills `inner`.
+void View::fit(const std::vector<Eigen::Vector3d>& content, const Box2& inner) {
+  for (int round = 0; round < 20; ++round) {
+    update();
+    Eigen::AlignedBox2d image;
+    for (const auto& point : content)
+      if (const auto pixel = project(point)) image.extend(*pixel);
+    shift(inner.center() - image.center());
+    update();
+    const double ratio = std::max(image.sizes().x() / inner.width(), image.sizes().y() / inner.height());
+    camera_.setZoomDistance(static_cast<float>(static_cast<double>(camera_.getZoomDistance()) * ratio));
+  }
+  update();
+}
+
+}  // namespace roomgraph
