@@ -57,7 +57,8 @@ void drawLabels(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& 
   std::vector<Label> labels;
   for (const auto& landmark : map.landmarks) {
     const Box2 object = imageBox(landmark, view);
-    if (!picture.contains(object.center().x(), object.center().y()) || object.width() > image.cols / 2.0)
+    if (object.empty() || !picture.contains(object.center().x(), object.center().y()) ||
+        object.width() > image.cols / 2.0)
       continue;
     const std::string text = readable(landmark.class_name) + " " + std::to_string(landmark.id.value);
     labels.push_back({text, object, textWidth(text, style), style.cap_height_px, {}});

@@ -16,7 +16,7 @@ Eigen::AlignedBox3d contentBounds(const CSemanticMap& map) {
     const auto& grid = *map.occupancy;
     for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
       for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x)
-        if (std::abs(grid.getCell(x, y) - 0.5f) > 0.15f)
+        if (isKnown(grid.getCell(x, y)))
           box.extend(Eigen::Vector3d(static_cast<double>(grid.idx2x(static_cast<std::size_t>(x))),
                                      static_cast<double>(grid.idx2y(static_cast<std::size_t>(y))), 0));
   }

@@ -73,6 +73,8 @@ void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database,
     const Eigen::Vector3d center = landmark.position + Eigen::Vector3d(0, 0, height);
     object->setLocalRepresentativePoint(
         {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(center.z())});
+    // Only the near faces: what is inside and behind shows through once.
+    object->cullFaces(mrpt::opengl::TCullFace::BACK);
     scene.insert(object);
   }
 }

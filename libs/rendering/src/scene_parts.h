@@ -5,12 +5,18 @@
 #include <mrpt/opengl/COpenGLScene.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
 
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/observations/object_database.h"
 
 namespace roomgraph {
 
+/// A cell that was measured as free or occupied.
+inline bool isKnown(float p_free) {
+  return std::abs(p_free - 0.5f) > 0.15f;
+}
 /// What a picture of the map must show: known cells, objects, path (m, world); a few metres around the origin
 /// for an empty map.
 Eigen::AlignedBox3d contentBounds(const CSemanticMap& map);

@@ -15,11 +15,31 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-/// Corners of the content; for the top view only the floor counts.
-std::vector<Eigen::Vector3d> cornersOf(const Eigen::AlignedBox3d& box) {
-  std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i) corners.push_back(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  return corners;
+/// Points around everything that the picture must show: the ends of every row of known cells, objects, path.
+/// A tighter fit than the corners of the bounding box when the rooms lie askew.
+std::vector<Eigen::Vector3d> contentPoints(const CSemanticMap& map) {
+  std::vector<Eigen::Vector3d> points;
+  if (map.occupancy) {
+    const auto& grid = *map.occupancy;
+    const int width = static_cast<int>(grid.getSizeX());
+    for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y) {
+      int first = 0, last = width - 1;
+      while (first < width && !isKnown(grid.getCell(first, y))) ++first;
+      while (last > first && !isKnown(grid.getCell(last, y))) --last;
+      if (first == width) continue;
+      for (const int x : {first, last})
+        points.emplace_back(static_cast<double>(grid.idx2x(static_cast<std::size_t>(x))),
+                            static_cast<double>(grid.idx2y(static_cast<std::size_t>(y))), 0);
+    }
+  }
+  for (const auto& landmark : map.landmarks)
+    for (const auto& corner : footprintInWorld(landmark))
+      for (const double height : {0.0, landmark.shape.height})
+        points.push_back(corner + Eigen::Vector3d(0, 0, height));
+  for (const auto& stamped : map.world_from_robot) points.push_back(stamped.pose.translation());
+  const Eigen::AlignedBox3d box = contentBounds(map);
+  if (points.size() < 3 || !map.occupancy) points.insert(points.end(), {box.min(), box.max()});
+  return points;
 }
 
 }  // namespace
@@ -37,12 +57,12 @@ View::View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const Sna
     camera_.setOrthogonal();
     camera_.setAzimuthDegrees(-90);
     camera_.setElevationDegrees(90);
-    fit(cornersOf(box), inner);
+    fit(contentPoints(map), inner);
   } else if (options.view == SnapshotView::kOrbit || map.world_from_robot.empty()) {
     camera_.setProjectiveFOVdeg(30);
     camera_.setAzimuthDegrees(-65);
     camera_.setElevationDegrees(42);
-    fit(cornersOf(box), inner);
+    fit(contentPoints(map), inner);
   } else {
     const Pose3& last = map.world_from_robot.back().pose;
     const Eigen::Vector3d ahead = last * Eigen::Vector3d(1.2, 0, 0);
@@ -71,7 +91,7 @@ void View::update() {
   const double aspect = static_cast<double>(width_) / height_;
   // Half the picture's height: in metres (orthographic), or at depth 1 m (perspective).
   const double half = orthographic()
-                          ? distance / 2 / std::min(aspect, 1.0)
+                          ? distance / 4 / std::min(aspect, 1.0)
                           : std::tan(static_cast<double>(camera_.getProjectiveFOVdeg()) / kDegrees / 2);
   clip_from_world_.setIdentity();
   clip_from_world_.row(0) << right.transpose() / (half * aspect), -right.dot(eye) / (half * aspect);
