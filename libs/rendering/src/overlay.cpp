@@ -81,8 +81,10 @@ void drawTitle(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& o
   std::ostringstream facts;
   facts.setf(std::ios::fixed);
   facts.precision(1);
-  facts << size.x() << " x " << size.y() << " m,  " << map.landmarks.size()
-        << (map.landmarks.size() == 1 ? " object" : " objects") << ",  path " << length << " m";
+  facts << size.x() << " x " << size.y() << " m";
+  if (!map.landmarks.empty())
+    facts << ",  " << map.landmarks.size() << (map.landmarks.size() == 1 ? " object" : " objects");
+  if (length > 0) facts << ",  path " << length << " m";
   drawText(image, facts.str(), {3 * u, 6.2 * u}, {0.9 * u, palette::kFaintInk, 2});
 }
 

@@ -69,8 +69,8 @@ View::View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const Sna
     camera_.setProjectiveFOVdeg(55);
     camera_.setPointingAt(static_cast<float>(ahead.x()), static_cast<float>(ahead.y()), 0.5f);
     camera_.setAzimuthDegrees(static_cast<float>(planarPart(last).yaw * kDegrees + 180));
-    camera_.setElevationDegrees(28);
-    camera_.setZoomDistance(4.5f);
+    camera_.setElevationDegrees(32);
+    camera_.setZoomDistance(6.5f);
     update();
   }
 }
