@@ -35,10 +35,12 @@ void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   const double begin = map.world_from_robot.front().t;
   const double span = std::max(map.world_from_robot.back().t - begin, 1e-9);
   Mesh mesh;
+  // Later parts lie a little higher: where the path covers itself, the newest shows.
+  const auto lift_at = [&](double t) { return kLift + 0.008 * (t - begin) / span; };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto color = palette::mix(palette::kPathStart, palette::kPathEnd, (poses[i].t - begin) / span);
-    const Eigen::Vector3d to = place(poses[i].pose, kLift);
-    mesh.ribbon(place(poses[i - 1].pose, kLift), to, width, color);
+    const Eigen::Vector3d to = place(poses[i].pose, lift_at(poses[i].t));
+    mesh.ribbon(place(poses[i - 1].pose, lift_at(poses[i - 1].t)), to, width, color);
     mesh.disc(to, width / 2, color, 8);
   }
   const Eigen::Vector3d start = place(map.world_from_robot.front().pose, kLift + 0.01);
