@@ -13,5 +13,6 @@ void addInfoCommand(CLI::App& app);
 
 void addRunCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
+void addSnapshotCommand(CLI::App& app);
 
 }  // namespace roomgraph

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
 
   roomgraph::addRunCommand(app);
   roomgraph::addEvaluateCommand(app);
+  roomgraph::addSnapshotCommand(app);
 
   try {
     app.parse(argc, argv);

@@ -12,6 +12,7 @@
 #include "roomgraph/core/progress.h"
 #include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/run_output.h"
+#include "roomgraph/rendering/snapshot.h"
 #include "shared_files.h"
 
 namespace roomgraph {
@@ -86,6 +87,7 @@ void run(const RunOptions& options) {
   Config config = Config::fromFile(config_file);
   for (const auto& assignment : options.overrides) config.override(assignment);
   auto stages = makeStages(config, config_file.parent_path());
+  const ObjectDatabase database = stages->database;
   RawlogReader reader(options.input,
                       {stages->tracking.enabled || stages->detection.enabled, stages->lidar.enabled, stages->odometry.enabled});
   RecordSorter sorter(stages->general.lookahead_s);
@@ -104,6 +106,8 @@ void run(const RunOptions& options) {
                       {{"input", options.input}, {"version", ROOMGRAPH_VERSION}, {"interrupted", replayed.stopped ? "yes" : "no"}});
   if (result.world_from_robot.empty())
     throw InputError(options.input + ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
+  if (!options.no_snapshot)
+    renderSnapshot(result.map, database, {.title = result.map.origin}, output->folder() / "snapshot.png");
   printSummary(options, replayed, result, seconds);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "atomic_file.h"
+#include "roomgraph/mapping/atomic_file.h"
 
 #include <unistd.h>
 

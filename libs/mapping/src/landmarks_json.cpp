@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "atomic_file.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "atomic_file.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 
@@ -75,7 +75,9 @@ void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::fi
 
 mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml) {
   const RosMap map = readYaml(yaml);
-  const cv::Mat image = cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE);
+  // Asked first, because OpenCV prints a warning about a missing file.
+  const bool exists = std::filesystem::is_regular_file(map.image);
+  const cv::Mat image = exists ? cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE) : cv::Mat();
   if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");
   mrpt::maps::COccupancyGridMap2D grid;
   grid.setSize(static_cast<float>(map.x_min), static_cast<float>(map.x_min + image.cols * map.resolution_m),

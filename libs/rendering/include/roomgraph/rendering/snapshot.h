@@ -15,11 +15,12 @@ enum class SnapshotView { kTop, kOrbit, kRobot };
 struct SnapshotOptions {
   SnapshotView view = SnapshotView::kTop;
   int width = 1280, height = 960;
-  std::string title;   ///< one line at the top; empty: none
+  std::string title;  ///< one line at the top; empty: none
 };
 
-/// Renders a semantic map off-screen (EGL, no display) into a PNG: occupancy, footprints and boxes in class colours,
-/// labels, trajectory, scale. Throws RunError when the file cannot be written or no renderer is available.
+/// Renders a semantic map off-screen (EGL, no display) into a PNG: occupancy, footprints and boxes in class
+/// colours, labels, trajectory, scale. Throws RunError when the file cannot be written or no renderer is
+/// available.
 void renderSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const SnapshotOptions& options,
                     const std::filesystem::path& png);
 

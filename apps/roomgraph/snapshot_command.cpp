@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/map_files.h"
+#include "roomgraph/rendering/snapshot.h"
+
+namespace roomgraph {
+namespace {
+
+struct Arguments {
+  std::string map, output, view = "top", size = "1280x960", objects, title;
+};
+
+SnapshotOptions toOptions(const Arguments& arguments) {
+  SnapshotOptions options;
+  options.view = arguments.view == "orbit"   ? SnapshotView::kOrbit
+                 : arguments.view == "robot" ? SnapshotView::kRobot
+                                             : SnapshotView::kTop;
+  char rest = 0;
+  if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
+      options.width < 64 || options.height < 64 || options.width > 8192 || options.height > 8192)
+    throw ConfigError("--size " + arguments.size +
+                      ": give WIDTHxHEIGHT in pixels, 64 to 8192, as in 1280x960");
+  options.title = arguments.title;
+  return options;
+}
+
+/// The database that was asked for; else objects.ini beside the map or in the current folder; else none
+/// (grey).
+ObjectDatabase colours(const Arguments& arguments) {
+  if (!arguments.objects.empty()) return ObjectDatabase::fromFile(arguments.objects);
+  for (const auto& folder : {std::filesystem::path(arguments.map).parent_path(), std::filesystem::path()})
+    if (std::filesystem::is_regular_file(folder / "objects.ini"))
+      return ObjectDatabase::fromFile(folder / "objects.ini");
+  return {};
+}
+
+}  // namespace
+
+void addSnapshotCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("snapshot", "Picture of a map (off-screen, no display needed)");
+  command->add_option("map", arguments->map, "Map written by run (map.rgmap)")->required();
+  command->add_option("-o,--output", arguments->output, "PNG to write")->required();
+  command
+      ->add_option("--view", arguments->view, "From above, obliquely, or from behind the robot's last pose")
+      ->check(CLI::IsMember({"top", "orbit", "robot"}))
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "WIDTHxHEIGHT, px")->capture_default_str();
+  command->add_option(
+      "--objects", arguments->objects,
+      "Object database with the classes' colours (default: objects.ini beside the map or here)");
+  command->add_option("--title", arguments->title, "Title; default: the name of the recording");
+  command->callback([arguments] {
+    const SnapshotOptions requested = toOptions(*arguments);
+    const CSemanticMap map = loadMap(arguments->map);
+    auto options = requested;
+    if (options.title.empty()) options.title = map.origin;
+    renderSnapshot(map, colours(*arguments), options, arguments->output);
+  });
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <mrpt/img/TColor.h>
+
+#include <string>
+
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph::palette {
+
+using mrpt::img::TColor;
+
+inline const TColor kUnknown{233, 236, 241};  ///< also the picture's background
+inline const TColor kFree{255, 255, 255};
+inline const TColor kOccupied{58, 70, 87};
+inline const TColor kGridLine{214, 220, 229};
+inline const TColor kInk{38, 46, 58};          ///< text
+inline const TColor kFaintInk{112, 122, 136};  ///< secondary text
+inline const TColor kPathStart{200, 182, 240};
+inline const TColor kPathEnd{92, 45, 160};
+
+/// Linear mix, ratio 0 gives a, 1 gives b.
+TColor mix(const TColor& a, const TColor& b, double ratio);
+TColor withAlpha(TColor color, int alpha);
+/// "#rrggbb"; grey when it has another form.
+TColor parse(const std::string& text);
+/// Colour of a class in the object database; grey when it is not there.
+TColor ofClass(const ObjectDatabase& database, const std::string& class_name);
+
+}  // namespace roomgraph::palette

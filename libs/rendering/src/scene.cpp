@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/rendering/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palette.h"
+#include "scene_parts.h"
+
+namespace roomgraph {
+
+Eigen::AlignedBox3d contentBounds(const CSemanticMap& map) {
+  Eigen::AlignedBox3d box;
+  if (map.occupancy) {
+    const auto& grid = *map.occupancy;
+    for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
+      for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x)
+        if (isKnown(grid.getCell(x, y)))
+          box.extend(Eigen::Vector3d(static_cast<double>(grid.idx2x(static_cast<std::size_t>(x))),
+                                     static_cast<double>(grid.idx2y(static_cast<std::size_t>(y))), 0));
+  }
+  for (const auto& landmark : map.landmarks) {
+    for (const auto& corner : footprintInWorld(landmark)) {
+      box.extend(corner);
+      box.extend(corner + Eigen::Vector3d(0, 0, landmark.shape.height));
+    }
+  }
+  for (const auto& stamped : map.world_from_robot) box.extend(Eigen::Vector3d(stamped.pose.translation()));
+  if (box.isEmpty()) box.extend(Eigen::Vector3d(0, 0, 0));
+  for (int k = 0; k < 2; ++k) {
+    const double missing = 2 - box.sizes()[k];
+    if (missing > 0) box.min()[k] -= missing / 2, box.max()[k] += missing / 2;
+  }
+  return box;
+}
+
+double contentExtent(const CSemanticMap& map) {
+  return contentBounds(map).sizes().head<2>().maxCoeff();
+}
+
+double lineWidth(const CSemanticMap& map) {
+  return std::clamp(contentExtent(map) * 0.0028, 0.012, 0.2);
+}
+
+double gridStep(double extent_m) {
+  const double wanted = extent_m / 12;
+  double step = 1;
+  while (true) {
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (step * factor >= wanted) return step * factor;
+    step *= 10;
+  }
+}
+
+mrpt::opengl::COpenGLScene::Ptr buildScene(const CSemanticMap& map, const ObjectDatabase& database) {
+  auto scene = mrpt::opengl::COpenGLScene::Create();
+  scene->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kUnknown));
+  addFloor(map, *scene);
+  addGridLines(map, *scene);
+  addWalls(map, *scene);
+  addPath(map, *scene);
+  addLandmarks(map, database, *scene);
+  return scene;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph {
+
+/// A cell that was measured as free or occupied.
+inline bool isKnown(float p_free) {
+  return std::abs(p_free - 0.5f) > 0.15f;
+}
+/// What a picture of the map must show: known cells, objects, path (m, world); a few metres around the origin
+/// for an empty map.
+Eigen::AlignedBox3d contentBounds(const CSemanticMap& map);
+/// Largest horizontal side of the content, m.
+double contentExtent(const CSemanticMap& map);
+/// Width of lines that looks the same for small and large maps, m.
+double lineWidth(const CSemanticMap& map);
+/// Distance of grid lines (1, 2, 5, 10 … m) that gives about ten of them.
+double gridStep(double extent_m);
+/// Corners of a landmark's footprint in world, counter-clockwise, at its height above ground.
+std::vector<Eigen::Vector3d> footprintInWorld(const Landmark& landmark);
+
+void addFloor(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
+void addGridLines(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
+void addWalls(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
+void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
+void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database, mrpt::opengl::COpenGLScene& scene);
+
+}  // namespace roomgraph

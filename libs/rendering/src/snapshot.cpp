@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/rendering/snapshot.h"
+
+#include <mrpt/opengl/CFBORender.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "overlay.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/atomic_file.h"
+#include "roomgraph/rendering/scene.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr int kLargestBuffer = 8192;  ///< px; what software renderers can do
+
+/// BGR image of the scene, anti-aliased by rendering it at twice the size.
+cv::Mat render(const mrpt::opengl::COpenGLScene& scene, const SnapshotOptions& options) {
+  const int factor = 2 * std::max(options.width, options.height) <= kLargestBuffer ? 2 : 1;
+  mrpt::img::CImage image;
+  try {
+    mrpt::opengl::CFBORender renderer(static_cast<unsigned>(factor * options.width),
+                                      static_cast<unsigned>(factor * options.height));
+    renderer.getCamera(scene) = scene.getViewport()->getCamera();
+    renderer.render_RGB(scene, image);
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    throw RunError(
+        "no off-screen renderer (EGL with software OpenGL: packages libegl1 and libgl1-mesa-dri): " +
+        what.substr(0, what.find("Call stack")));
+  }
+  cv::Mat small;
+  cv::resize(image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), small, {options.width, options.height}, 0, 0,
+             cv::INTER_AREA);
+  return small;
+}
+
+}  // namespace
+
+void renderSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const SnapshotOptions& options,
+                    const std::filesystem::path& png) {
+  const auto scene = buildScene(map, database);
+  const View view(*scene, map, options, mapArea(options));
+  cv::Mat image = render(*scene, options);
+  drawOverlay(image, map, database, options, view);
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", image, bytes);
+  writeFileAtomically(png, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <mrpt/opengl/CCamera.h>
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "roomgraph/geometry/box.h"
+#include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/rendering/snapshot.h"
+
+namespace roomgraph {
+
+/// A camera over the scene and where it puts world points in the picture.
+class View {
+ public:
+  /// Camera for `options.view` that shows the map's content inside `inner` (px). Sets it in the scene's
+  /// viewport.
+  View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
+       const Box2& inner);
+  /// Pixel (u right, v down) of a world point; nothing when it is behind the camera.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& world) const;
+  bool orthographic() const { return camera_.isOrthogonal(); }
+  /// Orthographic views: pixels per metre.
+  double pixelsPerMeter() const;
+
+ private:
+  void update();
+  void fit(const std::vector<Eigen::Vector3d>& content, const Box2& inner);
+  void shift(const Eigen::Vector2d& pixels);
+
+  mrpt::opengl::COpenGLViewport::Ptr viewport_;
+  mrpt::opengl::CCamera camera_;
+  int width_, height_;
+  Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();
+};
+
+}  // namespace roomgraph
