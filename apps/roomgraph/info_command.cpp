@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include <mrpt/math/TPose3D.h>
+
 #include <cmath>
 #include <cstdio>
 #include <fstream>
