@@ -37,10 +37,10 @@ void importFolder(const Arguments& arguments) {
 }  // namespace
 
 void addImportCommand(CLI::App& app) {
-  auto* import = app.add_subcommand("import", "Turn other recordings into a rawlog");
-  import->require_subcommand(1);
+  auto* importer = app.add_subcommand("import", "Turn other recordings into a rawlog");
+  importer->require_subcommand(1);
   auto* tum =
-      import->add_subcommand("tum", "TUM or ICL-NUIM folder: associations.txt, or rgb.txt and depth.txt");
+      importer->add_subcommand("tum", "TUM or ICL-NUIM folder: associations.txt, or rgb.txt and depth.txt");
   auto arguments = std::make_shared<Arguments>();
   auto& options = arguments->options;
   tum->add_option("DIR", arguments->folder, "folder with the images and their lists")->required();

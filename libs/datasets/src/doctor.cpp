@@ -54,14 +54,14 @@ void checkTimes(const SensorReport& sensor, Findings& out) {
              "they take the time of the next observation");
   else if (sensor.invalid_times > 0)
     out.warning(format("%d of %d records have no valid time stamp", sensor.invalid_times, sensor.count),
-                "such records are left out; set the stamps, e.g. with rawlog-edit");
+                "such records are left out; set the stamps where they are recorded");
   if (valid > 1 && sensor.first_time == sensor.last_time)
     out.error("all time stamps are equal",
               "the order and speed of movement are lost: export the recording again");
   if (sensor.out_of_order > 0)
     out.warning(format("%d records are older than the one before; first: record %d", sensor.out_of_order,
                        sensor.first_out_of_order),
-                "sort by time: rawlog-edit --sort-by-timestamp");
+                "sort the records by time stamp and save again");
   if (sensor.largest_gap_s > kLongGapS && sensor.largest_gap_s > kGapIntervals * sensor.median_interval_s)
     out.warning(format("gap of %.1f s after t = %.3f s (usual interval %.3f s)", sensor.largest_gap_s,
                        sensor.largest_gap_time, sensor.median_interval_s),
@@ -198,7 +198,7 @@ void checkPose(const SensorReport& sensor, Findings& out) {
   if (sensor.used && pose && pose->isApprox(Pose3::Identity(), 1e-9) && (sensor.images || sensor.scans))
     out.note(
         "the sensor sits at the robot's origin, looking ahead",
-        "if this is not so, set it: rawlog-edit --set-sensor-pose (heights above the floor depend on it)");
+        "if this is not so, set it with rawlog-edit --sensors-pose (heights above the floor depend on it)");
 }
 
 void checkWhole(const RawlogReport& report, Findings& out) {
@@ -217,7 +217,7 @@ void checkWhole(const RawlogReport& report, Findings& out) {
   if (report.largest_step_back_s > kLargeStepBackS)
     out.warning(
         format("records are out of order by up to %.3f s between sensors", report.largest_step_back_s),
-        "sort by time: rawlog-edit --sort-by-timestamp");
+        "sort the records by time stamp and save again");
 }
 
 }  // namespace

@@ -83,6 +83,8 @@ std::vector<Row> readAssociations(const fs::path& file, std::vector<std::string>
 /// the name.
 bool depthComesFirst(const fs::path& folder, const std::vector<Row>& rows) {
   for (const auto& row : rows) {
+    if (!fs::is_regular_file(folder / row.first.file) || !fs::is_regular_file(folder / row.second.file))
+      continue;
     const cv::Mat first = cv::imread((folder / row.first.file).string(), cv::IMREAD_UNCHANGED);
     const cv::Mat second = cv::imread((folder / row.second.file).string(), cv::IMREAD_UNCHANGED);
     if (first.empty() || second.empty()) continue;

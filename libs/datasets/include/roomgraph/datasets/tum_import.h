@@ -14,13 +14,14 @@
 namespace roomgraph {
 
 struct TumImportOptions {
-  std::optional<std::filesystem::path> camera_file;  ///< default: camera.json in the folder, if there is one
-  std::optional<double> fx, fy, cx, cy;              ///< px; replace what the camera file says
-  std::optional<double> depth_scale;                 ///< depth PNG value / depth_scale = metres
-  double max_time_difference_s = 0.02;               ///< between colour and depth, for rgb.txt + depth.txt
-  std::optional<double> frame_rate_hz;               ///< stamps are frame numbers (ICL-NUIM) at this rate
-  bool external_images = false;                      ///< images in X_Images/ beside the rawlog
-  std::string label = "RGBD";                        ///< sensorLabel of the records
+  std::optional<std::filesystem::path>
+      camera_file{};                             ///< default: camera.json in the folder, if there is one
+  std::optional<double> fx{}, fy{}, cx{}, cy{};  ///< px; replace what the camera file says
+  std::optional<double> depth_scale{};           ///< depth PNG value / depth_scale = metres
+  double max_time_difference_s = 0.02;           ///< between colour and depth, for rgb.txt + depth.txt
+  std::optional<double> frame_rate_hz{};         ///< stamps are frame numbers (ICL-NUIM) at this rate
+  bool external_images = false;                  ///< images in X_Images/ beside the rawlog
+  std::string label = "RGBD";                    ///< sensorLabel of the records
 };
 
 struct TumImportResult {

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/datasets/rawlog_report.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "rawlog_maker.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+using namespace roomgraph::test;
+using testing::Contains;
+using testing::Each;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+
+testing::Matcher<Finding> finding(Severity severity, const std::string& text) {
+  return testing::AllOf(Field(&Finding::severity, severity), Field(&Finding::what, HasSubstr(text)));
+}
+
+class Doctor : public testing::Test {
+ protected:
+  RawlogReport inspect(const std::vector<Object>& objects) {
+    writeRawlog(folder_ / "x.rawlog", objects);
+    return inspectRawlog(folder_ / "x.rawlog");
+  }
+  std::vector<Finding> findings(const std::vector<Object>& objects) { return inspect(objects).findings; }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Doctor, HealthyRecordingHasOnlyNotes) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 10; ++i) {
+    objects.push_back(makeOdometry(0.1 * i, 0.1 * i, 0, 0));
+    objects.push_back(makeScan(0.1 * i + 0.02, 2 + 0.1f * static_cast<float>(i)));
+    objects.push_back(makeImages(0.1 * i + 0.05));
+  }
+  const auto report = inspect(objects);
+  EXPECT_THAT(report.findings, Each(Field(&Finding::severity, Severity::kNote)));
+  EXPECT_EQ(report.format, "observations");
+  EXPECT_EQ(report.records, 30);
+  EXPECT_NEAR(report.duration(), 0.95, 1e-6);
+  ASSERT_EQ(report.sensors.size(), 3u);
+  EXPECT_EQ(report.sensors[0].label, "ODOMETRY");
+  EXPECT_NEAR(*report.sensors[0].path_length_m, 0.9, 1e-9);
+  EXPECT_NEAR(report.sensors[1].rate_hz, 10, 1e-4);
+  EXPECT_EQ(report.sensors[1].scans->beams, 5);
+  EXPECT_NEAR(report.sensors[1].scans->valid_share, 1, 1e-12);
+  const auto& images = *report.sensors[2].images;
+  EXPECT_EQ(images.color, 10);
+  EXPECT_DOUBLE_EQ(images.color_camera.fx, 20);
+  EXPECT_TRUE(images.registered);
+  EXPECT_NEAR(images.median_depth_m, 1.07, 0.08);
+}
+
+TEST_F(Doctor, TimeStamps) {
+  auto timeless = makeScan(1);
+  timeless->timestamp = INVALID_TIMESTAMP;
+  EXPECT_THAT(findings({makeScan(1), timeless}),
+              Contains(finding(Severity::kWarning, "1 of 2 records have no valid")));
+  EXPECT_THAT(findings({makeScan(1), makeScan(1), makeScan(1)}),
+              Contains(finding(Severity::kError, "equal")));
+  EXPECT_THAT(
+      findings({makeScan(1), makeScan(3), makeScan(2), makeScan(4)}),
+      Contains(finding(Severity::kWarning, "1 records are older than the one before; first: record 2")));
+  EXPECT_THAT(findings({makeScan(1), makeScan(1.1), makeScan(1.2), makeScan(9)}),
+              Contains(finding(Severity::kWarning, "gap of 7.8 s after t = 1.200")));
+  EXPECT_THAT(findings({makeScan(5), makeImages(2), makeScan(6)}),
+              Contains(finding(Severity::kWarning, "out of order by up to 3.000 s")));
+}
+
+TEST_F(Doctor, DepthImages) {
+  auto metres = makeImages(1), tiny = makeImages(1), empty = makeImages(1), moved = makeImages(1),
+       bare = makeImages(1);
+  metres->rangeUnits = 1;
+  tiny->rangeUnits = 1e-5f;
+  empty->rangeImage.fill(0);
+  moved->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.03, 0, -M_PI / 2, 0, -M_PI / 2);
+  bare->hasRangeImage = false;
+  EXPECT_THAT(findings({metres}), Contains(finding(Severity::kError, "the depth unit (1 m) is wrong")));
+  EXPECT_THAT(findings({tiny}), Contains(finding(Severity::kError, "the depth unit (1e-05 m) is wrong")));
+  EXPECT_THAT(findings({empty}), Contains(finding(Severity::kError, "depth images are empty")));
+  EXPECT_THAT(findings({moved}), Contains(finding(Severity::kNote, "not registered")));
+  EXPECT_THAT(findings({bare}), Contains(finding(Severity::kWarning, "colour without depth")));
+}
+
+TEST_F(Doctor, Intrinsics) {
+  auto none = makeImages(1), corner = makeImages(1);
+  none->cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
+  corner->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 0, 0);
+  EXPECT_THAT(findings({none}), Contains(finding(Severity::kError, "no colour intrinsics")));
+  EXPECT_THAT(findings({corner}), Contains(finding(Severity::kWarning, "principal point")));
+}
+
+TEST_F(Doctor, MissingImages) {
+  auto lost = makeImages(1);
+  lost->intensityImage.setExternalStorage("lost.jpg");
+  const auto report = inspect({lost, makeScan(1.1)});
+  EXPECT_THAT(report.findings, Contains(finding(Severity::kError, "1 of 1 records lack their image file")));
+  EXPECT_THAT(report.sensors[0].images->first_missing, HasSubstr("lost.jpg"));
+}
+
+TEST_F(Doctor, ScanGeometry) {
+  auto wide = makeScan(1), degrees = makeScan(1, 2, 180), far = makeScan(1), blind = makeScan(1),
+       good = makeScan(1, 2, 181);
+  wide->aperture = 180;  // degrees given as radians
+  degrees->aperture = good->aperture = static_cast<float>(M_PI);
+  for (std::size_t i = 0; i < 5; ++i) {
+    far->setScanRange(i, far->maxRange);
+    blind->setScanRangeValidity(i, false);
+  }
+  EXPECT_THAT(findings({wide}),
+              Contains(finding(Severity::kError, "aperture of 180.0000 rad is impossible")));
+  EXPECT_THAT(findings({degrees}), Contains(finding(Severity::kNote, "180 beams over 180.00 deg")));
+  EXPECT_THAT(findings({good}), Not(Contains(finding(Severity::kNote, "beams over"))));
+  EXPECT_THAT(findings({far}), Contains(finding(Severity::kError, "all ranges are at the maximum (8.00 m)")));
+  EXPECT_THAT(findings({blind}), Contains(finding(Severity::kError, "all ranges are invalid")));
+}
+
+/// Turning on the spot, 0.15 rad each, in a room without symmetry; scans of 181 beams over 180 degrees.
+std::vector<Object> turningRobot(double declared_aperture, bool mirrored) {
+  const auto wall = [](double a) {
+    return 3 + std::sin(a + 1) + 0.6 * std::cos(2 * a) + 0.4 * std::sin(5 * a + 2);
+  };
+  std::vector<Object> objects;
+  for (int k = 0; k < 20; ++k) {
+    auto scan = makeScan(k, 2, 181);
+    scan->aperture = static_cast<float>(declared_aperture);
+    for (int i = 0; i < 181; ++i) {
+      const double beam = (i - 90) * M_PI / 180 * (mirrored ? -1 : 1);
+      scan->setScanRange(static_cast<std::size_t>(i), static_cast<float>(wall(beam + 0.15 * k)));
+    }
+    objects.push_back(makeOdometry(k, 0, 0, 0.15 * k));
+    objects.push_back(scan);
+  }
+  return objects;
+}
+
+TEST_F(Doctor, ApertureIsComparedWithOdometry) {
+  const auto right = inspect(turningRobot(M_PI, false));
+  ASSERT_TRUE(right.sensors[1].scans->rotation_ratio);
+  EXPECT_NEAR(*right.sensors[1].scans->rotation_ratio, 1, 0.07);
+  EXPECT_THAT(findings(turningRobot(M_PI / 2, false)),
+              Contains(finding(Severity::kWarning, "odometry turns 1.9")));
+  EXPECT_THAT(findings(turningRobot(M_PI, true)), Contains(finding(Severity::kWarning, "mirrored")));
+}
+
+TEST_F(Doctor, OdometryThatNeverChanges) {
+  const auto still = [](double t) { return makeOdometry(t, 1, 1, 1); };
+  EXPECT_THAT(findings({still(1), makeScan(1, 2), still(2), makeScan(2, 4)}),
+              Contains(finding(Severity::kError, "never changes while the scans do")));
+  EXPECT_THAT(findings({still(1), makeScan(1, 2), still(2), makeScan(2, 2)}),
+              Contains(finding(Severity::kNote, "odometry never changes")));
+}
+
+TEST_F(Doctor, WholeFile) {
+  auto comment = mrpt::obs::CObservationComment::Create();
+  comment->timestamp = mrpt::Clock::fromDouble(1);
+  const auto useless = findings({comment, makeOdometry(1, 0, 0, 0)});
+  EXPECT_THAT(useless, Contains(finding(Severity::kError, "no usable sensor")));
+  EXPECT_THAT(useless, Contains(finding(Severity::kNote, "CObservationComment are not used")));
+  EXPECT_EQ(useless.front().severity, Severity::kError) << "worst first";
+  EXPECT_THAT(findings({makeScan(1)}), Contains(finding(Severity::kNote, "no odometry")));
+
+  auto tilted = makeScan(2);
+  tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0, 0);
+  EXPECT_THAT(findings({makeScan(1), tilted}),
+              Contains(finding(Severity::kNote, "pose on the robot changes")));
+
+  const std::string bytes = bytesOf(makeScan(1)) + bytesOf(makeScan(2));
+  writeBytes(folder_ / "cut.rawlog", bytes.substr(0, bytes.size() - 9));
+  EXPECT_THAT(inspectRawlog(folder_ / "cut.rawlog").findings,
+              Contains(finding(Severity::kWarning, "ends in the middle")));
+  EXPECT_THROW(inspectRawlog(folder_ / "none.rawlog"), InputError);
+}
+
+TEST_F(Doctor, ActionFormat) {
+  const auto report = inspect({makeAction(-1, 1, 0, 0), makeSensoryFrame({makeScan(1)}),
+                               makeAction(2, 1, 0, 0.5), makeSensoryFrame({makeScan(2.1)})});
+  EXPECT_EQ(report.format, "actions and sensory frames");
+  EXPECT_NEAR(*report.sensors[0].path_length_m, 1, 1e-9) << "the first action is where odometry begins";
+  EXPECT_NEAR(report.sensors[0].odometry_turn_rad, 0.5, 1e-9);
+  EXPECT_THAT(report.findings, Contains(finding(Severity::kNote, "1 of 2 actions have no time stamp")));
+}
+
+TEST(DoctorOnRealData, LabRecordingIsWell) {
+  const char* data = std::getenv("ROOMGRAPH_DATA");
+  const std::filesystem::path file =
+      (data ? std::filesystem::path(data) : std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "../shared/data") /
+      "lab/lab_a/lab_a.rawlog";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
+  const auto report = inspectRawlog(file);
+  EXPECT_THAT(report.findings, Each(Field(&Finding::severity, Severity::kNote)));
+  ASSERT_EQ(report.sensors.size(), 3u);
+  for (const auto& sensor : report.sensors) EXPECT_EQ(sensor.count, sensor.path_length_m ? 1447 : 724);
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/datasets/tum_import.h"
+
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "rawlog_maker.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/rawlog_reader.h"
+
+namespace roomgraph {
+namespace {
+
+using namespace roomgraph::test;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class TumImport : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_ / "rgb");
+    std::filesystem::create_directories(folder_ / "depth");
+    writeBytes(folder_ / "camera.json", R"({"width": 8, "height": 6, "fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5,
+                                            "distortion": [0, 0, 0, 0, 0], "depth_scale": 5000})");
+  }
+  /// Image pair `name`, all of whose depth pixels have the given value.
+  void addImages(const std::string& name, std::uint16_t depth) {
+    cv::imwrite((folder_ / ("rgb/" + name + ".png")).string(),
+                cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 120, 230)));
+    cv::imwrite((folder_ / ("depth/" + name + ".png")).string(), cv::Mat(6, 8, CV_16UC1, cv::Scalar(depth)));
+  }
+  TumImportResult convert(const TumImportOptions& options = {}) {
+    return importTum(folder_.path(), folder_ / "out.rawlog", options);
+  }
+  std::vector<Frame> frames() {
+    std::vector<Frame> out;
+    RawlogReader reader(folder_ / "out.rawlog");
+    while (auto record = reader.next()) out.push_back(std::get<Frame>(std::move(*record)));
+    return out;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(TumImport, AssociationsInEitherColumnOrder) {
+  // 10001 / 5000 = 2.0002 m: finer than a millimetre.
+  addImages("a", 10001);
+  addImages("b", 65535);
+  const std::string rows[2] = {
+      "# comment\n1.50 rgb/a.png 1.51 depth/a.png\n2.50 rgb/b.png 2.51 depth/b.png\n",
+      "1.51 depth/a.png 1.50 rgb/a.png\n2.51 depth/b.png 2.50 rgb/b.png\n"};
+  for (const auto& text : rows) {
+    writeBytes(folder_ / "associations.txt", text);
+    const auto result = convert();
+    EXPECT_EQ(result.written, 2);
+    EXPECT_THAT(result.warnings, IsEmpty());
+    const auto read = frames();
+    ASSERT_EQ(read.size(), 2u);
+    EXPECT_NEAR(read[0].t, 1.50, 1e-6) << "time of the colour image";
+    EXPECT_NEAR(read[0].depth.at<float>(2, 3), 2.0002, 1e-6);
+    EXPECT_NEAR(read[1].depth.at<float>(2, 3), 13.107, 1e-5);
+    EXPECT_NEAR(read[0].color.at<cv::Vec3b>(2, 3)[2], 230, 3);
+    EXPECT_DOUBLE_EQ(read[0].camera.fy, 11);
+    EXPECT_TRUE(read[0].robot_from_camera.linear().isApprox(bodyFromOptical(), 1e-9));
+    EXPECT_EQ(read[0].sensor_label, "RGBD");
+  }
+}
+
+TEST_F(TumImport, ColumnsAreToldApartByTheImagesNotTheirNames) {
+  addImages("a", 5000);
+  std::filesystem::rename(folder_ / "depth/a.png", folder_ / "x.png");
+  std::filesystem::rename(folder_ / "rgb/a.png", folder_ / "depth_of_field.png");
+  writeBytes(folder_ / "associations.txt", "1 depth_of_field.png 1 x.png\n");
+  EXPECT_EQ(convert().written, 1);
+}
+
+TEST_F(TumImport, NearestStampsArePairedOneToOne) {
+  // Colour .030 takes depth .031 (1 ms), so colour .025 is left with .010 (15 ms); colour .100 has none
+  // within 20 ms.
+  for (const char* name : {"a", "b", "c"}) addImages(name, 1000);
+  addImages("near", 2000);
+  addImages("far", 3000);
+  writeBytes(folder_ / "rgb.txt", "0.025 rgb/a.png\n0.030 rgb/b.png\n0.100 rgb/c.png\n");
+  writeBytes(folder_ / "depth.txt", "0.031 depth/near.png\n0.010 depth/far.png\n0.1205 depth/c.png\n");
+  const auto result = convert();
+  EXPECT_EQ(result.written, 2);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("1 of 3 colour images left out")));
+  const auto read = frames();
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_NEAR(read[0].depth.at<float>(0, 0), 0.6, 1e-6);
+  EXPECT_NEAR(read[1].depth.at<float>(0, 0), 0.4, 1e-6);
+  EXPECT_EQ(convert({.max_time_difference_s = 0.021}).written, 3);
+}
+
+TEST_F(TumImport, MissingFilesAreCountedAndNothingLeftIsAnError) {
+  addImages("a", 5000);
+  writeBytes(
+      folder_ / "associations.txt",
+      "1 rgb/a.png 1 depth/a.png\n2 rgb/none.png 2 depth/a.png\n3 rgb/a.png 3 depth/none.png\nodd line\n");
+  const auto result = convert();
+  EXPECT_EQ(result.written, 1);
+  EXPECT_EQ(result.missing, 2);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("rgb/none.png")));
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("1 lines left out")));
+  writeBytes(folder_ / "associations.txt", "2 rgb/none.png 2 depth/a.png\n");
+  EXPECT_THROW(convert(), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.rawlog")) << "no half-written file is left behind";
+}
+
+TEST_F(TumImport, UnusableFoldersAreRefused) {
+  EXPECT_THROW(convert(), InputError) << "no list";
+  writeBytes(folder_ / "associations.txt", "# nothing\n");
+  EXPECT_THROW(convert(), InputError) << "empty list";
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  EXPECT_THROW(importTum(folder_.path(), "/nonexistent/out.rawlog"), RunError);
+  EXPECT_THROW(importTum(folder_ / "none", folder_ / "out.rawlog"), InputError);
+  writeBytes(folder_ / "camera.json", "{");
+  EXPECT_THROW(convert(), InputError) << "broken camera.json";
+  writeBytes(folder_ / "camera.json",
+             R"({"width": 9, "height": 6, "fx": 1, "fy": 1, "cx": 1, "cy": 1, "depth_scale": 1000})");
+  EXPECT_THROW(convert(), InputError) << "size differs";
+  std::filesystem::remove(folder_ / "camera.json");
+  EXPECT_THROW(convert(), ConfigError) << "no intrinsics";
+  const auto result = convert({.fx = 10, .fy = 10, .cx = 3, .cy = 2, .depth_scale = 1000});
+  EXPECT_EQ(result.camera.width, 8) << "size from the images";
+  EXPECT_NEAR(frames().at(0).depth.at<float>(0, 0), 5, 1e-6);
+}
+
+TEST_F(TumImport, ExternalImagesStayLossless) {
+  addImages("a", 5001);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  EXPECT_EQ(convert({.external_images = true}).written, 1);
+  EXPECT_TRUE(std::filesystem::is_directory(folder_ / "out_Images"));
+  const auto read = frames();
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].color.at<cv::Vec3b>(2, 3), cv::Vec3b(10, 120, 230));
+  EXPECT_NEAR(read[0].depth.at<float>(2, 3), 1.0002, 1e-6);
+}
+
+TEST_F(TumImport, NegativeFocalLengthMirrorsTheWorldOnly) {
+  addImages("0", 5000);
+  addImages("1", 5000);
+  writeBytes(folder_ / "associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  EXPECT_THAT(convert().warnings, Contains(HasSubstr("frame numbers")));
+  // A pose of ICL-NUIM's left-handed world, and a point in its camera frame (y up).
+  const Eigen::Quaterniond q = Eigen::Quaterniond(0.8, 0.1, -0.5, 0.3).normalized();
+  const Eigen::Vector3d position(1, 2, 3), point(0.2, 0.1, 2);
+  char line[200];
+  std::snprintf(line, sizeof line, "30 1 2 3 %.9f %.9f %.9f %.9f\n", q.x(), q.y(), q.z(), q.w());
+  writeBytes(folder_ / "livingRoom0.gt.freiburg", line);
+  const auto result = convert({.fy = -11, .frame_rate_hz = 30});
+  EXPECT_TRUE(result.mirrored);
+  EXPECT_DOUBLE_EQ(result.camera.fy, 11);
+  EXPECT_NEAR(frames().at(1).t, 1 / 30.0, 1e-6);
+
+  std::ifstream truth(result.ground_truth);
+  double t;
+  Eigen::Vector3d p;
+  Eigen::Quaterniond r;
+  ASSERT_TRUE(truth >> t >> p.x() >> p.y() >> p.z() >> r.x() >> r.y() >> r.z() >> r.w());
+  EXPECT_NEAR(t, 1, 1e-9);
+  // The point falls on the same pixel, and its place in the world is the mirror image of what it was.
+  const Eigen::Vector3d mirror(1, -1, 1);
+  const Eigen::Vector3d point_down = mirror.cwiseProduct(point);
+  EXPECT_NEAR(result.camera.project(point_down).y(), -11 * point.y() / point.z() + 2.5, 1e-12);
+  const Eigen::Vector3d world_before = q * point + position;
+  EXPECT_NEAR((r * point_down + p - mirror.cwiseProduct(world_before)).norm(), 0, 1e-6);
+}
+
+TEST_F(TumImport, GroundTruthIsCopiedAsItIs) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  const std::string truth = "# timestamp tx ty tz qx qy qz qw\n1.000000 0.1 0.2 0.3 0 0 0 1\n";
+  writeBytes(folder_ / "groundtruth.txt", truth);
+  const auto result = convert();
+  EXPECT_EQ(result.ground_truth, folder_ / "out.groundtruth.txt");
+  EXPECT_EQ(readBytes(result.ground_truth), truth);
+}
+
+}  // namespace
+}  // namespace roomgraph
