@@ -49,7 +49,9 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
 
 std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
   std::vector<Eigen::Vector2d> points;
-  for (const auto& p : e.mask.points) points.push_back(p.in_ground.head<2>());
+  const std::size_t step = 1 + e.mask.points.size() / 350;  // enough for two lines
+  for (std::size_t i = 0; i < e.mask.points.size(); i += step)
+    points.push_back(e.mask.points[i].in_ground.head<2>());
   std::vector<PlacedShape> out;
   const int turns = e.model->symmetry == 1 ? 4 : (e.model->symmetry == 2 ? 2 : 1);
   for (const auto& rectangle : fitRectangles(points))

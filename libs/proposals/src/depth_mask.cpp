@@ -16,7 +16,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kShrink = 0.02;        // of the box's size, per side: its rim is background
-constexpr double kVoxel = 0.04;         // m
+constexpr double kVoxel = 0.05;         // m
 constexpr double kLinkDistance = 0.09;  // m, between voxels of one object
 
 bool maskedOut(const Detection& detection, int u, int v) {

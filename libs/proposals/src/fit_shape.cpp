@@ -133,14 +133,20 @@ double meanOutside(const PlacedShape& placed, const std::vector<MaskPoint>& poin
 
 double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>& points) {
   const Pose3 object_from_ground = groundFromObject(placed).inverse();
+  std::vector<Eigen::Vector3d> middle;
   std::vector<double> heights;
-  for (const auto& p : points) heights.push_back(p.in_ground.z());
-  const double high = 0.82 * quantile(heights, 0.97);
+  for (const auto& p : points) {
+    const Eigen::Vector3d q = object_from_ground * p.in_ground;
+    if (std::abs(q.y()) > 0.3 * placed.shape.width) continue;  // arm rests may be as high as the back
+    middle.push_back(q);
+    heights.push_back(q.z());
+  }
+  const double high = 0.8 * quantile(heights, 0.97);
   double sum = 0;
   int count = 0;
-  for (const auto& p : points) {
-    if (p.in_ground.z() < high) continue;
-    sum += std::clamp(-2 * (object_from_ground * p.in_ground).x() / placed.shape.depth, -1.0, 1.0);
+  for (const auto& q : middle) {
+    if (q.z() < high) continue;
+    sum += std::clamp(-2 * q.x() / placed.shape.depth, -1.0, 1.0);
     ++count;
   }
   return count >= 5 ? sum / count : 0;
@@ -157,7 +163,7 @@ void judge(PlacedShape& placed, const BoxEvidence& evidence) {
                       unusual(placed.shape.height, m.height_m, m.height_sigma_m);
   placed.quality = placed.box_iou * std::exp(-meanOutside(placed, evidence.mask.points) / 0.15 - 0.08 * size);
   if (m.symmetry == 1 && placed.shape.kind == ShapeKind::kCuboid)
-    placed.quality *= 0.65 + 0.35 * backRestAgreement(placed, evidence.mask.points);
+    placed.quality *= 0.55 + 0.45 * backRestAgreement(placed, evidence.mask.points);
 }
 
 PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence) {

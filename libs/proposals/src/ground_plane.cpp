@@ -10,9 +10,11 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kStride = 8;           // px between the sampled points
-constexpr int kCountStride = 3;      // every third of them is enough to compare hypotheses
-constexpr double kMinSpread = 0.12;  // m; a strip narrower than this does not fix a plane
+constexpr int kColumns = 80;          // of the grid of sampled points
+constexpr int kCountStride = 3;       // every third of them is enough to compare hypotheses
+constexpr int kNormalReach = 2;       // samples to each side over which the surface's direction is taken
+constexpr double kNormalGate = 0.42;  // rad, surface direction against the plane's
+constexpr double kMinSpread = 0.12;   // m; a strip narrower than this does not fix a plane
 const Eigen::Vector3d kImageUp(0, -1, 0);
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -23,14 +25,38 @@ double tolerance(const Eigen::Vector3d& p) {
   return 0.012 + 3 * depthSigma(p.z());
 }
 
-std::vector<Eigen::Vector3d> samplePoints(const Frame& frame, double max_range) {
-  std::vector<Eigen::Vector3d> points;
-  for (int v = kStride / 2; v < frame.depth.rows; v += kStride)
-    for (int u = kStride / 2; u < frame.depth.cols; u += kStride) {
+struct Sample {
+  Eigen::Vector3d point, normal;  // normal towards the camera; zero: unknown
+};
+
+// Direction of the surface at a grid position, from its neighbours across (or itself, where one is missing);
+// zero next to holes.
+Eigen::Vector3d surfaceNormal(const std::vector<Eigen::Vector3d>& grid, int columns, int i) {
+  const int column = i % columns, r = kNormalReach;
+  const auto at = [&](int k, bool inside) {
+    return inside && k >= 0 && k < static_cast<int>(grid.size()) && grid[k].z() > 0 ? grid[k] : grid[i];
+  };
+  const Eigen::Vector3d across = at(i + r, column + r < columns) - at(i - r, column >= r);
+  const Eigen::Vector3d down = at(i + r * columns, true) - at(i - r * columns, true);
+  if (across.isZero() || down.isZero()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d normal = across.cross(down).normalized();
+  return normal.dot(grid[i]) > 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+std::vector<Sample> sampleSurface(const Frame& frame, double max_range) {
+  std::vector<Eigen::Vector3d> grid;
+  const int stride = std::max(1, frame.depth.cols / kColumns);
+  const int columns = (frame.depth.cols + stride - 1 - stride / 2) / stride;
+  for (int v = stride / 2; v < frame.depth.rows; v += stride)
+    for (int u = stride / 2; u < frame.depth.cols; u += stride) {
       const float z = frame.depth.at<float>(v, u);
-      if (z > 0 && z < max_range) points.push_back(frame.camera.backProject(u, v, z));  // false for NaN
+      const bool good = z > 0 && z < max_range;  // false for NaN
+      grid.push_back(good ? frame.camera.backProject(u, v, z) : Eigen::Vector3d::Zero());
     }
-  return points;
+  std::vector<Sample> samples;
+  for (int i = 0; i < static_cast<int>(grid.size()); ++i)
+    if (grid[i].z() > 0) samples.push_back({grid[i], surfaceNormal(grid, columns, i)});
+  return samples;
 }
 
 bool plausible(const Plane& plane, const std::optional<Plane>& expected, const GroundSearch& search) {
@@ -42,36 +68,49 @@ bool plausible(const Plane& plane, const std::optional<Plane>& expected, const G
 }
 
 // Share of points clearly below: a floor has nothing under it, a table has.
-double ratioBelow(const Plane& plane, const std::vector<Eigen::Vector3d>& points) {
-  const auto below = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& p) {
-    return plane.distance(p) < -(0.05 + 3 * tolerance(p));
+double ratioBelow(const Plane& plane, const std::vector<Sample>& samples) {
+  const auto below = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) {
+    return plane.distance(s.point) < -(0.05 + 3 * tolerance(s.point));
   });
-  return static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  return static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
 }
 
-// Points that may be floor: near the expected one, or anything in the lower part of the view.
-std::vector<Eigen::Vector3d> candidates(const std::vector<Eigen::Vector3d>& points,
-                                        const std::optional<Plane>& expected, const GroundSearch& search) {
-  std::vector<Eigen::Vector3d> out;
-  for (const auto& p : points) {
-    const double distance = expected ? std::abs(expected->distance(p)) : 0;
-    if (!expected || distance <= search.max_height_error_m + p.norm() * search.max_angle_error)
-      out.push_back(p);
+// Samples that may be floor: facing the right way, and near the expected floor when there is one.
+std::vector<Sample> candidates(const std::vector<Sample>& samples, const std::optional<Plane>& expected,
+                               const GroundSearch& search) {
+  std::vector<Sample> out;
+  const Eigen::Vector3d up = expected ? expected->normal : kImageUp;
+  const double least =
+      std::cos(std::min(1.5, kNormalGate + (expected ? search.max_angle_error : search.max_tilt)));
+  for (const Sample& s : samples) {
+    const double reach = search.max_height_error_m + s.point.norm() * search.max_angle_error;
+    if (s.normal.dot(up) >= least && (!expected || std::abs(expected->distance(s.point)) <= reach))
+      out.push_back(s);
   }
   return out;
 }
 
-std::optional<Plane> hypothesis(const std::vector<Eigen::Vector3d>& points,
-                                const std::vector<Eigen::Vector3d>& near,
+std::vector<Sample> thinned(const std::vector<Sample>& samples) {
+  std::vector<Sample> few;
+  for (std::size_t i = 0; i < samples.size(); i += kCountStride) few.push_back(samples[i]);
+  return few;
+}
+
+std::vector<Eigen::Vector3d> pointsOf(const std::vector<Sample>& samples) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Sample& s : samples) points.push_back(s.point);
+  return points;
+}
+
+// An inlier's surface looks the plane's way: a plane that merely cuts through clutter collects none.
+std::optional<Plane> hypothesis(const std::vector<Sample>& samples, const std::vector<Sample>& near,
                                 const std::optional<Plane>& expected, const GroundSearch& search) {
-  std::vector<Eigen::Vector3d> few;
-  for (std::size_t i = 0; i < near.size(); i += kCountStride) few.push_back(near[i]);
-  std::vector<Eigen::Vector3d> all;
-  for (std::size_t i = 0; i < points.size(); i += kCountStride) all.push_back(points[i]);
-  return bestPlane(few, expected ? 80 : 400, [&](const Plane& plane) {
+  const std::vector<Sample> few = thinned(near), all = thinned(samples);
+  const double least = std::cos(kNormalGate);
+  return bestPlane(pointsOf(few), expected ? 80 : 400, [&](const Plane& plane) {
     if (!plausible(plane, expected, search)) return 0;
-    const auto inliers = std::count_if(few.begin(), few.end(), [&](const Eigen::Vector3d& p) {
-      return std::abs(plane.distance(p)) < tolerance(p);
+    const auto inliers = std::count_if(few.begin(), few.end(), [&](const Sample& s) {
+      return std::abs(plane.distance(s.point)) < tolerance(s.point) && s.normal.dot(plane.normal) > least;
     });
     return ratioBelow(plane, all) <= search.max_below_ratio ? static_cast<int>(inliers) : 0;
   });
@@ -83,20 +122,20 @@ Outcome<GroundEstimate> findGround(const Frame& frame, const std::optional<Plane
                                    const GroundSearch& search) {
   using Result = Outcome<GroundEstimate>;
   if (!frame.hasDepth()) return Result::failure("no depth image");
-  const auto points = samplePoints(frame, search.max_range_m);
-  const auto near = candidates(points, expected, search);
+  const auto samples = sampleSurface(frame, search.max_range_m);
+  const auto near = candidates(samples, expected, search);
   if (static_cast<int>(near.size()) < search.min_points)
     return Result::failure("no floor in view: too few points");
-  const auto initial = hypothesis(points, near, expected, search);
+  const auto initial = hypothesis(samples, near, expected, search);
   if (!initial)
     return Result::failure(expected ? "no plane near the expected floor"
                                     : "no plane below the camera can be the floor");
-  const RefinedPlane refined = refinePlane(*initial, near);
+  const RefinedPlane refined = refinePlane(*initial, pointsOf(near));
   if (refined.inliers < search.min_points) return Result::failure("too few floor points");
   if (refined.spread_m < kMinSpread) return Result::failure("the visible floor is too narrow");
   if (!plausible(refined.plane, expected, search))
     return Result::failure("the plane disagrees with the expected floor");
-  if (ratioBelow(refined.plane, points) > search.max_below_ratio)
+  if (ratioBelow(refined.plane, samples) > search.max_below_ratio)
     return Result::failure("too many points lie below the plane");
   return GroundEstimate{refined.plane, refined.covariance, true};
 }

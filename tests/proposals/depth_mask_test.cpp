@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/depth_mask.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "roomgraph/proposals/initial_score.h"
+#include "scene.h"
+
+namespace roomgraph {
+namespace {
+
+using test::Scene;
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
+  return db;
+}
+
+struct Seen {
+  Frame frame;
+  cv::Mat labels;
+  Pose3 ground_from_camera;
+};
+
+// A chair-sized cylinder (object 1) before a wall (object 2), partly covered by a post nearer to the camera
+// (3).
+Seen chairBeforeWall(bool post) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  scene.addCylinder(2.0, 0.1, 0.3, 0.95, 1);
+  scene.addBox(3.0, 0, 0, 6, 0.2, 0, 3, 2);
+  if (post) scene.addBox(1.0, 0.16, 0, 0.05, 0.05, 0, 1.2, 3);
+  Seen seen;
+  seen.frame = scene.render(&seen.labels);
+  seen.ground_from_camera = cameraFromGround(groundInCamera(scene.world_from_camera)).inverse();
+  return seen;
+}
+
+double shareOf(const DepthMask& mask, int object, const cv::Mat& labels) {
+  double n = 0;
+  for (const auto& p : mask.points)
+    n += labels.at<int>(static_cast<int>(p.v), static_cast<int>(p.u)) == object;
+  return mask.points.empty() ? 0 : n / static_cast<double>(mask.points.size());
+}
+
+TEST(DepthMask, GroundWallAndOccluderAreRemoved) {
+  for (const bool post : {false, true}) {
+    const Seen seen = chairBeforeWall(post);
+    const Detection detection = test::detectionOf(1, seen.labels, "swivel_chair");
+    const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
+    const DepthMask mask =
+        explainBox(all, detection.box, *database().find("swivel_chair"), seen.frame.camera.fx);
+    EXPECT_GT(mask.points.size(), 200u);
+    EXPECT_LE(all.points.size(), 1700u);
+    EXPECT_GT(shareOf(mask, 1, seen.labels), 0.97);
+    EXPECT_NEAR(mask.valid_ratio, 1, 0.01);
+  }
+}
+
+TEST(DepthMask, TheDetectorsMaskIsHonoured) {
+  const Seen seen = chairBeforeWall(false);
+  Detection detection = test::detectionOf(1, seen.labels, "swivel_chair");
+  detection.mask = cv::Mat::zeros(10, 10, CV_8UC1);
+  detection.mask(cv::Rect(0, 0, 5, 10)).setTo(255);  // left half
+  const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
+  ASSERT_FALSE(all.points.empty());
+  for (const auto& p : all.points) EXPECT_LT(p.u, detection.box.center().x() + 1);
+}
+
+TEST(DepthMask, NothingToSample) {
+  Seen seen = chairBeforeWall(false);
+  Detection detection;
+  EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
+  detection.box = {-500, -500, -10, -10};
+  EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
+  detection.box = {-500, -500, 5000, 5000};
+  seen.frame.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+  const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
+  EXPECT_TRUE(all.points.empty());
+  EXPECT_EQ(all.valid_ratio, 0);
+  EXPECT_TRUE(explainBox(all, {0, 0, 320, 240}, *database().find("sofa"), 262).points.empty());
+  seen.frame.depth = cv::Mat();
+  EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
+}
+
+TEST(InitialScore, GrowsWithAreaEdgesAndDepth) {
+  Frame frame;
+  frame.camera = {320, 240, 262.5, 262.5, 159.5, 119.5, {}};
+  Detection small, large;
+  small.box = {100, 100, 130, 130};
+  large.box = {40, 40, 200, 200};
+  EXPECT_GT(initialScore(frame, large, 0.5).value, initialScore(frame, small, 0.5).value);
+  EXPECT_GT(initialScore(frame, small, 1.0).value, initialScore(frame, small, 0.2).value);
+  EXPECT_EQ(initialScore(frame, small, 0.5).edges, 0);
+  frame.gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(60));
+  EXPECT_EQ(initialScore(frame, large, 0.5).edges, 0);
+  frame.gray(cv::Rect(70, 70, 90, 90)).setTo(200);
+  const InitialScore framed = initialScore(frame, large, 1.0);
+  EXPECT_GT(framed.edges, 0.3);
+  EXPECT_LE(framed.value, 1);
+  EXPECT_EQ(initialScore(frame, Detection{}, 1.0).value, 0);
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/ground_plane.h"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <random>
+
+#include "scene.h"
+
+namespace roomgraph {
+namespace {
+
+using test::Scene;
+using ::testing::HasSubstr;
+
+void expectNear(const Plane& plane, const Plane& truth, double angle, double height) {
+  EXPECT_LT(std::acos(std::min(1.0, plane.normal.dot(truth.normal))), angle);
+  EXPECT_NEAR(plane.offset, truth.offset, height);
+}
+
+TEST(GroundPlane, FloorWithFurnitureNearTheExpectedOne) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  scene.addBox(2.2, 0.3, 0.4, 1.6, 0.8, 0, 0.75, 1);
+  const Plane truth = groundInCamera(scene.world_from_camera);
+  Plane expected = truth;
+  expected.normal = (expSO3({0.03, 0, 0.03}) * expected.normal).eval();
+  expected.offset += 0.05;
+  const auto found = findGround(scene.render(), expected);
+  ASSERT_TRUE(found) << found.reason();
+  EXPECT_TRUE(found->from_depth);
+  expectNear(found->plane, truth, 0.004, 0.006);
+}
+
+TEST(GroundPlane, DeskLargerThanTheFloorDoesNotWin) {
+  Scene scene;
+  scene.lookAhead(1.5, 0.5, 0.1);
+  scene.addBox(2.0, 0.3, 0, 2.0, 1.4, 0, 0.75, 1);  // most of the picture
+  cv::Mat labels;
+  const Frame frame = scene.render(&labels);
+  ASSERT_GT(cv::countNonZero(labels == 1), 1.3 * cv::countNonZero(labels == 0));
+  const auto found = findGround(frame, std::nullopt);
+  ASSERT_TRUE(found) << found.reason();
+  expectNear(found->plane, groundInCamera(scene.world_from_camera), 0.004, 0.006);
+}
+
+TEST(GroundPlane, TiltedHandheldCamera) {
+  for (const double roll : {-0.5, 0.0, 0.45})
+    for (const double pitch : {0.25, 0.7}) {
+      Scene scene;
+      scene.lookAhead(1.4, pitch, roll);
+      const auto found = findGround(scene.render(), std::nullopt);
+      ASSERT_TRUE(found) << found.reason() << " roll " << roll << " pitch " << pitch;
+      expectNear(found->plane, groundInCamera(scene.world_from_camera), 0.004, 0.006);
+    }
+}
+
+TEST(GroundPlane, CovarianceCoversTheErrorOfNoisyDepth) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  const Plane truth = groundInCamera(scene.world_from_camera);
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise;
+  const Frame clean = scene.render();
+  for (int run = 0; run < 5; ++run) {
+    Frame frame = clean;
+    frame.depth = clean.depth.clone();
+    for (int v = 0; v < frame.depth.rows; ++v)
+      for (int u = 0; u < frame.depth.cols; ++u)
+        if (float& z = frame.depth.at<float>(v, u); z > 0)
+          z += (0.0012f + 0.0019f * (z - 0.4f) * (z - 0.4f)) * noise(random);
+    const auto found = findGround(frame, truth);
+    ASSERT_TRUE(found);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(found->covariance);
+    EXPECT_GT(eigen.eigenvalues()(0), -1e-12);
+    EXPECT_LT(std::abs(found->plane.offset - truth.offset), 3 * std::sqrt(found->covariance(3, 3)));
+    EXPECT_LT((found->plane.normal - truth.normal).norm(),
+              3 * std::sqrt(found->covariance.topLeftCorner<3, 3>().trace()));
+    EXPECT_LT(std::sqrt(found->covariance(3, 3)), 0.05);
+  }
+}
+
+TEST(GroundPlane, FailuresHaveReasons) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  const Plane truth = groundInCamera(scene.world_from_camera);
+  const Frame good = scene.render();
+  Plane wrong = truth;
+  wrong.offset += 0.4;
+  EXPECT_FALSE(findGround(good, wrong));
+  Frame none = good;
+  none.depth = cv::Mat();
+  EXPECT_THAT(findGround(none, truth).reason(), HasSubstr("no depth"));
+  none.depth = cv::Mat::zeros(240, 320, CV_32FC1);
+  EXPECT_THAT(findGround(none, truth).reason(), HasSubstr("too few"));
+  none.depth.setTo(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_FALSE(findGround(none, std::nullopt));
+}
+
+TEST(GroundPlane, AWallIsNoFloor) {
+  Scene scene;
+  scene.floor = false;
+  scene.lookAhead(1.2, 0.3);
+  scene.addBox(2, 0, 0, 6, 0.2, -3, 4, 1);
+  EXPECT_FALSE(findGround(scene.render(), std::nullopt));
+  EXPECT_FALSE(findGround(scene.render(), groundInCamera(scene.world_from_camera)));
+}
+
+TEST(GroundPlane, SomeBrokenPixelsDoNotMatter) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  Frame frame = scene.render();
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u)
+      if ((u + v) % 3 == 0)
+        frame.depth.at<float>(v, u) = (u % 2) ? 0.f : std::numeric_limits<float>::quiet_NaN();
+  const auto found = findGround(frame, std::nullopt, {.min_camera_height_m = 0.5});
+  ASSERT_TRUE(found) << found.reason();
+  expectNear(found->plane, groundInCamera(scene.world_from_camera), 0.004, 0.006);
+}
+
+}  // namespace
+}  // namespace roomgraph

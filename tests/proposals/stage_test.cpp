@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "roomgraph/core/class_registry.h"
+#include "roomgraph/core/config.h"
+#include "roomgraph/proposals/geometric_proposal_generator.h"
+#include "roomgraph/proposals/register_classes.h"
+#include "scene.h"
+
+namespace roomgraph {
+namespace {
+
+using test::Scene;
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
+  return db;
+}
+
+class StageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    scene_.lookAhead(0.8, 0.2);
+    scene_.addCylinder(2.2, 0.7, 0.31, 0.95, 1);
+    scene_.addSofa(3.0, -0.6, 2.8, 1.8, 0.9, 0.8, 2);
+    scene_.addCylinder(1.6, -0.7, 0.25, 1.7, 3);
+    cv::Mat labels;
+    frame_ = scene_.render(&labels);
+    frame_.id = FrameId{4};
+    frame_.t = 12.5;
+    detections_ = {test::detectionOf(1, labels, "swivel_chair"), test::detectionOf(2, labels, "sofa"),
+                   test::detectionOf(3, labels, "person")};
+    generator_.setDatabase(database());
+    generator_.prepare();
+    expected_ = groundInCamera(scene_.world_from_camera);
+  }
+
+  Scene scene_;
+  Frame frame_;
+  std::vector<Detection> detections_;
+  GeometricProposalGenerator generator_;
+  Plane expected_;
+};
+
+TEST_F(StageTest, EveryDetectionHasProposalsInOrder) {
+  const FrameProposals out = generator_.generate(frame_, detections_, expected_);
+  EXPECT_EQ(out.frame, FrameId{4});
+  EXPECT_EQ(out.t, 12.5);
+  ASSERT_TRUE(out.ground);
+  EXPECT_TRUE(out.ground->from_depth);
+  std::vector<int> count(3, 0);
+  for (const Proposal& p : out.proposals) {
+    ++count.at(p.detection);
+    EXPECT_EQ(p.class_name, detections_[p.detection].class_name);
+    EXPECT_GT(p.score, 0);
+    EXPECT_LE(p.score, 1);
+    EXPECT_GE(p.box_iou, 0.3);
+    EXPECT_NEAR(p.box_iou, iou(p.projected.visible, detections_[p.detection].box), 1e-9);
+    EXPECT_EQ(p.covariance.llt().info(), Eigen::Success);
+    EXPECT_FALSE(p.reasons.empty());
+    EXPECT_EQ(p.has_yaw, p.class_name == "sofa");
+  }
+  for (const int n : count) EXPECT_GE(n, 1);
+  const Pose3 chair = scene_.world_from_camera * out.proposals.front().camera_from_object;
+  EXPECT_NEAR(chair.translation().x(), 2.2, 0.08);
+  EXPECT_NEAR(chair.translation().y(), 0.7, 0.08);
+  EXPECT_NEAR(chair.translation().z(), 0, 0.02);
+}
+
+TEST_F(StageTest, SameInputSameOutput) {
+  const FrameProposals a = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals b = generator_.generate(frame_, detections_, expected_);
+  ASSERT_EQ(a.proposals.size(), b.proposals.size());
+  for (std::size_t i = 0; i < a.proposals.size(); ++i) {
+    EXPECT_EQ(a.proposals[i].camera_from_object.matrix(), b.proposals[i].camera_from_object.matrix());
+    EXPECT_EQ(a.proposals[i].score, b.proposals[i].score);
+  }
+}
+
+TEST_F(StageTest, WithoutDepthTheExpectedGroundServes) {
+  Config::fromText("[proposals]\nuse_depth = false\n", "test").read("proposals", generator_);
+  const FrameProposals out = generator_.generate(frame_, detections_, expected_);
+  ASSERT_TRUE(out.ground);
+  EXPECT_FALSE(out.ground->from_depth);
+  EXPECT_FALSE(out.ground_reason.empty());
+  EXPECT_FALSE(out.proposals.empty());
+  EXPECT_TRUE(generator_.generate(frame_, detections_, std::nullopt).proposals.empty());
+}
+
+TEST_F(StageTest, AbsurdInputIsHarmless) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  std::vector<Detection> absurd(6, detections_[1]);
+  absurd[0].box = {};
+  absurd[1].box = {-1e9, -1e9, 1e9, 1e9};
+  absurd[2].box = {300, 200, 10, 10};
+  absurd[3].box = {100, 100, 100.4, 100.4};
+  absurd[4].box = {nan, nan, nan, nan};
+  absurd[5].box = {0, 0, inf, inf};
+  for (const char* name : {"sofa", "swivel_chair", "door", "person", "unicorn"}) {
+    for (auto& d : absurd) d.class_name = name;
+    for (const Proposal& p : generator_.generate(frame_, absurd, expected_).proposals) {
+      EXPECT_TRUE(p.camera_from_object.matrix().allFinite());
+      EXPECT_TRUE(std::isfinite(p.score));
+    }
+  }
+  Frame empty;
+  const FrameProposals none = generator_.generate(empty, detections_, expected_);
+  EXPECT_TRUE(none.proposals.empty());
+  EXPECT_FALSE(none.ground_reason.empty());
+  EXPECT_TRUE(generator_.generate(frame_, {}, expected_).proposals.empty());
+}
+
+TEST_F(StageTest, MadeByClassName) {
+  proposals::registerClasses();
+  proposals::registerClasses();
+  EXPECT_NE(createStage<ProposalGenerator>("GeometricProposalGenerator", "[proposals] class"), nullptr);
+}
+
+}  // namespace
+}  // namespace roomgraph
