@@ -21,17 +21,17 @@ std::vector<Pose2> bow() {
   return poses;
 }
 
-struct Run {
+struct Replayed {
   std::vector<ScanMatch> matches;
   Trajectory trajectory;
 };
 
-Run replay(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses, bool with_prior,
-           const Pose2& odometry_error = {}) {
+Replayed replay(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses, bool with_prior,
+                const Pose2& odometry_error = {}) {
   std::mt19937 random(23);
   SubmapScanMatcher matcher;
   matcher.prepare();
-  Run run;
+  Replayed run;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     std::optional<Pose2> step;
     if (with_prior && i > 0) step = poses[i - 1].inverse() * poses[i] * odometry_error;
@@ -51,7 +51,7 @@ void expectNear(const Pose2& found, const Pose2& truth, double tolerance_m, doub
 TEST(SubmapScanMatcher, RecoversMovementWithPrior) {
   const auto poses = bow();
   // Odometry that is wrong by 1 cm and 1 degree in each step.
-  const Run run = replay(testing::asymmetricRoom(), poses, true, {0.01, 0, 0.017});
+  const Replayed run = replay(testing::asymmetricRoom(), poses, true, {0.01, 0, 0.017});
   for (const ScanMatch& m : run.matches) EXPECT_TRUE(m.matched) << m.reason;
   EXPECT_EQ(run.trajectory.size(), poses.size());
   expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
@@ -60,14 +60,14 @@ TEST(SubmapScanMatcher, RecoversMovementWithPrior) {
 
 TEST(SubmapScanMatcher, RecoversMovementWithoutPrior) {
   const auto poses = bow();
-  const Run run = replay(testing::asymmetricRoom(), poses, false);
+  const Replayed run = replay(testing::asymmetricRoom(), poses, false);
   expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
 }
 
 TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   std::vector<Pose2> poses{{0, 0, 0}};
   for (int i = 0; i < 30; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});
-  const Run run = replay(testing::corridor(), poses, true);
+  const Replayed run = replay(testing::corridor(), poses, true);
   const ScanMatch& last = run.matches.back();
   ASSERT_TRUE(last.matched);
   EXPECT_NEAR(last.odom_from_robot.x, 1.5, 0.15);
@@ -114,8 +114,8 @@ TEST(SubmapScanMatcher, StartsANewSegmentSomewhereElse) {
 
 TEST(SubmapScanMatcher, SameInputSameOutput) {
   const auto poses = bow();
-  const Run first = replay(testing::asymmetricRoom(), poses, true),
-            second = replay(testing::asymmetricRoom(), poses, true);
+  const Replayed first = replay(testing::asymmetricRoom(), poses, true),
+                 second = replay(testing::asymmetricRoom(), poses, true);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(first.matches[i].odom_from_robot.x, second.matches[i].odom_from_robot.x);
     EXPECT_EQ(first.matches[i].odom_from_robot.yaw, second.matches[i].odom_from_robot.yaw);
@@ -127,7 +127,8 @@ TEST(LidarClasses, AreMadeByName) {
   lidar::registerClasses();
   EXPECT_TRUE(createStage<ScanMatcher>("SubmapScanMatcher", "test"));
   EXPECT_TRUE(createStage<ScanLoopCloser>("SubmapLoopCloser", "test"));
-  EXPECT_THAT(implementationsOf(&CLASS_ID(ScanMatcher)), ::testing::Contains("SubmapScanMatcher"));
+  EXPECT_THAT(implementationsOf(&ScanMatcher::GetRuntimeClassIdStatic()),
+              ::testing::Contains("SubmapScanMatcher"));
 }
 
 }  // namespace
