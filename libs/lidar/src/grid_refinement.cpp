@@ -3,7 +3,9 @@
 #include "roomgraph/lidar/grid_refinement.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace roomgraph {
@@ -19,6 +21,10 @@ void addPrior(const Pose2& pose, const PosePrior& prior, GridCost& cost) {
   cost.value += shift.dot(weights.cwiseProduct(shift));
   cost.gradient += 2 * weights.cwiseProduct(shift);
   cost.curvature.diagonal() += weights;
+  const Eigen::Vector2d pull = prior.extra_weight_per_m2 * shift.head<2>();
+  cost.value += shift.head<2>().dot(pull);
+  cost.gradient.head<2>() += 2 * pull;
+  cost.curvature.topLeftCorner<2, 2>() += prior.extra_weight_per_m2;
 }
 
 void countAgreement(const ProbabilityGrid& grid, const Points2& points, GridRefinement& out) {
@@ -61,6 +67,17 @@ GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose
   cost.value = cost.residual;
   addPrior(pose, prior, cost);
   return cost;
+}
+
+Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& curvature, double most_per_m2,
+                                    double enough_per_m2) {
+  const Eigen::Vector2d mixed = curvature.topRightCorner<2, 1>();
+  const Eigen::Matrix2d free_yaw =
+      curvature.topLeftCorner<2, 2>() - mixed * mixed.transpose() / std::max(1e-9, curvature(2, 2));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions(free_yaw);
+  const Eigen::Array2d lack = (1 - directions.eigenvalues().array() / enough_per_m2).cwiseMax(0.0);
+  return most_per_m2 * directions.eigenvectors() * lack.matrix().asDiagonal() *
+         directions.eigenvectors().transpose();
 }
 
 GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,

@@ -56,6 +56,12 @@ void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
   v.add(
       "prior_per_rad2", prior_per_rad2_,
       {.doc = "Weight of a measured turn against the scan in the refinement.", .unit = "1/rad^2", .min = 0});
+  v.add("weak_prior_per_m2", weak_prior_per_m2_,
+        {.doc = "More such weight along a direction that the scan does not fix.", .unit = "1/m^2", .min = 0});
+  v.add("weak_below_per_m2", weak_below_per_m2_,
+        {.doc = "Curvature of the mean squared residual from which a direction counts as fixed.",
+         .unit = "1/m^2",
+         .min = 0.1});
   v.add("min_score", min_score_,
         {.doc = "Least share of returns the local map must explain.", .min = 0, .max = 1});
   v.add("max_lost_scans", max_lost_scans_,
@@ -134,8 +140,12 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& p
   window.penalty_per_m2 = trust * search_penalty_per_m2_;
   window.penalty_per_rad2 = trust * search_penalty_per_rad2_;
   const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
-  const PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
-  return refineOnGrid(submap.grid, points, coarse ? coarse->grid_from_scan : predicted, prior);
+  const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
+  PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
+  if (has_prior)
+    prior.extra_weight_per_m2 = weakDirectionWeight(gridCost(submap.grid, points, start_pose, {}).curvature,
+                                                    weak_prior_per_m2_, weak_below_per_m2_);
+  return refineOnGrid(submap.grid, points, start_pose, prior);
 }
 
 Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refinement) const {

@@ -10,6 +10,8 @@ namespace roomgraph {
 struct PosePrior {
   Pose2 pose;
   double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
+  /// More weight along directions the scan fixes badly; x, y only.
+  Eigen::Matrix2d extra_weight_per_m2 = Eigen::Matrix2d::Zero();
 };
 
 struct GridRefinement {
@@ -31,6 +33,12 @@ struct GridCost {
 };
 GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& grid_from_scan,
                   const PosePrior& prior);
+
+/// `most_per_m2` along directions the points do not fix at all, nothing where the curvature of their mean
+/// cost by translation (yaw free) reaches `enough_per_m2`: the cells' own texture must not hold a scan back
+/// in a corridor.
+Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, double most_per_m2,
+                                    double enough_per_m2);
 
 /// Levenberg-Marquardt on the interpolated grid (Hess et al. 2016, Eq. CS) with a prior on the pose.
 GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "roomgraph/lidar/grid_refinement.h"
+#include "roomgraph/lidar/score_pyramid.h"
+#include "synthetic_scans.h"
+
+namespace roomgraph {
+namespace {
+
+using testing::asymmetricRoom;
+using testing::castScan;
+
+ProbabilityGrid mapOf(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses) {
+  std::mt19937 random(3);
+  ProbabilityGrid grid(0.05);
+  for (const Pose2& pose : poses)
+    grid.insert(toPlanarScan(castScan(walls, pose, 0, random), 0.1, 30), pose, {0.6, 0.48});
+  return grid;
+}
+
+TEST(ProbabilityGrid, OneBeamHitsItsEndAndClearsTheWay) {
+  ProbabilityGrid grid(0.1);
+  const PlanarScan scan{{0.05, 0.05}, {{1.05, 0.05}}};
+  grid.insert(scan, {}, {0.6, 0.4});
+  const auto p = [&](double x) {
+    const Eigen::Vector2i cell = grid.cellOf({x, 0.05});
+    return grid.at(cell.x(), cell.y());
+  };
+  EXPECT_NEAR(p(1.05), 0.6, 1e-6);
+  EXPECT_NEAR(p(0.55), 0.4, 1e-6);
+  EXPECT_FALSE(grid.known(grid.cellOf({1.15, 0.05}).x(), grid.cellOf({1.15, 0.05}).y()));
+  grid.insert(scan, {}, {0.6, 0.4});
+  // Odds multiply: (1.5 * 1.5) / (1 + 1.5 * 1.5).
+  EXPECT_NEAR(p(1.05), 2.25 / 3.25, 1e-6);
+}
+
+TEST(ProbabilityGrid, GrowthKeepsWhatWasThere) {
+  ProbabilityGrid grid(0.1);
+  grid.insert({{0.05, 0.05}, {{1.05, 0.05}}}, {}, {0.6, 0.4});
+  grid.insert({{0.05, 0.05}, {{-30.05, -20.05}}}, {}, {0.6, 0.4});
+  const Eigen::Vector2i cell = grid.cellOf({1.05, 0.05});
+  EXPECT_NEAR(grid.at(cell.x(), cell.y()), 0.6, 1e-6);
+}
+
+TEST(ProbabilityGrid, GradientEqualsCentralDifferences) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}, {0.3, 0.1, 0.2}});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> x(-3.3, 5.3), y(-2.3, 4.2);
+  const double h = 1e-6;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector2d p(x(random), y(random));
+    Eigen::Vector2d gradient;
+    grid.interpolate(p, &gradient);
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(k);
+      EXPECT_NEAR(gradient[k], (grid.interpolate(p + step) - grid.interpolate(p - step)) / (2 * h), 1e-4);
+    }
+  }
+}
+
+TEST(GridCost, GradientEqualsCentralDifferences) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}});
+  std::mt19937 random(11);
+  const Points2 points = toPlanarScan(castScan(asymmetricRoom(), {0.1, 0, 0}, 0, random), 0.1, 30).points;
+  PosePrior prior{{0.12, 0.03, -0.02}, 3, 2};
+  prior.extra_weight_per_m2 << 2, 0.5, 0.5, 1;
+  const Pose2 pose{0.07, -0.02, 0.03};
+  const GridCost cost = gridCost(grid, points, pose, prior);
+  const double h = 1e-6;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d e = h * Eigen::Vector3d::Unit(k);
+    const double up = gridCost(grid, points, {pose.x + e.x(), pose.y + e.y(), pose.yaw + e.z()}, prior).value;
+    const double down =
+        gridCost(grid, points, {pose.x - e.x(), pose.y - e.y(), pose.yaw - e.z()}, prior).value;
+    EXPECT_NEAR(cost.gradient[k], (up - down) / (2 * h), 1e-4) << k;
+  }
+}
+
+TEST(GridRefinement, FindsThePoseAndItsCovariance) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}, {0.1, 0, 0.1}, {0.2, 0.1, 0}});
+  std::mt19937 random(5);
+  const Pose2 truth{0.3, -0.1, 0.1};
+  const Points2 points = toPlanarScan(castScan(asymmetricRoom(), truth, 0, random), 0.1, 30).points;
+  const GridRefinement found = refineOnGrid(grid, points, {0.26, -0.06, 0.12}, {});
+  EXPECT_NEAR(found.grid_from_scan.x, truth.x, 0.02);
+  EXPECT_NEAR(found.grid_from_scan.y, truth.y, 0.02);
+  EXPECT_NEAR(found.grid_from_scan.yaw, truth.yaw, 0.01);
+  EXPECT_GT(found.explained, 0.9);
+  EXPECT_LT(found.contradicted, 0.05);
+  const Eigen::Matrix3d covariance = poseCovariance(found, {});
+  EXPECT_LT(covariance(0, 0), 0.02 * 0.02);
+  EXPECT_LT(covariance(1, 1), 0.02 * 0.02);
+}
+
+TEST(GridRefinement, CorridorIsUncertainAlongItsAxis) {
+  const ProbabilityGrid grid = mapOf(testing::corridor(), {{0, 0, 0}});
+  std::mt19937 random(5);
+  const Points2 points = toPlanarScan(castScan(testing::corridor(), {0.02, 0, 0}, 0, random), 0.1, 30).points;
+  const GridRefinement found = refineOnGrid(grid, points, {}, {});
+  const Eigen::Matrix3d covariance = poseCovariance(found, {.floor_sigma_m = 1e-4, .floor_sigma_rad = 1e-4});
+  EXPECT_GT(covariance(0, 0), 9 * covariance(1, 1));
+}
+
+TEST(WeakDirectionWeight, ActsAlongTheWeakAxisOnly) {
+  const Eigen::Matrix3d curvature = Eigen::Vector3d(2, 30, 5).asDiagonal();
+  const Eigen::Matrix2d weight = weakDirectionWeight(curvature, 100, 20);
+  EXPECT_NEAR(weight(0, 0), 90, 1e-9);
+  EXPECT_NEAR(weight(1, 1), 0, 1e-9);
+}
+
+TEST(ScorePyramid, LevelsAreMaximaOverSquares) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}});
+  const ScorePyramid pyramid(grid, 4);
+  for (int level = 0; level < 4; ++level)
+    for (int x = -9; x < grid.width() + 2; x += 5)
+      for (int y = -9; y < grid.height() + 2; y += 3) {
+        int largest = 0;
+        for (int i = 0; i < 1 << level; ++i)
+          for (int j = 0; j < 1 << level; ++j)
+            largest = std::max(largest, static_cast<int>(grid.at(x + i, y + j) * 255.f));
+        ASSERT_EQ(pyramid.at(level, x, y), largest) << level << " " << x << " " << y;
+      }
+}
+
+}  // namespace
+}  // namespace roomgraph

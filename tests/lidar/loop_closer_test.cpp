@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "roomgraph/lidar/submap_loop_closer.h"
+#include "synthetic_scans.h"
+
+namespace roomgraph {
+namespace {
+
+std::vector<testing::Wall> shifted(std::vector<testing::Wall> walls, double dx) {
+  for (testing::Wall& wall : walls) {
+    wall.from.x() += dx;
+    wall.to.x() += dx;
+  }
+  return walls;
+}
+
+/// Drives on an oval inside the room, `scans` scans of 10 cm; the pose is that in the room.
+std::vector<Pose2> oval(int scans) {
+  std::vector<Pose2> poses;
+  for (int i = 0; i < scans; ++i) {
+    const double a = 0.1 * i / 1.1;
+    poses.push_back({0.8 + 1.4 * std::cos(a), 0.3 + 0.8 * std::sin(a), wrapAngle(a + M_PI / 2)});
+  }
+  return poses;
+}
+
+struct Pass {
+  std::vector<testing::Wall> walls;
+  std::vector<Pose2> poses;  ///< in the world of the walls
+  Pose2 odom_from_world;     ///< drift the matcher has gathered until then
+};
+
+struct Found {
+  std::vector<RelativePose> closures;
+  std::vector<double> times;
+  std::vector<Pose2> truth;
+};
+
+Found drive(const std::vector<Pass>& passes) {
+  std::mt19937 random(31);
+  SubmapLoopCloser closer;
+  closer.prepare();
+  Found out;
+  Trajectory world;
+  for (const Pass& pass : passes)
+    for (const Pose2& pose : pass.poses) {
+      const double t = 0.2 * static_cast<double>(out.times.size());
+      ScanMatch match;
+      match.matched = true;
+      match.odom_from_robot = pass.odom_from_world * pose;
+      world.add(t, toPose3(match.odom_from_robot));
+      closer.add(testing::castScan(pass.walls, pose, t, random), match);
+      for (const RelativePose& closure : closer.search(world)) out.closures.push_back(closure);
+      out.times.push_back(t);
+      out.truth.push_back(pose);
+    }
+  return out;
+}
+
+TEST(SubmapLoopCloser, FindsTheReturnAndItsRelativePose) {
+  const auto room = testing::asymmetricRoom();
+  const Found found = drive({{room, oval(170), {}}, {room, oval(60), {0.35, -0.2, 0.06}}});
+  const auto index = [](double t) { return static_cast<std::size_t>(std::lround(t / 0.2)); };
+  int of_second_pass = 0;
+  for (const RelativePose& c : found.closures) {
+    const Pose2 truth = found.truth[index(c.t_a)].inverse() * found.truth[index(c.t_b)];
+    const Pose2 error = truth.inverse() * planarPart(c.a_from_b);
+    EXPECT_LT(std::hypot(error.x, error.y), 0.05) << c.t_a << " " << c.t_b;
+    EXPECT_LT(std::abs(error.yaw), 0.03);
+    EXPECT_LT(c.covariance(0, 0), 0.05 * 0.05);
+    EXPECT_TRUE(c.planar);
+    EXPECT_EQ(c.source, "lidar");
+    of_second_pass += index(c.t_b) >= 170 && index(c.t_a) < 100;
+  }
+  EXPECT_GE(of_second_pass, 5);
+}
+
+TEST(SubmapLoopCloser, DoesNotJoinSimilarRooms) {
+  // The second room has the same size, but other furniture and a corner cut differently.
+  auto other = testing::ring({{-3, -2}, {5, -2}, {5, 2.9}, {3.4, 2.9}, {3.4, 3.6}, {-3, 3.4}});
+  for (const auto& wall : testing::boxAt(-1.6, -1.6, 0.9, 0.6)) other.push_back(wall);
+  for (const auto& wall : testing::boxAt(0.3, 0, 0.7, 0.7)) other.push_back(wall);
+  const Found found = drive({{testing::asymmetricRoom(), oval(170), {}}, {other, oval(60), {0.3, 0.2, 0}}});
+  for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
+}
+
+TEST(SubmapLoopCloser, FarPlacesAreNotCompared) {
+  const auto room = testing::asymmetricRoom();
+  const Found found = drive({{room, oval(170), {}}, {shifted(room, 0), oval(60), {60, 0, 0}}});
+  for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
+}
+
+TEST(SubmapLoopCloser, SameInputSameOutput) {
+  const auto room = testing::asymmetricRoom();
+  const std::vector<Pass> passes{{room, oval(200), {}}};
+  const Found first = drive(passes), second = drive(passes);
+  ASSERT_EQ(first.closures.size(), second.closures.size());
+  for (std::size_t i = 0; i < first.closures.size(); ++i) {
+    EXPECT_EQ(first.closures[i].a_from_b.matrix(), second.closures[i].a_from_b.matrix());
+    EXPECT_EQ(first.closures[i].covariance, second.closures[i].covariance);
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "roomgraph/core/class_registry.h"
+#include "roomgraph/lidar/register_classes.h"
+#include "roomgraph/lidar/submap_scan_matcher.h"
+#include "synthetic_scans.h"
+
+namespace roomgraph {
+namespace {
+
+/// A way through the asymmetric room: 2.4 m forward in a bow, 6 cm and 1.7 degrees a scan.
+std::vector<Pose2> bow() {
+  std::vector<Pose2> poses{{-1, -0.5, 0}};
+  for (int i = 0; i < 40; ++i) poses.push_back(poses.back() * Pose2{0.06, 0, 0.03});
+  return poses;
+}
+
+struct Replayed {
+  std::vector<ScanMatch> matches;
+  Trajectory trajectory;
+};
+
+Replayed replay(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses, bool with_prior,
+                const Pose2& odometry_error = {}) {
+  std::mt19937 random(23);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  Replayed run;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    std::optional<Pose2> step;
+    if (with_prior && i > 0) step = poses[i - 1].inverse() * poses[i] * odometry_error;
+    run.matches.push_back(
+        matcher.match(testing::castScan(walls, poses[i], 0.1 * static_cast<double>(i), random), step));
+  }
+  run.trajectory = matcher.trajectory();
+  return run;
+}
+
+void expectNear(const Pose2& found, const Pose2& truth, double tolerance_m, double tolerance_rad) {
+  const Pose2 error = truth.inverse() * found;
+  EXPECT_LT(std::hypot(error.x, error.y), tolerance_m);
+  EXPECT_LT(std::abs(error.yaw), tolerance_rad);
+}
+
+TEST(SubmapScanMatcher, RecoversMovementWithPrior) {
+  const auto poses = bow();
+  // Odometry that is wrong by 1 cm and 1 degree in each step.
+  const Replayed run = replay(testing::asymmetricRoom(), poses, true, {0.01, 0, 0.017});
+  for (const ScanMatch& m : run.matches) EXPECT_TRUE(m.matched) << m.reason;
+  EXPECT_EQ(run.trajectory.size(), poses.size());
+  expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
+  EXPECT_GT(run.matches.back().score, 0.9);
+}
+
+TEST(SubmapScanMatcher, RecoversMovementWithoutPrior) {
+  const auto poses = bow();
+  const Replayed run = replay(testing::asymmetricRoom(), poses, false);
+  expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
+}
+
+TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
+  std::vector<Pose2> poses{{0, 0, 0}};
+  for (int i = 0; i < 30; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});
+  const Replayed run = replay(testing::corridor(), poses, true);
+  const ScanMatch& last = run.matches.back();
+  ASSERT_TRUE(last.matched);
+  EXPECT_NEAR(last.odom_from_robot.x, 1.5, 0.15);
+  EXPECT_NEAR(last.odom_from_robot.y, 0, 0.02);
+  EXPECT_GT(last.step_covariance(0, 0), 2 * last.step_covariance(1, 1));
+}
+
+TEST(SubmapScanMatcher, TooFewReturnsIsAReason) {
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  Scan scan;
+  scan.t = 1;
+  scan.ranges_m = {1, 1, 1};
+  scan.valid = {1, 1, 1};
+  scan.angle_step_rad = 0.1;
+  const ScanMatch match = matcher.match(scan, std::nullopt);
+  EXPECT_FALSE(match.matched);
+  EXPECT_EQ(match.reason, "too few returns");
+  EXPECT_TRUE(matcher.trajectory().empty());
+}
+
+TEST(SubmapScanMatcher, RepeatedTimeIsAReason) {
+  std::mt19937 random(1);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  const Scan scan = testing::castScan(testing::asymmetricRoom(), {}, 1, random);
+  EXPECT_TRUE(matcher.match(scan, std::nullopt).matched);
+  EXPECT_FALSE(matcher.match(scan, std::nullopt).matched);
+}
+
+TEST(SubmapScanMatcher, StartsANewSegmentSomewhereElse) {
+  std::mt19937 random(1);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  for (int i = 0; i < 5; ++i)
+    matcher.match(testing::castScan(testing::asymmetricRoom(), {}, i, random), Pose2{});
+  const auto elsewhere = testing::boxAt(-9, -9, 19, 17);
+  ScanMatch match;
+  for (int i = 5; i < 20 && match.segment == 0; ++i)
+    match = matcher.match(testing::castScan(elsewhere, {}, i, random), Pose2{});
+  EXPECT_EQ(match.segment, 1);
+  EXPECT_TRUE(match.matched);
+}
+
+TEST(SubmapScanMatcher, SameInputSameOutput) {
+  const auto poses = bow();
+  const Replayed first = replay(testing::asymmetricRoom(), poses, true),
+                 second = replay(testing::asymmetricRoom(), poses, true);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(first.matches[i].odom_from_robot.x, second.matches[i].odom_from_robot.x);
+    EXPECT_EQ(first.matches[i].odom_from_robot.yaw, second.matches[i].odom_from_robot.yaw);
+    EXPECT_EQ(first.matches[i].step_covariance, second.matches[i].step_covariance);
+  }
+}
+
+TEST(LidarClasses, AreMadeByName) {
+  lidar::registerClasses();
+  EXPECT_TRUE(createStage<ScanMatcher>("SubmapScanMatcher", "test"));
+  EXPECT_TRUE(createStage<ScanLoopCloser>("SubmapLoopCloser", "test"));
+  EXPECT_THAT(implementationsOf(&ScanMatcher::GetRuntimeClassIdStatic()),
+              ::testing::Contains("SubmapScanMatcher"));
+}
+
+}  // namespace
+}  // namespace roomgraph
