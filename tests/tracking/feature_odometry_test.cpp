@@ -142,6 +142,26 @@ TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
   EXPECT_EQ(trajectory.segment(trajectory.size() - 1), 1);
   EXPECT_FALSE(trajectory.between(1, 14).has_value());
   EXPECT_LT(distance(poseAt(10).inverse() * poseAt(14), *trajectory.between(10, 14)), 0.02);
+
+  // Back in the first place: its segment goes on, and a measurement ties this frame to an older one.
+  odometry.takeLoopClosures();
+  const auto back = odometry.track(room().render(20, poseAt(1)), {});
+  ASSERT_TRUE(back.tracked);
+  EXPECT_EQ(back.segment, 0);
+  EXPECT_LT(distance(poseAt(0).inverse() * poseAt(1), back.odom_from_camera), 0.01);
+  const auto links = odometry.takeLoopClosures();
+  ASSERT_EQ(links.size(), 1u);
+  EXPECT_EQ(links[0].t_b, 20);
+  EXPECT_LT(distance(poseAt(static_cast<int>(links[0].t_a)).inverse() * poseAt(1), links[0].a_from_b), 0.01);
+}
+
+TEST(FeatureOdometry, RefusesATinyImage) {
+  FeatureOdometry odometry;
+  Frame frame = room().render(0, Pose3::Identity());
+  cv::resize(frame.gray, frame.gray, {20, 15});
+  cv::resize(frame.depth, frame.depth, {20, 15});
+  frame.camera = frame.camera.scaled(1.0 / 16);
+  EXPECT_EQ(odometry.track(frame, {}).reason, "too few features");
 }
 
 /// Pastes a moving textured patch, nearer than the wall, into a frame.

@@ -72,7 +72,7 @@ TEST(PoseSolver, CovarianceFitsTheErrorsThatOccur) {
   double normalized_error = 0;
   const int rounds = 40;
   for (int round = 0; round < rounds; ++round) {
-    const Scene scene(100 + static_cast<unsigned>(round), 0.7, false);  // the noise the parameters assume
+    const Scene scene(100 + static_cast<unsigned>(round), 1.0, false);  // the noise the parameters assume
     const auto solution = refinePose(scene.problem, scene.camera_from_world);
     const Pose3 error = solution.camera_from_world * scene.camera_from_world.inverse();
     Vector6d e;

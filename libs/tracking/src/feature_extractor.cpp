@@ -87,7 +87,6 @@ bool inAny(const std::vector<Box2>& boxes, double u, double v) {
 /// Corners of one level, in px of the level.
 std::vector<cv::KeyPoint> levelCorners(const cv::Mat& image, double scale, const std::vector<Box2>& excluded,
                                        const TrackingParameters& parameters, std::size_t wanted) {
-  if (image.cols <= 2 * kBorderPx || image.rows <= 2 * kBorderPx) return {};
   const cv::Rect inner(kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx);
   std::vector<cv::KeyPoint> corners;
   cv::FAST(image(inner), corners, parameters.fast_threshold, true);
@@ -110,10 +109,11 @@ std::vector<cv::KeyPoint> pyramidCorners(const cv::Mat& gray, const std::vector<
   cv::Mat image = gray;
   for (int level = 0; level < parameters.pyramid_levels; ++level) {
     const double scale = std::pow(parameters.scale_factor, level);
+    const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
+    if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
     if (level > 0) {
       cv::Mat smaller;
-      cv::resize(image, smaller, cv::Size(cvRound(gray.cols / scale), cvRound(gray.rows / scale)), 0, 0,
-                 cv::INTER_LINEAR_EXACT);
+      cv::resize(image, smaller, size, 0, 0, cv::INTER_LINEAR_EXACT);
       image = smaller;
     }
     for (auto corner :

@@ -32,6 +32,8 @@ void fuse(LocalMap& map, int index, const std::vector<std::int64_t>& created,
 /// Erases points of the last keyframes that are rarely found again or that one keyframe alone has seen.
 void cull(LocalMap& map, int index) {
   for (int recent = std::max(0, index - kProbation - 1); recent < index; ++recent) {
+    if (map.keyframe(recent).segment != map.keyframe(index).segment)
+      continue;  // it had no chance to be seen again
     const auto ids = map.keyframe(recent).points;
     for (const auto id : ids) {
       if (id < 0) continue;

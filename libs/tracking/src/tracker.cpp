@@ -76,7 +76,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   if (reference_ < 0) return start(std::move(view));
   const Pose3 previous = lastPose();
   view.odom_from_camera = previous * dead_reckoned_;
-  if (!findPose(view) || !trackLocalMap(view)) return lost("too few inliers", &view);
+  if (!findPose(view)) return lost("too few inliers", &view);
   return accept(std::move(view), previous);
 }
 
@@ -113,10 +113,20 @@ TrackingResult Tracker::accept(View view, const Pose3& previous) {
   velocity_ = normalized(previous.inverse() * view.odom_from_camera);
   TrackingResult result;
   result.step_covariance = stepCovariance(velocity_, view.solution);
-  if (lost_frames_ > 0) velocity_ = Pose3::Identity();  // it spans several frames
+  const int segment = map_.keyframe(reference_).segment;
+  if (segment != segment_) {
+    // Relocalised in an older segment: unrelated to the last frame, so the link to the keyframe is what is
+    // known.
+    result.step_covariance = Matrix6d::Identity();
+    reportLoop(reference_, view.frame->t,
+               map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
+               view.solution.covariance);
+  }
+  // A step over several frames, or between segments, says nothing about the next one.
+  if (lost_frames_ > 0 || segment != segment_) velocity_ = Pose3::Identity();
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = 0;
-  segment_ = map_.keyframe(reference_).segment;
+  segment_ = segment;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
   if (reference_inliers_ == 0) reference_inliers_ = view.solution.inliers;
@@ -169,20 +179,25 @@ Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseS
          floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
 }
 
+void Tracker::reportLoop(int keyframe, double t, const Pose3& keyframe_from_camera,
+                         const Matrix6d& covariance) {
+  RelativePose closure;
+  closure.t_a = map_.keyframe(keyframe).t;
+  closure.t_b = t;
+  closure.a_from_b = keyframe_from_camera;
+  closure.covariance = parameters_.covariance_scale * turned(covariance, keyframe_from_camera) +
+                       floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
+  closure.source = "tracking";
+  closures_.push_back(closure);
+}
+
 void Tracker::closeLoops(int index) {
   if (index - last_loop_ < kLoopPause) return;
   const Keyframe& current = map_.keyframe(index);
   for (const int candidate : loopCandidates(map_, index, parameters_)) {
     const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
     if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-    RelativePose closure;
-    closure.t_a = map_.keyframe(candidate).t;
-    closure.t_b = current.t;
-    closure.a_from_b = found.solution.camera_from_world.inverse();
-    closure.covariance = parameters_.covariance_scale * turned(found.solution.covariance, closure.a_from_b) +
-                         floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
-    closure.source = "tracking";
-    closures_.push_back(closure);
+    reportLoop(candidate, current.t, found.solution.camera_from_world.inverse(), found.solution.covariance);
     last_loop_ = index;
     return;
   }

@@ -38,9 +38,11 @@ class Tracker {
     Pose3 keyframe_from_camera;
   };
 
-  bool trackLastPoints(View& view, double radius_px) const;
-  bool trackKeyframe(View& view, int keyframe) const;
-  bool relocalise(View& view) const;
+  /// Each tries to match the view to the map and to place it; on failure the view's points and pose are
+  /// undefined.
+  bool trackLastPoints(View& view, const Pose3& predicted, double radius_px) const;
+  bool trackKeyframe(View& view, int keyframe, int min_inliers) const;
+  bool relocalise(View& view);
   bool trackLocalMap(View& view);
   bool findPose(View& view);
   /// Solves for the pose of the view from its matched points and drops outliers.
@@ -56,6 +58,7 @@ class Tracker {
   bool needsKeyframe(const View& view) const;
   void addKeyframe(const View& view);
   void closeLoops(int keyframe);
+  void reportLoop(int keyframe, double t, const Pose3& keyframe_from_camera, const Matrix6d& covariance);
   Matrix6d stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution);
   Pose3 lastPose() const;
 

@@ -3,6 +3,7 @@
 // How the tracker finds the pose of a frame: from the last frame's points, from keyframes, from the local
 // map.
 #include <algorithm>
+#include <iterator>
 
 #include "place_recognition.h"
 #include "tracker.h"
@@ -36,22 +37,19 @@ bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
   return true;
 }
 
-bool Tracker::trackLastPoints(View& view, double radius_px) const {
-  const auto no_points = view.points;
-  const Pose3 predicted = view.odom_from_camera;
-  const Pose3 camera_from_odom = view.odom_from_camera.inverse();
+bool Tracker::trackLastPoints(View& view, const Pose3& predicted, double radius_px) const {
+  view.points.assign(view.features.size(), -1);
+  view.odom_from_camera = predicted;
+  const Pose3 camera_from_odom = predicted.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, radius_px};
   assign(view.points, search.match(last_points_, view.features, view.points, parameters_));
   // Half of what was matched must agree, otherwise the prediction was wrong.
-  if (solve(view, parameters_.min_inliers, false) && view.solution.inliers > view.matches / 2) return true;
-  view.points = no_points;
-  view.odom_from_camera = predicted;
-  return false;
+  return solve(view, parameters_.min_inliers, false) && view.solution.inliers > view.matches / 2;
 }
 
-bool Tracker::trackKeyframe(View& view, int keyframe) const {
+bool Tracker::trackKeyframe(View& view, int keyframe, int min_inliers) const {
   const auto found = recognize(map_, keyframe, view.features, view.frame->camera, parameters_);
-  if (found.solution.inliers < parameters_.min_inliers) return false;
+  if (found.solution.inliers < min_inliers) return false;
   view.odom_from_camera =
       map_.keyframe(keyframe).odom_from_camera * found.solution.camera_from_world.inverse();
   view.points.assign(view.features.size(), -1);
@@ -59,18 +57,21 @@ bool Tracker::trackKeyframe(View& view, int keyframe) const {
   return true;
 }
 
-bool Tracker::relocalise(View& view) const {
+bool Tracker::relocalise(View& view) {
   const auto candidates = mostSimilar(map_, makeThumbnail(view.gray), static_cast<int>(map_.keyframes.size()),
                                       parameters_.relocalisation_candidates);
-  for (const int candidate : candidates)
-    if (trackKeyframe(view, candidate)) return true;
-  return false;
+  return std::any_of(candidates.begin(), candidates.end(), [&](int candidate) {
+    return trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers) && trackLocalMap(view);
+  });
 }
 
 bool Tracker::findPose(View& view) {
-  return trackLastPoints(view, parameters_.search_radius_px) ||
-         trackLastPoints(view, 3 * parameters_.search_radius_px) || trackKeyframe(view, reference_) ||
-         relocalise(view);
+  const Pose3 predicted = view.odom_from_camera;
+  // Wider and dearer with each attempt; the local map must confirm it.
+  for (const double radius : {parameters_.search_radius_px, 3 * parameters_.search_radius_px})
+    if (trackLastPoints(view, predicted, radius) && trackLocalMap(view)) return true;
+  if (trackKeyframe(view, reference_, parameters_.min_inliers) && trackLocalMap(view)) return true;
+  return relocalise(view);
 }
 
 std::vector<std::int64_t> Tracker::localPoints(const View& view) const {
@@ -85,14 +86,14 @@ std::vector<std::int64_t> Tracker::localPoints(const View& view) const {
 }
 
 bool Tracker::trackLocalMap(View& view) {
-  for (const auto id : view.points)
-    if (id >= 0) ++map_.point(id).visible;
   std::vector<std::int64_t> in_view;
+  std::copy_if(view.points.begin(), view.points.end(), std::back_inserter(in_view),
+               [](std::int64_t id) { return id >= 0; });
   const Pose3 camera_from_odom = view.odom_from_camera.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, parameters_.local_map_radius_px};
   assign(view.points, search.match(localPoints(view), view.features, view.points, parameters_, &in_view));
-  for (const auto id : in_view) ++map_.point(id).visible;
   if (!solve(view, parameters_.min_inliers, true)) return false;
+  for (const auto id : in_view) ++map_.point(id).visible;
   for (const auto id : view.points)
     if (id >= 0) ++map_.point(id).found;
   const auto neighbours = map_.covisible(view.points);

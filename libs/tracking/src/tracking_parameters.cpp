@@ -71,6 +71,8 @@ void declareRecovery(ParameterVisitor& v, TrackingParameters& p) {
          .max = 1000});
   v.add("relocalisation_candidates", p.relocalisation_candidates,
         {.doc = "Keyframes tried per frame when lost.", .min = 1, .max = 1000});
+  v.add("relocalisation_min_inliers", p.relocalisation_min_inliers,
+        {.doc = "Least inliers for a pose found again in an old keyframe.", .min = 6, .max = 1000});
   v.add("loop_candidates", p.loop_candidates,
         {.doc = "Old keyframes tried for a loop closure per keyframe; 0: none.", .min = 0, .max = 50});
   v.add("loop_min_gap", p.loop_min_gap,

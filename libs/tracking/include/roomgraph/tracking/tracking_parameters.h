@@ -15,7 +15,7 @@ struct TrackingParameters : Configurable {
   int fast_threshold = 7;
   int cell_px = 32;
   // measurement noise
-  double pixel_sigma_px = 0.7;
+  double pixel_sigma_px = 1.0;
   double depth_sigma_base_m = 0.002;
   double depth_sigma_quadratic = 0.0025;
   double max_depth_m = 8.0;
@@ -38,6 +38,7 @@ struct TrackingParameters : Configurable {
   // recovery
   int relocalisation_frames = 5;
   int relocalisation_candidates = 8;
+  int relocalisation_min_inliers = 30;
   // loop closing
   int loop_candidates = 2;
   int loop_min_gap = 15;
