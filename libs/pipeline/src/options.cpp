@@ -54,6 +54,8 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
   v.add("node_interval_s", node_interval_s, {.doc = "time that makes a new pose of the graph", .unit = "s", .min = 0.1, .max = 1000});
   v.add("window_nodes", window_nodes, {.doc = "latest poses optimised with every new one", .min = 2, .max = 100});
   v.add("optimize_every_nodes", optimize_every_nodes, {.doc = "new poses between two optimisations of the whole graph", .min = 1, .max = 100000});
+  v.add("urgent_closure_m", urgent_closure_m, {.doc = "a loop closure this far off the estimate is optimised soon", .unit = "m", .min = 0, .max = 100});
+  v.add("urgent_closure_rad", urgent_closure_rad, {.doc = "a loop closure this far off the estimate is optimised soon", .unit = "rad", .min = 0, .max = 3.2});
   v.add("max_iterations", max_iterations, {.doc = "of one optimisation", .min = 1, .max = 1000});
   v.add("closure_robust_width", closure_robust_width, {.doc = "Cauchy width for loop closures, in standard deviations; 0: least squares", .min = 0, .max = 100});
   v.add("landmark_robust_width", landmark_robust_width, {.doc = "Cauchy width for object sightings, in standard deviations; 0: least squares", .min = 0, .max = 100});

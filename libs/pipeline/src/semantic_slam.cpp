@@ -5,6 +5,7 @@
 #include <mrpt/system/CTimeLogger.h>
 
 #include <cmath>
+#include <limits>
 
 #include "roomgraph/lidar/dynamic_return_filter.h"
 #include "roomgraph/pipeline/object_mapper.h"
@@ -12,120 +13,101 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPriorHorizon_s = 0.15;  // a source may be extrapolated this far to predict another's movement
-constexpr double kPeopleMaxAge_s = 0.3;
+using Timing = mrpt::system::CTimeLoggerEntry;
 
-Pose3 movedCamera(const Pose3& robot_movement, const Pose3& robot_from_camera) {
-  return robot_from_camera.inverse() * robot_movement * robot_from_camera;
-}
+constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
+constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 
-Matrix6d planarCovariance(const Eigen::Matrix3d& of_x_y_yaw) {
-  Matrix6d out = Matrix6d::Zero();
-  const int index[3] = {0, 1, 5};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out(index[i], index[j]) = of_x_y_yaw(i, j);
-  return out;
-}
+// A sensor on a robot has a place on it; a handheld camera has none.
+bool isMounted(const Frame& frame) { return frame.robot_from_camera.translation().z() > 0.1; }
 
 }  // namespace
 
 SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
     : stages_(std::move(stages)),
       timer_(std::make_unique<mrpt::system::CTimeLogger>(true, "", false)),
-      motion_{MotionSource(stages_->odometry.noise, true), MotionSource(stages_->tracking.noise, false),
-              MotionSource(stages_->lidar.noise, true)},
-      poses_(motion_) {
-  measurements_.planar = false;
-}
+      front_ends_(*stages_),
+      estimator_(stages_->backend, front_ends_.motion()),
+      last_frame_t_(-std::numeric_limits<double>::infinity()),
+      last_scan_t_(last_frame_t_) {}
 
 SemanticSlam::~SemanticSlam() { timer_->clear(true); }
-
-void SemanticSlam::addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
 
 void SemanticSlam::process(const Record& record) {
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
   for (const auto& sink : sinks_) sink->onStep(report);
 }
 
-StepReport SemanticSlam::step(const OdometryReading& reading) {
-  StepReport report;
-  report.t = reading.t;
-  if (!stages_->odometry.enabled) return report;
-  measurements_.planar = true;
-  ++counts_.odometry;
-  if (!motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0, Matrix6d::Zero()))
-    ++counts_.reasons["odometry: stamp does not come after the previous one"];
-  return report;
-}
+StepReport SemanticSlam::step(const Frame& frame) {
+  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id};
+  if (!inOrder(frame.t, last_frame_t_, "frames")) return {};
+  ++counts_.frames;
+  robot_from_camera_ = frame.robot_from_camera;
+  estimator_.measurements().planar |= isMounted(frame);
 
-StepReport SemanticSlam::step(const std::shared_ptr<CObservationDetections>& recorded) {
-  StepReport report;
-  ++counts_.detections;
-  if (stages_->detector) stages_->detector->feed(*recorded);
+  const auto detections = detect(frame, report);   // sec. 1.1
+  track(frame, report);                            // sec. 4, factor 1
+  localize(frame.t);                               // sec. 4, M-step
+  propose(frame, detections);                      // sec. 1.2 to 1.D
+  mapObjects(frame, report);                       // sec. 3, and sec. 4, E-step
+
+  robot_times_.push_back(frame.t);
+  camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
+  report.world_from_robot = estimator_.poses().at(frame.t);
   return report;
 }
 
 StepReport SemanticSlam::step(const Scan& scan) {
   StepReport report{.kind = StepReport::Kind::kScan, .t = scan.t};
-  if (!stages_->scan_matcher) return {};
-  if (last_scan_t_ && scan.t <= *last_scan_t_) {
-    ++counts_.reasons["lidar: stamp does not come after the previous one"];
-    return {};
-  }
-  measurements_.planar = true;
+  if (!stages_->scan_matcher || !inOrder(scan.t, last_scan_t_, "scans")) return {};
   ++counts_.scans;
-  int removed = 0;
-  const Scan clean = withoutPeople(scan, removed);
-  std::optional<Pose2> prior;
-  if (last_scan_t_)
-    for (const auto* source : {&motion_.odometry, &motion_.visual})
-      if (const auto moved = source->between(*last_scan_t_, scan.t, kPriorHorizon_s); moved && !prior)
-        prior = planarPart(moved->a_from_b);
+  estimator_.measurements().planar = true;
+
+  const Scan clean = withoutPeople(scan);  // sec. 5
   timer_->enter("scan matching");
-  const ScanMatch match = stages_->scan_matcher->match(clean, prior);
+  const ScanMatch match = front_ends_.match(clean);
   timer_->leave("scan matching");
-  if (match.matched) {
-    motion_.lidar.add(scan.t, toPose3(match.odom_from_robot), match.segment, planarCovariance(match.step_covariance));
-  } else {
+  if (!match.matched) {
     ++counts_.scans_unmatched;
     ++counts_.reasons["lidar: " + match.reason];
     report.note = "scan not matched: " + match.reason;
+  } else if (stages_->scan_loop_closer) {
+    stages_->scan_loop_closer->add(clean, match);
   }
   stages_->mapper.add(clean);
-  const bool added = advance(scan.t);
-  if (match.matched && stages_->scan_loop_closer) stages_->scan_loop_closer->add(clean, match);
-  if (added) closeScanLoops();
-  last_scan_t_ = scan.t;
+  localize(scan.t);
+
   robot_times_.push_back(scan.t);
-  report.world_from_robot = poses_.at(scan.t);
+  report.world_from_robot = estimator_.poses().at(scan.t);
   return report;
 }
 
-StepReport SemanticSlam::step(const Frame& frame) {
-  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id};
-  if (last_frame_ && frame.t <= last_frame_->t) {
-    ++counts_.reasons["frames: stamp does not come after the previous one"];
-    return {};
+StepReport SemanticSlam::step(const OdometryReading& reading) {
+  if (!stages_->odometry.enabled) return {};
+  estimator_.measurements().planar = true;
+  ++counts_.odometry;
+  if (!front_ends_.add(reading)) ++counts_.reasons["odometry: stamp does not come after the previous one"];
+  return {.t = reading.t};
+}
+
+StepReport SemanticSlam::step(const std::shared_ptr<CObservationDetections>& recorded) {
+  ++counts_.detections;
+  if (stages_->detector) stages_->detector->feed(*recorded);
+  return {};
+}
+
+bool SemanticSlam::inOrder(double t, double& last, const std::string& source) {
+  if (t <= last) {
+    ++counts_.reasons[source + ": stamp does not come after the previous one"];
+    return false;
   }
-  ++counts_.frames;
-  mounted_ = frame.robot_from_camera.translation().z() > 0.1;
-  measurements_.planar |= mounted_;
-  last_robot_from_camera_ = frame.robot_from_camera;
-  const std::vector<Detection> detections = detect(frame, report);
-  track(frame, detections, report);
-  advance(frame.t);
-  seeObjects(frame, detections, report);
-  robot_times_.push_back(frame.t);
-  camera_times_.emplace_back(frame.t, frame.robot_from_camera);
-  last_frame_ = frame;
-  last_frame_->color = last_frame_->gray = last_frame_->depth = cv::Mat();
-  report.world_from_robot = poses_.at(frame.t);
-  return report;
+  last = t;
+  return true;
 }
 
 std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& report) {
   if (!stages_->detector) return {};
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "detection");
+  const Timing timing(*timer_, "detection");
   const auto found = stages_->detector->detect(frame);
   if (!found) {
     ++counts_.reasons["detection: " + found.reason()];
@@ -141,214 +123,123 @@ std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& repo
   return *found;
 }
 
-void SemanticSlam::track(const Frame& frame, const std::vector<Detection>&, StepReport& report) {
+void SemanticSlam::track(const Frame& frame, StepReport& report) {
   if (!stages_->rgbd_odometry) return;
-  TrackingPrior prior;
-  prior.dynamic_regions = people_;
-  if (last_frame_)
-    for (const auto* source : {&motion_.odometry, &motion_.lidar})
-      if (const auto moved = source->between(last_frame_->t, frame.t, kPriorHorizon_s);
-          moved && !prior.previous_from_current)
-        prior.previous_from_current = movedCamera(moved->a_from_b, frame.robot_from_camera);
-  timer_->enter("RGB-D odometry");
-  const TrackingResult result = stages_->rgbd_odometry->track(frame, prior);
-  timer_->leave("RGB-D odometry");
-  if (!result.tracked) {
-    ++counts_.frames_lost;
-    ++counts_.reasons["tracking: " + result.reason];
-    report.note = "not tracked: " + result.reason;
+  const Timing timing(*timer_, "RGB-D odometry");
+  const TrackingResult result = front_ends_.track(frame, people_);
+  if (result.tracked) return;
+  ++counts_.frames_lost;
+  ++counts_.reasons["tracking: " + result.reason];
+  report.note = "not tracked: " + result.reason;
+}
+
+void SemanticSlam::localize(double t) {
+  if (!estimator_.advance(t)) return;
+  estimator_.addClosures(front_ends_.takeImageClosures());
+  if (stages_->scan_loop_closer) {
+    const Timing timing(*timer_, "scan loop closing");
+    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
+  }
+  const Timing timing(*timer_, "graph optimisation");
+  estimator_.update(stages_->landmarks);
+}
+
+void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
+  std::optional<Plane> expected;
+  if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
+  if (levelled_) expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
+  const Timing timing(*timer_, "proposals");
+  seen_ = stages_->proposal_generator->generate(frame, detections, expected);
+  if (!seen_.ground) {
+    ++counts_.reasons["ground: " + seen_.ground_reason];
     return;
   }
-  const Pose3 robot_from_camera = frame.robot_from_camera;
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = robot_from_camera.linear();
-  motion_.visual.add(frame.t, robot_from_camera * result.odom_from_camera * robot_from_camera.inverse(), result.segment,
-                     turn * result.step_covariance * turn.transpose());
-  if (!stages_->tracking.loop_closing) return;
-  for (RelativePose closure : stages_->rgbd_odometry->takeLoopClosures()) {
-    closure.a_from_b = robot_from_camera * closure.a_from_b * robot_from_camera.inverse();
-    closure.covariance = (turn * closure.covariance * turn.transpose()).eval();
-    measurements_.closures.push_back(closure);
-  }
-}
-
-bool SemanticSlam::advance(double t) {
-  if (poses_.empty()) {
-    poses_.add(t, Pose3::Identity());
-    return true;
-  }
-  const KeyPose& last = poses_.nodes().back();
-  const Pose3 moved = poses_.offset(last, t);
-  const auto& options = stages_->backend;
-  const bool due = moved.translation().norm() > options.node_distance_m ||
-                   rotationAngle(moved) > options.node_angle_rad || t - last.t > options.node_interval_s;
-  if (!due || t <= last.t) return false;
-  poses_.add(t, last.world_from_robot * moved);
-  ++nodes_since_optimization_;
-  const bool closed = measurements_.closures.size() > closures_optimized_;
-  const int pause = closed ? std::max(1, stages_->backend.optimize_every_nodes / 4) : options.optimize_every_nodes;
-  if (nodes_since_optimization_ >= pause) {
-    optimizeAll();
-  } else {
-    optimizeWindow();
-  }
-  return true;
-}
-
-void SemanticSlam::seeObjects(const Frame& frame, const std::vector<Detection>& detections, StepReport& report) {
-  if (!frame.hasDepth() && detections.empty()) return;
-  std::optional<Plane> expected;
-  if (mounted_) {
-    expected = groundInCamera(frame.robot_from_camera);
-  } else if (levelled_) {
-    expected = groundInCamera(poses_.at(frame.t) * frame.robot_from_camera);
-  }
-  timer_->enter("proposals");
-  last_seen_ = stages_->proposal_generator->generate(frame, detections, expected);
-  timer_->leave("proposals");
-  if (!last_seen_.ground) ++counts_.reasons["ground: " + last_seen_.ground_reason];
-  level(frame, last_seen_);
-  if (stages_->scan_matcher == nullptr || counts_.scans == 0)
-    if (last_seen_.ground) stages_->mapper.add(frame, last_seen_.ground->plane);
-  if (!report.detector_ran || !last_seen_.ground) return;
-
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "selection and association");
-  const auto selected = stages_->proposal_selector->select({last_seen_, frame.camera, std::nullopt});
-  std::vector<ObjectMeasurement> objects;
-  for (const auto& measurement : selected) {
-    const auto* model = stages_->database.find(measurement.proposal.class_name);
-    if (model && model->landmark) objects.push_back(measurement);
-  }
-  const KeyPose& node = poses_.nearest(frame.t);
-  const PosedFrame posed{frame, poses_.at(frame.t), node, poses_.offset(node, frame.t)};
-  report.decisions = mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
-                                stages_->landmarks, measurements_.sightings);
-  missUnseen(report.decisions, posed, stages_->landmarks);
+  level(frame);
+  stages_->mapper.add(frame, seen_.ground->plane);
 }
 
 // A handheld camera's world is levelled when the floor is seen for the first time; later sightings become factors.
-void SemanticSlam::level(const Frame& frame, const FrameProposals& seen) {
-  if (measurements_.planar || !seen.ground || !seen.ground->from_depth) return;
-  const Plane& plane = seen.ground->plane;
+void SemanticSlam::level(const Frame& frame) {
+  if (estimator_.measurements().planar || !seen_.ground->from_depth) return;
+  const Plane& plane = seen_.ground->plane;
   if (!levelled_) {
-    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
-    const Pose3 level_from_camera = cameraFromGround(plane).inverse();
-    Pose3 level_from_world = level_from_camera * world_from_camera.inverse();
-    const Pose2 first = planarPart(level_from_world * poses_.nodes().front().world_from_robot);
-    level_from_world = toPose3(first.inverse()) * level_from_world;
-    for (auto& node : poses_.nodes()) node.world_from_robot = level_from_world * node.world_from_robot;
-    stages_->landmarks.transform(level_from_world);
+    const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
+    const Pose3 level_from_world = cameraFromGround(plane).inverse() * world_from_camera.inverse();
+    const Pose2 first = planarPart(level_from_world * estimator_.poses().nodes().front().world_from_robot);
+    estimator_.transform(toPose3(first.inverse()) * level_from_world);
     levelled_ = true;
   }
-  const KeyPose& node = poses_.nodes().back();
+  const KeyPose& node = estimator_.poses().nodes().back();
   if (node.t != frame.t) return;
-  GroundFactor factor;
-  factor.node = node.id;
-  factor.normal_in_robot = frame.robot_from_camera.linear() * plane.normal;
+  GroundFactor factor{.node = node.id, .normal_in_robot = frame.robot_from_camera.linear() * plane.normal};
   factor.offset_m = plane.offset - factor.normal_in_robot.dot(frame.robot_from_camera.translation());
-  measurements_.grounds.push_back(factor);
+  estimator_.measurements().grounds.push_back(factor);
 }
 
-void SemanticSlam::closeScanLoops() {
-  if (!stages_->scan_loop_closer) return;
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "scan loop closing");
-  const auto found = stages_->scan_loop_closer->search(poses_.trajectory());
-  measurements_.closures.insert(measurements_.closures.end(), found.begin(), found.end());
-}
-
-void SemanticSlam::optimizeWindow() {
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "window optimisation");
-  auto& nodes = poses_.nodes();
-  const auto window = static_cast<std::size_t>(stages_->backend.window_nodes);
-  const std::size_t first = nodes.size() > window ? nodes.size() - window : 0;
-  FactorGraph graph = buildGraph(poses_, motion_, measurements_, {}, stages_->backend, first);
-  if (!graph.optimize(stages_->backend.max_iterations).usable) return;
-  for (std::size_t i = first; i < nodes.size(); ++i) nodes[i].world_from_robot = graph.pose(nodes[i].id);
-}
-
-void SemanticSlam::optimizeAll() {
-  if (poses_.empty()) return;
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "graph optimisation");
-  nodes_since_optimization_ = 0;
-  closures_optimized_ = measurements_.closures.size();
-  for (const auto& [removed, kept] : stages_->landmarks.mergeDuplicates())
-    for (auto& sighting : measurements_.sightings)
-      if (sighting.landmark == removed) sighting.landmark = kept;
-  graph_ = buildGraph(poses_, motion_, measurements_, stages_->landmarks.landmarks(), stages_->backend);
-  if (!graph_.optimize(stages_->backend.max_iterations).usable) {
-    ++counts_.reasons["back end: no usable solution"];
-    return;
+void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
+  if (!report.detector_ran || !seen_.ground) return;
+  const Timing timing(*timer_, "selection and association");
+  std::vector<ObjectMeasurement> objects;
+  for (const auto& measurement : stages_->proposal_selector->select({seen_, frame.camera, std::nullopt})) {
+    const auto* model = stages_->database.find(measurement.proposal.class_name);
+    if (model && model->landmark) objects.push_back(measurement);
   }
-  for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);
-  std::vector<Landmark> moved;
-  for (const auto& landmark : stages_->landmarks.landmarks())
-    if (graph_.hasLandmark(landmark.id)) moved.push_back(landmark);
-  for (const auto& landmark : moved) {
-    const LandmarkEstimate estimate = graph_.landmark(landmark.id);
-    stages_->landmarks.correct(landmark.id, estimate.position, estimate.yaw, landmark.covariance);
-  }
+  const KeyPoses& poses = estimator_.poses();
+  const KeyPose& node = poses.nearest(frame.t);
+  const PosedFrame posed{frame, poses.at(frame.t), node, poses.offset(node, frame.t)};
+  report.decisions = roomgraph::mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
+                                           stages_->landmarks, estimator_.measurements().sightings);
+  missUnseen(report.decisions, posed, stages_->landmarks);
 }
 
-// Returns inside the wedge of a person's box, at the person's depth (method.md sec. 5).
-Scan SemanticSlam::withoutPeople(const Scan& scan, int& removed) const {
-  if (std::abs(last_seen_.t - scan.t) > kPeopleMaxAge_s) return scan;
+// Returns inside the wedge of a person's box, at the person's depth (sec. 5).
+Scan SemanticSlam::withoutPeople(const Scan& scan) {
   std::vector<DynamicWedge> wedges;
-  for (const auto& proposal : last_seen_.proposals) {
+  for (const auto& proposal : seen_.proposals) {
     const auto* model = stages_->database.find(proposal.class_name);
-    if (!model || model->landmark) continue;
-    const Eigen::Vector3d place = (last_robot_from_camera_ * proposal.camera_from_object).translation();
+    if (!model || model->landmark || std::abs(seen_.t - scan.t) > kPeopleMaxAge_s) continue;
+    const Eigen::Vector3d place = (robot_from_camera_ * proposal.camera_from_object).translation();
     const double distance = place.head<2>().norm(), bearing = std::atan2(place.y(), place.x());
-    const double half = std::atan2(proposal.shape.radius() + 0.15, std::max(0.3, distance));
-    wedges.push_back({bearing - half, bearing + half, distance - 0.6, distance + 0.6});
+    const double half = std::atan2(proposal.shape.radius() + kPersonMargin_m, std::max(0.3, distance));
+    wedges.push_back({bearing - half, bearing + half, distance - kPersonDepth_m, distance + kPersonDepth_m});
   }
   Scan clean = scan;
-  if (!wedges.empty()) removed = removeDynamicReturns(clean, wedges);
+  if (!wedges.empty()) counts_.returns_on_people += removeDynamicReturns(clean, wedges);
   return clean;
 }
 
 SlamResult SemanticSlam::finish() {
-  if (stages_->rgbd_odometry) {
-    Trajectory refined;
-    const Trajectory camera = stages_->rgbd_odometry->trajectory();
-    const Pose3& robot_from_camera = last_robot_from_camera_;
-    for (std::size_t i = 0; i < camera.size(); ++i)
-      refined.add(camera.poses()[i].t, robot_from_camera * camera.poses()[i].pose * robot_from_camera.inverse(),
-                  camera.segment(i));
-    if (!refined.empty()) motion_.visual.refine(refined);
-  }
-  if (stages_->scan_matcher && !stages_->scan_matcher->trajectory().empty())
-    motion_.lidar.refine(stages_->scan_matcher->trajectory());
-  // Alternate: landmarks merge after poses moved, poses move after landmarks merged (method.md sec. 4).
+  front_ends_.refine();
+  // Alternate until nothing new is found: landmarks merge after poses moved, loops close after poses moved.
   for (int round = 0; round < 3; ++round) {
-    optimizeAll();
-    closeScanLoops();
+    if (!estimator_.optimizeAll(stages_->landmarks)) ++counts_.reasons["back end: no usable solution"];
+    if (!stages_->scan_loop_closer || estimator_.poses().empty()) continue;
+    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
   }
-  optimizeAll();
+  estimator_.optimizeAll(stages_->landmarks);
   return collect();
 }
 
 SlamResult SemanticSlam::collect() {
+  const KeyPoses& poses = estimator_.poses();
   SlamResult result;
   result.counts = counts_;
-  result.counts.key_poses = static_cast<int>(poses_.nodes().size());
-  result.counts.loop_closures = static_cast<int>(measurements_.closures.size());
-  result.map.planar = measurements_.planar;
-  if (poses_.empty()) return result;
-  const auto covariances = graph_.landmarkCovariances();
+  result.counts.key_poses = static_cast<int>(poses.nodes().size());
+  result.counts.loop_closures = static_cast<int>(estimator_.measurements().closures.size());
+  result.map.planar = estimator_.measurements().planar;
+  if (poses.empty()) return result;
   result.map.landmarks = stages_->landmarks.confirmed();
-  for (auto& landmark : result.map.landmarks)
-    if (covariances && covariances->contains(landmark.id)) landmark.covariance = covariances->at(landmark.id);
-  for (const double t : robot_times_) {
-    if (!result.world_from_robot.empty() && t <= result.world_from_robot.back().t) continue;
-    result.world_from_robot.push_back({t, poses_.at(t)});
-  }
-  for (const auto& [t, robot_from_camera] : camera_times_)
-    result.world_from_camera.push_back({t, poses_.at(t) * robot_from_camera});
+  if (const auto covariances = graph().landmarkCovariances())
+    for (auto& landmark : result.map.landmarks)
+      if (const auto found = covariances->find(landmark.id); found != covariances->end())
+        landmark.covariance = found->second;
   Trajectory dense;
-  for (const auto& stamped : result.world_from_robot) dense.add(stamped.t, stamped.pose);
-  mrpt::system::CTimeLoggerEntry timing(*timer_, "occupancy map");
+  for (const double t : robot_times_)
+    if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
+  result.world_from_robot = result.map.world_from_robot = dense.poses();
+  for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
+  const Timing timing(*timer_, "occupancy map");
   result.map.occupancy = stages_->mapper.build(dense);
-  result.map.world_from_robot = result.world_from_robot;
   return result;
 }
 

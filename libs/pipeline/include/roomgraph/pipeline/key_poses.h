@@ -25,7 +25,7 @@ class KeyPoses {
   bool empty() const { return nodes_.empty(); }
   const std::vector<KeyPose>& nodes() const { return nodes_; }
   std::vector<KeyPose>& nodes() { return nodes_; }
-  /// Key pose closest in time; there must be one.
+  /// Key pose closest in time; there must be one. The reference holds until the next key pose is added.
   const KeyPose& nearest(double t) const;
   /// Appends; t must come after the last one.
   NodeId add(double t, const Pose3& world_from_robot);

@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,9 +10,8 @@
 
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/observations/CSemanticMap.h"
-#include "roomgraph/pipeline/graph_builder.h"
-#include "roomgraph/pipeline/key_poses.h"
-#include "roomgraph/pipeline/motion.h"
+#include "roomgraph/pipeline/front_ends.h"
+#include "roomgraph/pipeline/pose_estimator.h"
 #include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
 
@@ -24,7 +24,7 @@ namespace roomgraph {
 /// Numbers that a run ends with.
 struct RunCounts {
   int frames = 0, scans = 0, odometry = 0, detections = 0;
-  int frames_lost = 0, scans_unmatched = 0;
+  int frames_lost = 0, scans_unmatched = 0, returns_on_people = 0;
   int key_poses = 0, loop_closures = 0;
   std::map<std::string, int> reasons;  ///< expected failures by reason
 };
@@ -43,16 +43,16 @@ class SemanticSlam {
   explicit SemanticSlam(std::unique_ptr<Stages> stages);
   ~SemanticSlam();
 
-  void addSink(std::shared_ptr<Sink> sink);
+  void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// One record, in order of time. Records whose time goes backwards are counted and left out.
   void process(const Record& record);
   /// Refines everything with all data and builds the map. May be called at any moment.
   SlamResult finish();
 
   /// The last graph that was optimised as a whole (after finish(): the final one).
-  const FactorGraph& graph() const { return graph_; }
+  const FactorGraph& graph() const { return estimator_.graph(); }
   const Stages& stages() const { return *stages_; }
-  /// Milliseconds per stage: name -> (calls, mean, total).
+  /// Per stage: calls, mean ms, total ms.
   std::map<std::string, std::array<double, 3>> timings() const;
 
  private:
@@ -61,36 +61,30 @@ class SemanticSlam {
   StepReport step(const OdometryReading& reading);
   StepReport step(const std::shared_ptr<CObservationDetections>& recorded);
 
+  bool inOrder(double t, double& last, const std::string& source);
   std::vector<Detection> detect(const Frame& frame, StepReport& report);
-  void track(const Frame& frame, const std::vector<Detection>& detections, StepReport& report);
-  void seeObjects(const Frame& frame, const std::vector<Detection>& detections, StepReport& report);
-  void level(const Frame& frame, const FrameProposals& seen);
-  bool advance(double t);
-  void closeScanLoops();
-  void optimizeWindow();
-  void optimizeAll();
-  Scan withoutPeople(const Scan& scan, int& removed) const;
+  void track(const Frame& frame, StepReport& report);
+  void localize(double t);
+  void propose(const Frame& frame, const std::vector<Detection>& detections);
+  void level(const Frame& frame);
+  void mapObjects(const Frame& frame, StepReport& report);
+  Scan withoutPeople(const Scan& scan);
   SlamResult collect();
 
   std::unique_ptr<Stages> stages_;
   std::vector<std::shared_ptr<Sink>> sinks_;
   std::unique_ptr<mrpt::system::CTimeLogger> timer_;
 
-  Motion motion_;                   ///< trajectories of the sources, each in its own frame
-  KeyPoses poses_;                  ///< key poses in world
-  Measurements measurements_;       ///< what the graph is built from
-  FactorGraph graph_;
+  FrontEnds front_ends_;        ///< trajectories of the sources
+  PoseEstimator estimator_;     ///< key poses, measurements between them, the factor graph
   RunCounts counts_;
-  std::vector<double> robot_times_;                    ///< of all frames and scans
-  std::vector<std::pair<double, Pose3>> camera_times_; ///< frame time, robot_from_camera
-  std::optional<Frame> last_frame_;                    ///< without its images
-  std::optional<double> last_scan_t_;
-  std::vector<Box2> people_;                           ///< last seen, px
-  FrameProposals last_seen_;                           ///< proposals of the last frame with detections
-  Pose3 last_robot_from_camera_ = Pose3::Identity();
-  bool levelled_ = false, mounted_ = false;
-  int nodes_since_optimization_ = 0;
-  std::size_t closures_optimized_ = 0;
+  FrameProposals seen_;         ///< of the last frame
+  std::vector<Box2> people_;    ///< in the last frame with detections, px
+  Pose3 robot_from_camera_ = Pose3::Identity();
+  bool levelled_ = false;       ///< handheld camera: the floor has been seen
+  double last_frame_t_, last_scan_t_;
+  std::vector<double> robot_times_;                      ///< of all frames and scans
+  std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };
 
 }  // namespace roomgraph

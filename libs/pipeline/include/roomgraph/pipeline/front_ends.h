@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "roomgraph/pipeline/motion.h"
+#include "roomgraph/pipeline/stages.h"
+
+namespace roomgraph {
+
+/// Sensor records -> movement of the robot. Owns the trajectories of the three sources, each in its own frame; every
+/// source predicts for the others.
+class FrontEnds {
+ public:
+  explicit FrontEnds(const Stages& stages);
+
+  const Motion& motion() const { return motion_; }
+
+  /// False when the stamp does not come after the last one.
+  bool add(const OdometryReading& reading);
+  /// `people`: image regions that are not used, px.
+  TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
+  ScanMatch match(const Scan& scan);
+
+  /// Loop closures found in images since the last call, between robots.
+  std::vector<RelativePose> takeImageClosures();
+  /// Takes over what the front ends refined since: for the final estimate.
+  void refine();
+
+ private:
+  std::optional<Pose3> predicted(double t_a, double t_b, const MotionSource& first, const MotionSource& second) const;
+
+  const Stages& stages_;
+  Motion motion_;
+  std::optional<double> last_frame_t_, last_scan_t_;
+  Pose3 robot_from_camera_ = Pose3::Identity();
+};
+
+}  // namespace roomgraph

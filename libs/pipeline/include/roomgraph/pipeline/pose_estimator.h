@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/association/landmark_map.h"
+#include "roomgraph/pipeline/graph_builder.h"
+
+namespace roomgraph {
+
+/// The robot's poses in world, and with them the landmarks: key poses, what was measured between them, and the
+/// optimisations of both (method.md sec. 4, M-step).
+class PoseEstimator {
+ public:
+  PoseEstimator(const BackendOptions& options, const Motion& motion);
+
+  const KeyPoses& poses() const { return poses_; }
+  Measurements& measurements() { return measurements_; }
+  const Measurements& measurements() const { return measurements_; }
+  /// The graph as it was last optimised as a whole.
+  const FactorGraph& graph() const { return graph_; }
+
+  /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
+  bool advance(double t);
+  void addClosures(const std::vector<RelativePose>& closures);
+  /// Optimises the latest key poses, or everything when that is due.
+  void update(LandmarkMap& landmarks);
+  /// Optimises everything; false when the solver found nothing usable.
+  bool optimizeAll(LandmarkMap& landmarks);
+  /// Moves the world frame rigidly.
+  void transform(const Pose3& new_from_old);
+
+ private:
+  void optimizeWindow();
+  bool due() const;
+  bool surprising(const RelativePose& closure) const;
+
+  const BackendOptions& options_;
+  const Motion& motion_;
+  KeyPoses poses_;
+  Measurements measurements_;
+  FactorGraph graph_;
+  int nodes_since_optimization_ = 0;
+  bool surprised_ = false;  ///< a closure disagrees with the estimate: do not wait long
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/front_ends.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kPriorHorizon_s = 0.15;  // a source may be extrapolated this far to predict another's movement
+
+Matrix6d planarCovariance(const Eigen::Matrix3d& of_x_y_yaw) {
+  Matrix6d out = Matrix6d::Zero();
+  const int index[3] = {0, 1, 5};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out(index[i], index[j]) = of_x_y_yaw(i, j);
+  return out;
+}
+
+Matrix6d turned(const Matrix6d& covariance, const Eigen::Matrix3d& rotation) {
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = rotation;
+  return turn * covariance * turn.transpose();
+}
+
+// What the camera's movement is for the robot it is mounted on.
+Pose3 ofRobot(const Pose3& camera_movement, const Pose3& robot_from_camera) {
+  return robot_from_camera * camera_movement * robot_from_camera.inverse();
+}
+
+}  // namespace
+
+FrontEnds::FrontEnds(const Stages& stages)
+    : stages_(stages),
+      motion_{MotionSource(stages.odometry.noise, true), MotionSource(stages.tracking.noise, false),
+              MotionSource(stages.lidar.noise, true)} {}
+
+std::optional<Pose3> FrontEnds::predicted(double t_a, double t_b, const MotionSource& first,
+                                          const MotionSource& second) const {
+  for (const auto* source : {&first, &second})
+    if (const auto moved = source->between(t_a, t_b, kPriorHorizon_s)) return moved->a_from_b;
+  return std::nullopt;
+}
+
+bool FrontEnds::add(const OdometryReading& reading) {
+  return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0, Matrix6d::Zero());
+}
+
+TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {
+  robot_from_camera_ = frame.robot_from_camera;
+  TrackingPrior prior{std::nullopt, people};
+  if (last_frame_t_)
+    if (const auto moved = predicted(*last_frame_t_, frame.t, motion_.odometry, motion_.lidar))
+      prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
+  last_frame_t_ = frame.t;
+  const TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
+  if (result.tracked)
+    motion_.visual.add(frame.t, ofRobot(result.odom_from_camera, robot_from_camera_), result.segment,
+                       turned(result.step_covariance, robot_from_camera_.linear()));
+  return result;
+}
+
+ScanMatch FrontEnds::match(const Scan& scan) {
+  std::optional<Pose2> prior;
+  if (last_scan_t_)
+    if (const auto moved = predicted(*last_scan_t_, scan.t, motion_.odometry, motion_.visual))
+      prior = planarPart(*moved);
+  last_scan_t_ = scan.t;
+  const ScanMatch result = stages_.scan_matcher->match(scan, prior);
+  if (result.matched)
+    motion_.lidar.add(scan.t, toPose3(result.odom_from_robot), result.segment,
+                      planarCovariance(result.step_covariance));
+  return result;
+}
+
+std::vector<RelativePose> FrontEnds::takeImageClosures() {
+  if (!stages_.rgbd_odometry || !stages_.tracking.loop_closing) return {};
+  std::vector<RelativePose> closures = stages_.rgbd_odometry->takeLoopClosures();
+  for (auto& closure : closures) {
+    closure.a_from_b = ofRobot(closure.a_from_b, robot_from_camera_);
+    closure.covariance = turned(closure.covariance, robot_from_camera_.linear());
+  }
+  return closures;
+}
+
+void FrontEnds::refine() {
+  if (stages_.rgbd_odometry) {
+    const Trajectory camera = stages_.rgbd_odometry->trajectory();
+    Trajectory robot;
+    for (std::size_t i = 0; i < camera.size(); ++i)
+      robot.add(camera.poses()[i].t, ofRobot(camera.poses()[i].pose, robot_from_camera_), camera.segment(i));
+    if (!robot.empty()) motion_.visual.refine(robot);
+  }
+  if (stages_.scan_matcher && !stages_.scan_matcher->trajectory().empty())
+    motion_.lidar.refine(stages_.scan_matcher->trajectory());
+}
+
+}  // namespace roomgraph

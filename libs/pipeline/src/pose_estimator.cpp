@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/pose_estimator.h"
+
+#include <algorithm>
+
+namespace roomgraph {
+
+PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
+    : options_(options), motion_(motion), poses_(motion) {
+  measurements_.planar = false;
+}
+
+bool PoseEstimator::advance(double t) {
+  if (poses_.empty()) {
+    poses_.add(t, Pose3::Identity());
+    return true;
+  }
+  const KeyPose& last = poses_.nodes().back();
+  if (t <= last.t) return false;
+  const Pose3 moved = poses_.offset(last, t);
+  const bool far = moved.translation().norm() > options_.node_distance_m ||
+                   rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
+  if (!far) return false;
+  poses_.add(t, last.world_from_robot * moved);
+  ++nodes_since_optimization_;
+  return true;
+}
+
+bool PoseEstimator::surprising(const RelativePose& closure) const {
+  const Pose3 expected = poses_.at(closure.t_a).inverse() * poses_.at(closure.t_b);
+  const Pose3 difference = closure.a_from_b.inverse() * expected;
+  return difference.translation().norm() > options_.urgent_closure_m ||
+         rotationAngle(difference) > options_.urgent_closure_rad;
+}
+
+void PoseEstimator::addClosures(const std::vector<RelativePose>& closures) {
+  for (const auto& closure : closures) {
+    surprised_ |= surprising(closure);
+    measurements_.closures.push_back(closure);
+  }
+}
+
+// The pause grows with the graph, so that the work per key pose stays bounded on long runs.
+bool PoseEstimator::due() const {
+  const int nodes = static_cast<int>(poses_.nodes().size());
+  const int pause = surprised_ ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
+                               : std::max(options_.optimize_every_nodes, nodes / 10);
+  return nodes_since_optimization_ >= pause;
+}
+
+void PoseEstimator::update(LandmarkMap& landmarks) {
+  if (due()) {
+    optimizeAll(landmarks);
+  } else {
+    optimizeWindow();
+  }
+}
+
+void PoseEstimator::optimizeWindow() {
+  auto& nodes = poses_.nodes();
+  const auto window = static_cast<std::size_t>(options_.window_nodes);
+  const std::size_t first = nodes.size() > window ? nodes.size() - window : 0;
+  FactorGraph graph = buildGraph(poses_, motion_, measurements_, {}, options_, first);
+  if (!graph.optimize(options_.max_iterations).usable) return;
+  for (std::size_t i = first; i < nodes.size(); ++i) nodes[i].world_from_robot = graph.pose(nodes[i].id);
+}
+
+bool PoseEstimator::optimizeAll(LandmarkMap& landmarks) {
+  if (poses_.empty()) return true;
+  nodes_since_optimization_ = 0;
+  surprised_ = false;
+  for (const auto& [removed, kept] : landmarks.mergeDuplicates())
+    for (auto& sighting : measurements_.sightings)
+      if (sighting.landmark == removed) sighting.landmark = kept;
+  graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);
+  if (!graph_.optimize(options_.max_iterations).usable) return false;
+  for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);
+  for (const Landmark& landmark : std::vector<Landmark>(landmarks.landmarks())) {
+    if (!graph_.hasLandmark(landmark.id)) continue;
+    const LandmarkEstimate estimate = graph_.landmark(landmark.id);
+    landmarks.correct(landmark.id, estimate.position, estimate.yaw, landmark.covariance);
+  }
+  return true;
+}
+
+void PoseEstimator::transform(const Pose3& new_from_old) {
+  for (auto& node : poses_.nodes()) node.world_from_robot = new_from_old * node.world_from_robot;
+}
+
+}  // namespace roomgraph
