@@ -104,6 +104,14 @@ TEST(RawlogReader, PoseChangeAndSpatialMovementCountAsOdometry) {
               ElementsAre(Pair("CActionCollection: no movement of the robot in it", 1)));
 }
 
+TEST(RawlogReader, LastActionWithoutTimeIsCounted) {
+  TemporaryFolder folder;
+  writeRawlog(folder / "x.rawlog", {makeSensoryFrame({makeScan(1)}), makeAction(-1, 1, 0, 0)});
+  RawlogReader reader(folder / "x.rawlog");
+  EXPECT_EQ(readAll(reader).size(), 1u);
+  EXPECT_THAT(reader.statistics().skipped, ElementsAre(Pair(HasSubstr("no observation after it"), 1)));
+}
+
 TEST(RawlogReader, WhatIsNotWantedIsSteppedOver) {
   TemporaryFolder folder;
   writeRawlog(folder / "x.rawlog",

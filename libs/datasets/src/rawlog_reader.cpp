@@ -126,6 +126,9 @@ std::optional<Record> RawlogReader::Impl::next() {
     while (waiting.empty()) {
       const auto item = source.next();
       if (!item) {
+        if (odometry_waits)
+          ++statistics.skipped["CActionCollection: no time stamp, and no observation after it"];
+        odometry_waits = false;
         statistics.warning = source.truncation();
         return std::nullopt;
       }
