@@ -55,7 +55,8 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
   v.add("nms_threshold", nms_threshold_,
         {.doc = "of two boxes of a class with a larger IoU only the better is kept", .min = 0, .max = 1});
   v.add("twin_threshold", twin_threshold_,
-        {.doc = "of two boxes of different classes with a larger IoU only the better is kept; 1: both",
+        {.doc = "of two boxes of different classes with a larger IoU only the better is kept; 1: both, and "
+                "their geometry decides",
          .min = 0,
          .max = 1});
   v.add("every_nth_frame", every_nth_frame_,
