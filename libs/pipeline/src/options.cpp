@@ -30,7 +30,6 @@ void LidarOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "use 2D scans"});
   v.add("class", stage, {.doc = "implementation of ScanMatcher"});
   v.add("loop_closing", loop_closing, {.doc = "use loop closures found in scans"});
-  v.add("loop_closer", loop_closer, {.doc = "implementation of ScanLoopCloser"});
   noise.declare(v);
 }
 

@@ -36,7 +36,7 @@ struct TrackingOptions : Configurable {
 /// [lidar]
 struct LidarOptions : Configurable {
   bool enabled = true, loop_closing = true;
-  std::string stage = "SubmapScanMatcher", loop_closer = "SubmapLoopCloser";
+  std::string stage = "SubmapScanMatcher";
   MotionNoise noise{0.004, 0.01, 0.002, 0.01, 0.003};
   void declareParameters(ParameterVisitor& v) override;
 };
@@ -48,12 +48,14 @@ struct OdometryOptions : Configurable {
   void declareParameters(ParameterVisitor& v) override;
 };
 
-/// [detection], [proposals], [selection], [association]
+/// [detection]
 struct ObjectOptions : Configurable {
   bool enabled = true;
   std::string detector = "DnnDetector";
   void declareParameters(ParameterVisitor& v) override;
 };
+
+/// [scan_loop_closing], [proposals], [selection], [association]
 struct StageChoice : Configurable {
   explicit StageChoice(std::string name) : stage(std::move(name)) {}
   std::string stage;
