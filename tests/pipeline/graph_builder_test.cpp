@@ -24,7 +24,7 @@ MotionSource drifting(double scale, double turn, const MotionNoise& noise, doubl
   for (double t = 0; t <= kNodes; t += seconds) {
     source.add(t, pose, 0, Matrix6d::Zero());
     Pose2 step = planarPart(truthAt(t).inverse() * truthAt(t + seconds));
-    pose = pose * toPose3({scale * step.x, scale * step.y, turn * step.yaw});
+    pose = pose * toPose3(Pose2{scale * step.x, scale * step.y, turn * step.yaw});
   }
   return source;
 }
