@@ -58,13 +58,14 @@ std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& mea
   return decisions;
 }
 
-void missUnseen(const std::vector<ObjectDecision>& decisions, const PosedFrame& posed, LandmarkMap& landmarks) {
+void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                const PosedFrame& posed, LandmarkMap& landmarks) {
   std::set<LandmarkId> seen;
   for (const auto& decision : decisions) seen.insert(decision.landmark);
   const Pose3 world_from_camera = posed.world_from_robot * posed.frame.robot_from_camera;
   std::vector<LandmarkId> missed;
   for (const auto& landmark : landmarks.landmarks())
-    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, posed.frame, world_from_camera))
+    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, posed.frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks.miss(id);
 }

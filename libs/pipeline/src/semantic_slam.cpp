@@ -86,7 +86,13 @@ StepReport SemanticSlam::step(const OdometryReading& reading) {
   if (!stages_->odometry.enabled) return {};
   estimator_.measurements().planar = true;
   ++counts_.odometry;
-  if (!front_ends_.add(reading)) ++counts_.reasons["odometry: stamp does not come after the previous one"];
+  if (!front_ends_.add(reading)) {
+    ++counts_.reasons["odometry: stamp does not come after the previous one"];
+    return {.t = reading.t};
+  }
+  odometry_times_.push_back(reading.t);
+  // Frames and scans say when a pose is wanted; without any, the readings do.
+  if (robot_times_.empty()) localize(reading.t);
   return {.t = reading.t};
 }
 
@@ -189,7 +195,7 @@ void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   const PosedFrame posed{frame, poses.at(frame.t), node, poses.offset(node, frame.t)};
   report.decisions = roomgraph::mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
                                            stages_->landmarks, estimator_.measurements().sightings);
-  missUnseen(report.decisions, posed, stages_->landmarks);
+  missUnseen(report.decisions, report.detections, posed, stages_->landmarks);
 }
 
 // Returns inside the wedge of a person's box, at the person's depth (sec. 5).
@@ -234,7 +240,7 @@ SlamResult SemanticSlam::collect() {
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
   Trajectory dense;
-  for (const double t : robot_times_)
+  for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
   result.world_from_robot = result.map.world_from_robot = dense.poses();
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});

@@ -24,7 +24,8 @@ std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& mea
                                        double pose_sigma_m, Associator& associator, LandmarkMap& landmarks,
                                        std::vector<LandmarkFactor>& sightings);
 
-/// Lowers the existence of landmarks in good view that were not among the decisions.
-void missUnseen(const std::vector<ObjectDecision>& decisions, const PosedFrame& posed, LandmarkMap& landmarks);
+/// Lowers the existence of landmarks in good view where nothing was detected.
+void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                const PosedFrame& posed, LandmarkMap& landmarks);
 
 }  // namespace roomgraph

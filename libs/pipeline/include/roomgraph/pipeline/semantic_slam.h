@@ -31,7 +31,7 @@ struct RunCounts {
 
 /// The result of a run.
 struct SlamResult {
-  std::vector<StampedPose> world_from_robot;   ///< at every frame and scan
+  std::vector<StampedPose> world_from_robot;   ///< at every frame and scan (with neither: at every odometry reading)
   std::vector<StampedPose> world_from_camera;  ///< at every frame (optical)
   CSemanticMap map;
   RunCounts counts;
@@ -83,7 +83,7 @@ class SemanticSlam {
   Pose3 robot_from_camera_ = Pose3::Identity();
   bool levelled_ = false;       ///< handheld camera: the floor has been seen
   double last_frame_t_, last_scan_t_;
-  std::vector<double> robot_times_;                      ///< of all frames and scans
+  std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };
 
