@@ -38,7 +38,8 @@ TEST_F(BadConfig, AssignmentWithoutItsForm) {
 
 TEST_F(BadConfig, UnknownClassListsTheKnown) {
   expectOneLine(runWith("detection.class=Foo"), 2, AllOf(HasSubstr("Foo"), HasSubstr("DnnDetector")));
-  expectOneLine(runWith("lidar.loop_closer=Foo"), 2, AllOf(HasSubstr("Foo"), HasSubstr("SubmapLoopCloser")));
+  expectOneLine(runWith("scan_loop_closing.class=Foo"), 2,
+                AllOf(HasSubstr("Foo"), HasSubstr("SubmapLoopCloser")));
 }
 
 TEST_F(BadConfig, UnknownPlugIn) {

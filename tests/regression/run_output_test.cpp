@@ -87,7 +87,7 @@ TEST_F(RunOutputTest, EveryFileIsThereAndSound) {
   EXPECT_EQ(tumOf(out / "trajectory.tum").size(), 24u);  // scans and frames share their stamps
   EXPECT_EQ(tumOf(out / "trajectory_camera.tum").size(), 12u);
   EXPECT_GE(linesOf(contentOf(out / "live.tum")).size(), 24u);
-  expectTruth(0.03, 0.02);
+  expectTruth(0.02, 0.01);
   EXPECT_TRUE(json::parse(contentOf(out / "landmarks.json")).at("landmarks").is_array());
   for (const char* name : {"detections.jsonl", "associations.jsonl"}) {
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
@@ -139,8 +139,8 @@ TEST_F(RunOutputTest, AnySubsetOfTheSensorsWillDo) {
     double tolerance_m;
   };
   const std::vector<Case> cases = {{{"lidar", "odometry"}, 12, 0.05},
-                                   {{"tracking", "detection"}, 24, 0.03},
-                                   {{"tracking", "detection", "odometry"}, 24, 0.03},
+                                   {{"tracking", "detection"}, 24, 0.02},
+                                   {{"tracking", "detection", "odometry"}, 24, 0.02},
                                    {{"lidar"}, 12, 0.05},
                                    {{"lidar", "tracking"}, 12, 0.06}};  // wheels only: 3 % of 0.9 m
   for (const auto& [off, poses, tolerance_m] : cases) {
@@ -160,7 +160,7 @@ TEST_F(RunOutputTest, ActionsAndSensoryFramesToo) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(tumOf(out / "trajectory.tum").size(), 24u);
   EXPECT_GT(json::parse(contentOf(out / "summary.json"))["counts"]["odometry"].get<int>(), 20);
-  expectTruth(0.03, 0.02);
+  expectTruth(0.02, 0.01);
 }
 
 TEST_F(RunOutputTest, SpanOfTimeIsKept) {

@@ -69,7 +69,7 @@ class TinyRecording {
   }
 
   mrpt::obs::CObservation2DRangeScan::Ptr scan(int step, std::mt19937& random) const {
-    Scan cast = castScan(asymmetricRoom(), truth(step), time(step), random, 0.005, 240);
+    Scan cast = castScan(asymmetricRoom(), truth(step), time(step), random, 0.005, 720);
     cast.sensor_label = "LASER";
     return toMrpt(cast);
   }
