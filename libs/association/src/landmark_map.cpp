@@ -123,7 +123,7 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& measurement, const Associ
 void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
   const double exists = ratio * landmark.existence;
   // Never beyond recall: an object hidden for long may be seen again, one seen for long may be gone.
-  landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 0.99999);
+  landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 1 - 1e-9);
 }
 
 void LandmarkMap::miss(LandmarkId id) {

@@ -44,7 +44,7 @@ class LandmarkMap : public Configurable {
   std::vector<Landmark> landmarks_;
   std::map<LandmarkId, double> evidence_;  ///< sum of the sightings' scores
   std::int64_t next_id_ = 0;
-  double birth_existence_ = 0.3, detection_probability_ = 0.7, false_alarm_probability_ = 0.15;
+  double birth_existence_ = 0.3, detection_probability_ = 0.6, false_alarm_probability_ = 0.15;
   double score_gain_ = 5, neutral_score_ = 0.3;
   double confirm_existence_ = 0.9, merge_overlap_ = 0.2, exclusive_overlap_ = 0.3;
   int confirm_observations_ = 6;
