@@ -6,8 +6,8 @@
 
 namespace roomgraph {
 
-// Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback reports
-// failure by throwing roomgraph::Error, whose exit code main() returns.
+// Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback
+// reports failure by throwing roomgraph::Error, whose exit code main() returns.
 void addImportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 
