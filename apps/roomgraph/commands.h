@@ -14,5 +14,6 @@ void addInfoCommand(CLI::App& app);
 void addRunCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
+void addSimulateCommand(CLI::App& app);
 
 }  // namespace roomgraph

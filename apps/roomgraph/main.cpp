@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   roomgraph::addRunCommand(app);
   roomgraph::addEvaluateCommand(app);
   roomgraph::addSnapshotCommand(app);
+  roomgraph::addSimulateCommand(app);
 
   try {
     app.parse(argc, argv);
