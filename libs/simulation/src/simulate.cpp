@@ -138,8 +138,10 @@ void Simulation::frame(double t) {
   mrpt::obs::CObservation3DRangeScan record;
   record.timestamp = stamp(t);
   record.sensorLabel = "KINECT";
-  record.sensorPose = roomgraph::toMrpt(scene_.robotFromCamera());
-  // MRPT's sensor pose of a range camera: x forward; the image's frame is rotated against it.
+  // MRPT's frame of a range camera has x forward; the record's own default turns it into the optical frame.
+  Pose3 robot_from_body = scene_.robotFromCamera();
+  robot_from_body.linear() *= bodyFromOptical().transpose();
+  record.sensorPose = roomgraph::toMrpt(robot_from_body);
   record.hasIntensityImage = record.hasRangeImage = true;
   record.range_is_depth = true;
   record.rangeUnits = 0.001f;
