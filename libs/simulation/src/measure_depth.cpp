@@ -38,6 +38,19 @@ cv::Mat depthEdges(const cv::Mat& depth) {
   return (jump > limit) / 255;
 }
 
+/// Unit variance, alike within a few pixels, as the windows of block matching make it.
+cv::Mat correlatedNoise(const cv::Size& size, Random& random) {
+  constexpr int kCell_px = 3;
+  cv::Mat coarse(size.height / kCell_px + 2, size.width / kCell_px + 2, CV_32F), out;
+  for (int v = 0; v < coarse.rows; ++v)
+    for (int u = 0; u < coarse.cols; ++u) coarse.at<float>(v, u) = static_cast<float>(random.normal());
+  const cv::Mat kernel = cv::getGaussianKernel(7, 1.2, CV_32F);
+  cv::sepFilter2D(coarse, coarse, CV_32F, kernel, kernel);
+  coarse /= kernel.dot(kernel);  // the filter's gain on white noise, along both axes
+  cv::resize(coarse, out, {coarse.cols * kCell_px, coarse.rows * kCell_px}, 0, 0, cv::INTER_LINEAR);
+  return out(cv::Rect({0, 0}, size)).clone();
+}
+
 }  // namespace
 
 cv::Mat measureDepth(const cv::Mat& depth, const CameraSpec& spec, Random random) {
@@ -45,9 +58,7 @@ cv::Mat measureDepth(const cv::Mat& depth, const CameraSpec& spec, Random random
   const bool noisy = spec.noise_gain > 0;
   const cv::Mat shadow = projectorShadow(depth, spec), edges = depthEdges(depth);
   const double scale = spec.baseline_m * spec.focal_px, steps = 1 / spec.disparity_step_px;
-  cv::Mat noise((depth.rows + 1) / 2, (depth.cols + 1) / 2, CV_32F);
-  for (int v = 0; noisy && v < noise.rows; ++v)
-    for (int u = 0; u < noise.cols; ++u) noise.at<float>(v, u) = static_cast<float>(spec.noise_gain * random.normal());
+  const cv::Mat noise = correlatedNoise(depth.size(), random) * spec.noise_gain;
   cv::Mat out = cv::Mat::zeros(depth.size(), CV_16U);
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {
@@ -56,7 +67,7 @@ cv::Mat measureDepth(const cv::Mat& depth, const CameraSpec& spec, Random random
       if (noisy) {
         if (shadow.at<uchar>(v, u) || (edges.at<uchar>(v, u) && random.chance(kLostAtEdge))) continue;
         const double beyond = z - 0.4;
-        z += (0.0012 + 0.0019 * beyond * beyond) * noise.at<float>(v / 2, u / 2);
+        z += (0.0012 + 0.0019 * beyond * beyond) * noise.at<float>(v, u);
         z = scale / (std::round(steps * scale / z) / steps);
       }
       out.at<std::uint16_t>(v, u) = cv::saturate_cast<std::uint16_t>(z / kUnit_m);

@@ -93,6 +93,7 @@ Simulation::Simulation(const World& world, const std::filesystem::path& folder, 
   if (world.camera) {
     frames_.rate_hz = world.camera->rate_hz;
     renderer_ = std::make_unique<ColorRenderer>(scene_, world.camera->model);
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
     mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(world.camera->jpeg_quality);
   }
   if (world.lidar) {

@@ -16,7 +16,7 @@
 namespace roomgraph {
 
 /// What a structured-light depth camera makes of the exact depth (CV_32F, m): CV_16U, mm, 0 = no measurement.
-/// Noise sigma = 0.0012 + 0.0019 (z - 0.4)^2 m (Nguyen et al. 2012) over 2x2 pixels, disparity in steps; missing
+/// Noise sigma = 0.0012 + 0.0019 (z - 0.4)^2 m (Nguyen et al. 2012), alike within some pixels; disparity in steps; missing
 /// beyond the range, in the projector's shadow and at many depth edges.
 cv::Mat measureDepth(const cv::Mat& depth, const CameraSpec& spec, Random random);
 
