@@ -29,14 +29,15 @@ void simulateWorld(const Arguments& arguments) {
   options.seed = arguments.seed;
   options.interrupted = [] { return interrupted != 0; };
   options.progress = [&](double done, double total) {
-    if (!line) line = std::make_unique<Progress>(arguments.quiet ? nullptr : &std::cerr, "simulate", "s", total);
+    if (!line)
+      line = std::make_unique<Progress>(arguments.quiet ? nullptr : &std::cerr, "simulate", "s", total);
     line->update(done);
   };
   const SimulateResult result = simulate(world, arguments.folder, options);
   if (line) line->finish();
-  std::cout << result.rawlog.string() << ": " << result.seconds << " s, " << result.frames << " RGB-D frames, "
-            << result.scans << " scans, " << result.odometry << " odometry readings, " << result.detections
-            << " detection records\n"
+  std::cout << result.rawlog.string() << ": " << result.seconds << " s, " << result.frames
+            << " RGB-D frames, " << result.scans << " scans, " << result.odometry << " odometry readings, "
+            << result.detections << " detection records\n"
             << arguments.folder.string() << ": truth of " << result.objects << " objects\n";
   if (result.interrupted) std::cerr << "roomgraph: interrupted; recording and truth end there\n";
 }
@@ -47,7 +48,8 @@ void addSimulateCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("simulate", "Make a recording of a described world, with its truth");
   command->add_option("WORLD", arguments->world, "world description (JSON)")->required();
-  command->add_option("-o,--output", arguments->folder, "folder for the rawlog and the truth files")->required();
+  command->add_option("-o,--output", arguments->folder, "folder for the rawlog and the truth files")
+      ->required();
   command->add_option("--seed", arguments->seed, "random seed: same seed, same bytes")->capture_default_str();
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->footer(

@@ -66,7 +66,9 @@ TEST(AmbientLight, CornersAreDarkerThanFreeSurfaces) {
   // Foot of the east wall, 5 m ahead of the start, against the middle of the wall.
   const Eigen::Vector2d foot = r.world.camera->model.project(r.pose.inverse() * Eigen::Vector3d(5, -1, 0.03));
   const Eigen::Vector2d free = r.world.camera->model.project(r.pose.inverse() * Eigen::Vector3d(5, -1, 1.2));
-  const auto at = [&](const Eigen::Vector2d& p) { return light.at<float>(static_cast<int>(p.y()), static_cast<int>(p.x())); };
+  const auto at = [&](const Eigen::Vector2d& p) {
+    return light.at<float>(static_cast<int>(p.y()), static_cast<int>(p.x()));
+  };
   EXPECT_LT(at(foot), at(free) - 0.05);
   EXPECT_GT(at(free), 0.9);
 }

@@ -22,7 +22,9 @@ inline std::string exampleWorldText() {
 })";
 }
 
-inline World exampleWorld() { return parseWorld(exampleWorldText(), "example.json"); }
+inline World exampleWorld() {
+  return parseWorld(exampleWorldText(), "example.json");
+}
 
 /// The example with `from` replaced by `to`.
 inline std::string changed(const std::string& from, const std::string& to) {

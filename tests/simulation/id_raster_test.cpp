@@ -27,7 +27,8 @@ struct Picture {
 TEST(IdRaster, DepthOfWallAndFloorIsExact) {
   const Picture p;
   // The east wall is 5 m ahead of the robot, the camera 0.05 m ahead of it.
-  for (const auto& [u, v] : {std::pair{320, 200}, {400, 239}, {250, 100}}) EXPECT_NEAR(p.image.depth.at<float>(v, u), 4.95, 1e-4);
+  for (const auto& [u, v] : {std::pair{320, 200}, {400, 239}, {250, 100}})
+    EXPECT_NEAR(p.image.depth.at<float>(v, u), 4.95, 1e-4);
   for (const int v : {400, 440, 479})
     EXPECT_NEAR(p.image.depth.at<float>(v, 500), 0.8 * p.camera.fy / (v - p.camera.cy), 1e-3) << v;
 }
@@ -40,7 +41,8 @@ TEST(IdRaster, BoxesMatchTheProjectedCorners) {
   for (const double x : {3.3, 3.7})
     for (const double y : {0.2, 0.8})
       for (const double z : {0.0, 1.0}) {
-        const Eigen::Vector2d pixel = p.camera.project(p.world_from_camera.inverse() * Eigen::Vector3d(x, y, z));
+        const Eigen::Vector2d pixel =
+            p.camera.project(p.world_from_camera.inverse() * Eigen::Vector3d(x, y, z));
         u0 = std::min(u0, pixel.x());
         v0 = std::min(v0, pixel.y());
         u1 = std::max(u1, pixel.x());
@@ -70,7 +72,8 @@ TEST(IdRaster, CountsWhatIsHiddenAndWhatIsCutOff) {
   const Scene scene(world);
   const auto image = rasterize(scene, scene.partPoses(0), scene.worldFromCamera(0), world.camera->model);
   const auto find = [&](int object) {
-    return *std::find_if(image.views.begin(), image.views.end(), [&](const ObjectView& v) { return v.object == object; });
+    return *std::find_if(image.views.begin(), image.views.end(),
+                         [&](const ObjectView& v) { return v.object == object; });
   };
   const ObjectView hidden = find(1), cut = find(2);
   EXPECT_LT(hidden.visible, 0.8);

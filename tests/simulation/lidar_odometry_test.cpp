@@ -68,7 +68,8 @@ TEST(MeasureScan, NoiseDropoutsAndLimits) {
   EXPECT_NEAR(std::sqrt(squares / valid), 0.05, 0.002);
   EXPECT_FALSE(measureScan({9.0}, spec, Random(5)).getScanRangeValidity(0));
   EXPECT_FALSE(measureScan({0.05}, spec, Random(5)).getScanRangeValidity(0));
-  EXPECT_FALSE(measureScan({std::numeric_limits<double>::infinity()}, spec, Random(5)).getScanRangeValidity(0));
+  EXPECT_FALSE(
+      measureScan({std::numeric_limits<double>::infinity()}, spec, Random(5)).getScanRangeValidity(0));
 }
 
 std::vector<Pose2> drive() {
@@ -117,13 +118,16 @@ TEST(MeasureDetections, JitterMissesFalseAlarmsAndConfusion) {
   double squares = 0;
   constexpr int kFrames = 4000;
   for (int i = 0; i < kFrames; ++i) {
-    const auto out = measureDetections({view}, scene, camera, {0.8, 0.25, 20, 0.05, 0, 0.1}, Random(1, 0, static_cast<std::uint64_t>(i)));
+    const auto out = measureDetections({view}, scene, camera, {0.8, 0.25, 20, 0.05, 0, 0.1},
+                                       Random(1, 0, static_cast<std::uint64_t>(i)));
     for (const auto& item : out.items) {
       ++found;
       wrong += item.label != "person";
       squares += (item.v_min - 100) * (item.v_min - 100);
     }
-    alarms += static_cast<int>(measureDetections({}, scene, camera, {1, 0.25, 20, 0, 0.3, 0}, Random(2, 0, static_cast<std::uint64_t>(i))).items.size());
+    alarms += static_cast<int>(measureDetections({}, scene, camera, {1, 0.25, 20, 0, 0.3, 0},
+                                                 Random(2, 0, static_cast<std::uint64_t>(i)))
+                                   .items.size());
   }
   EXPECT_NEAR(found / double{kFrames}, 0.8, 0.03);
   EXPECT_NEAR(wrong / double(found), 0.1 * 5 / 6, 0.02);  // the random label may be the right one

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <set>
 
 #include "roomgraph/simulation/sensors.h"
@@ -10,7 +11,9 @@
 namespace roomgraph {
 namespace {
 
-cv::Mat wall(float z) { return cv::Mat(480, 640, CV_32F, cv::Scalar(z)); }
+cv::Mat wall(float z) {
+  return cv::Mat(480, 640, CV_32F, cv::Scalar(z));
+}
 
 struct Spread {
   double mean = 0, sigma = 0;

@@ -16,7 +16,9 @@ namespace {
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles)
-    sum += t.position[0].cast<double>().dot(t.position[1].cast<double>().cross(t.position[2].cast<double>())) / 6;
+    sum +=
+        t.position[0].cast<double>().dot(t.position[1].cast<double>().cross(t.position[2].cast<double>())) /
+        6;
   return sum;
 }
 
@@ -31,8 +33,9 @@ TEST(MeshBuilder, SolidsHaveTheirVolume) {
   EXPECT_NEAR(made([&](MeshBuilder& m) { m.box(center, {1, 2, 3}); }), 6, 1e-5);
   const double pi = std::numbers::pi;
   // Inscribed polyhedra are a little smaller.
-  EXPECT_NEAR(made([&](MeshBuilder& m) { m.ellipsoid(center, {1, 2, 3}); }), 8 * pi, 0.06 * 8 * pi);
-  EXPECT_NEAR(made([&](MeshBuilder& m) { m.rod(center, center + Eigen::Vector3d(0, 2, 0), 0.5, 0.5); }), pi / 2, 0.04 * pi);
+  EXPECT_NEAR(made([&](MeshBuilder& m) { m.ellipsoid(center, {1, 2, 3}); }), 8 * pi, 0.08 * 8 * pi);
+  EXPECT_NEAR(made([&](MeshBuilder& m) { m.rod(center, center + Eigen::Vector3d(0, 2, 0), 0.5, 0.5); }),
+              pi / 2, 0.04 * pi);
   // Box of 2 x 2 x 2 with edges of radius 0.5: core, six plates, twelve quarter rods, one ball.
   const double rounded = 1 + 6 * 0.5 + 12 * pi * 0.25 / 4 + 4 * pi / 3 * 0.125;
   EXPECT_NEAR(made([&](MeshBuilder& m) { m.roundedBox(center, {2, 2, 2}, 0.5); }), rounded, 0.02 * rounded);

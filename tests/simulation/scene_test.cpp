@@ -56,7 +56,8 @@ TEST(Scene, AHandHeldRecordingStartsLevelOnTheFloor) {
   world.robot.reset();
   world.lidar.reset();
   world.odometry.reset();
-  world.handheld = HandheldSpec{{{{1, 2, 1.4}, {4, 2, 0.5}}, {{2, 2, 1.3}, {4, 1, 0.8}}}, false, 0.3, "handheld"};
+  world.handheld =
+      HandheldSpec{{{{1, 2, 1.4}, {4, 2, 0.5}}, {{2, 2, 1.3}, {4, 1, 0.8}}}, false, 0.3, "handheld"};
   const Scene scene(world);
   EXPECT_LT((scene.worldFromRobot(0).matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-9);
   EXPECT_NEAR(scene.worldFromCamera(0).translation().z(), 1.4, 0.02);

@@ -86,7 +86,8 @@ TEST(Simulate, TheSameSeedGivesTheSameBytes) {
   simulate(world, folder.file("a"), {});
   simulate(world, folder.file("b"), {});
   simulate(world, folder.file("c"), other);
-  for (const std::string name : {"example.rawlog", "boxes.jsonl", "odometry.txt", "objects.json", "map_truth.pgm"})
+  for (const std::string name :
+       {"example.rawlog", "boxes.jsonl", "odometry.txt", "objects.json", "map_truth.pgm"})
     EXPECT_TRUE(folder.read("a/" + name) == folder.read("b/" + name)) << name;
   for (const std::string name : {"example.rawlog", "odometry.txt"})
     EXPECT_FALSE(folder.read("a/" + name) == folder.read("c/" + name)) << name;

@@ -11,8 +11,8 @@
 namespace roomgraph {
 namespace {
 
-using testing::changed;
 using ::testing::AllOf;
+using testing::changed;
 using ::testing::HasSubstr;
 
 std::string complaint(const std::string& from, const std::string& to) {
@@ -39,7 +39,8 @@ TEST(WorldFile, EveryMistakeNamesFileAndEntry) {
               AllOf(HasSubstr("rooms[0].doorways[0].width_m"), HasSubstr("-1")));
   EXPECT_THAT(complaint("\"model\": \"block\"", "\"model\": \"throne\""),
               AllOf(HasSubstr("furniture[0].model"), HasSubstr("throne"), HasSubstr("swivel_chair")));
-  EXPECT_THAT(complaint("\"model\": \"block\", ", ""), AllOf(HasSubstr("furniture[0].model"), HasSubstr("missing")));
+  EXPECT_THAT(complaint("\"model\": \"block\", ", ""),
+              AllOf(HasSubstr("furniture[0].model"), HasSubstr("missing")));
   EXPECT_THAT(complaint("\"preset\": \"rplidar\"", "\"rate_hz\": 0"), HasSubstr("sensors.lidar.rate_hz"));
   EXPECT_THAT(complaint("\"preset\": \"kobuki\"", "\"rate_hz\": 1e9"), HasSubstr("sensors.odometry.rate_hz"));
   EXPECT_THAT(complaint("\"preset\": \"kinect\"", "\"preset\": \"eye\""), HasSubstr("sensors.camera.preset"));
@@ -47,11 +48,13 @@ TEST(WorldFile, EveryMistakeNamesFileAndEntry) {
   EXPECT_THAT(complaint("[1, 2]", "[1]"), HasSubstr("robot.path_m[0]"));
   EXPECT_THAT(complaint("\"name\": \"example\"", "\"name\": \"a b\""), HasSubstr("name"));
   EXPECT_THAT(complaint("\"rooms\"", "rooms"), HasSubstr("not valid JSON"));
-  EXPECT_THAT(testing::messageOf<InputError>([] { readWorld("/nowhere/w.json"); }), HasSubstr("/nowhere/w.json"));
+  EXPECT_THAT(testing::messageOf<InputError>([] { readWorld("/nowhere/w.json"); }),
+              HasSubstr("/nowhere/w.json"));
 }
 
 TEST(WorldFile, RoomsMustNotOverlapNorShareTooThinAWall) {
-  const std::string first = "\"rooms\": [", second = "\"rooms\": [{\"corner_m\": [6.05, 0], \"size_m\": [2, 2]}, ";
+  const std::string first = "\"rooms\": [",
+                    second = "\"rooms\": [{\"corner_m\": [6.05, 0], \"size_m\": [2, 2]}, ";
   EXPECT_THAT(complaint(first, second), AllOf(HasSubstr("rooms[1]"), HasSubstr("overlaps rooms[0]")));
   std::string apart = second;
   apart.replace(apart.find("6.05"), 4, "6.12");
@@ -59,26 +62,31 @@ TEST(WorldFile, RoomsMustNotOverlapNorShareTooThinAWall) {
 }
 
 TEST(WorldFile, DoorwaysLeadSomewhere) {
-  EXPECT_THAT(complaint(", \"door\": \"closed\"", ""), AllOf(HasSubstr("rooms[0].doorways[0]"), HasSubstr("nothing")));
+  EXPECT_THAT(complaint(", \"door\": \"closed\"", ""),
+              AllOf(HasSubstr("rooms[0].doorways[0]"), HasSubstr("nothing")));
   EXPECT_THAT(complaint("\"at_m\": 5", "\"at_m\": 5.8"), HasSubstr("does not fit into its wall"));
 }
 
 TEST(WorldFile, NothingStandsInAWall) {
-  EXPECT_THAT(complaint("[4.5, 2.5]", "[5.9, 2.5]"), AllOf(HasSubstr("furniture[0]"), HasSubstr("stands in a wall")));
+  EXPECT_THAT(complaint("[4.5, 2.5]", "[5.9, 2.5]"),
+              AllOf(HasSubstr("furniture[0]"), HasSubstr("stands in a wall")));
   EXPECT_THAT(complaint("[0.6, 0.4, 1.0]", "[0.6, 0.4, 3.0]"), HasSubstr("higher than the room"));
   EXPECT_THAT(complaint("[[1, 3.4]", "[[1, 3.95]"), HasSubstr("people[0].path_m"));
 }
 
 TEST(WorldFile, ThePathKeepsClearOfWallsAndFurniture) {
   EXPECT_THAT(complaint("[3, 2]]", "[3, 5]]"), AllOf(HasSubstr("robot.path_m"), HasSubstr("through a wall")));
-  EXPECT_THAT(complaint("[3, 2]]", "[5.5, 2.5]]"), AllOf(HasSubstr("robot.path_m"), HasSubstr("furniture[0] (block)")));
+  EXPECT_THAT(complaint("[3, 2]]", "[5.5, 2.5]]"),
+              AllOf(HasSubstr("robot.path_m"), HasSubstr("furniture[0] (block)")));
   EXPECT_THAT(complaint("[1, 2], [2, 2], [3, 2]", "[5, 2], [5, 3], [5, 4.1]"), HasSubstr("robot.path_m"));
 }
 
 TEST(WorldFile, AHandHeldCameraHasNoWheels) {
   const std::string handheld =
       R"("handheld": {"views": [{"at_m": [1, 2, 1], "look_at_m": [4, 2, 1]}, {"at_m": [2, 2, 1], "look_at_m": [4, 2, 1]}]})";
-  EXPECT_THAT(complaint(R"("robot": {"path_m": [[1, 2], [2, 2], [3, 2]]})", handheld), HasSubstr("sensors.lidar"));
+  const std::string robot = R"("robot": {"path_m": [[1, 2], [2, 2], [3, 2]]})";
+  EXPECT_THAT(complaint(robot, handheld), HasSubstr("sensors.camera.pitch_down_deg"));
+  EXPECT_THAT(complaint(robot, robot + ", " + handheld), HasSubstr("either robot or handheld"));
 }
 
 }  // namespace

@@ -15,10 +15,12 @@ void books(MeshBuilder& mesh, Random& random, double x, double y_from, double y_
       y += random.uniform(0.05, 0.2);
       continue;
     }
-    const double thick = random.uniform(0.02, 0.055), high = std::min(room - 0.02, random.uniform(0.19, 0.29));
+    const double thick = random.uniform(0.02, 0.055),
+                 high = std::min(room - 0.02, random.uniform(0.19, 0.29));
     const Rgb color{random.uniform(0.1, 0.85), random.uniform(0.1, 0.75), random.uniform(0.1, 0.75)};
     // Few distinct colours keep the number of draw calls low.
-    const Rgb stepped{std::round(color[0] * 3) / 3, std::round(color[1] * 3) / 3, std::round(color[2] * 2) / 2};
+    const Rgb stepped{std::round(color[0] * 3) / 3, std::round(color[1] * 3) / 3,
+                      std::round(color[2] * 2) / 2};
     mesh.use({"paint", stepped, 1, 0}).box({x, y + thick / 2, z + high / 2}, {0.19, thick - 0.002, high});
     y += thick;
   }
@@ -35,12 +37,14 @@ void buildDesk(const BuildRequest& r) {
     r.mesh.box({-0.08, y, r.h / 2}, {0.08, 0.045, r.h - 0.05});
     r.mesh.box({0, y, r.h - 0.05}, {r.d - 0.1, 0.04, 0.04});
   }
-  r.mesh.use({"paint", {0.72, 0.72, 0.73}, 1, 0}).box({-r.d / 2 + 0.06, 0, r.h - 0.22}, {0.018, r.w - 0.2, 0.34});
+  r.mesh.use({"paint", {0.72, 0.72, 0.73}, 1, 0})
+      .box({-r.d / 2 + 0.06, 0, r.h - 0.22}, {0.018, r.w - 0.2, 0.34});
   if (r.w > 1.1)
     for (int i = 0; i < 3; ++i) {
       const double z = 0.18 + 0.17 * i;
       r.mesh.use({"paint", {0.78, 0.78, 0.79}, 1, 0}).box({0.02, r.w / 2 - 0.3, z}, {r.d - 0.2, 0.38, 0.16});
-      r.mesh.use({"metal", {0.3, 0.3, 0.32}, 0.5, 0}).box({r.d / 2 - 0.07, r.w / 2 - 0.3, z + 0.03}, {0.02, 0.12, 0.015});
+      r.mesh.use({"metal", {0.3, 0.3, 0.32}, 0.5, 0})
+          .box({r.d / 2 - 0.07, r.w / 2 - 0.3, z + 0.03}, {0.02, 0.12, 0.015});
     }
 }
 
@@ -65,8 +69,10 @@ void buildCabinet(const BuildRequest& r) {
   const double high = (r.h - 0.06) / drawers;
   for (int i = 0; i < drawers; ++i) {
     const double z = 0.04 + (i + 0.5) * high;
-    r.mesh.use({"paint", toned(r.color, 1.06), 1, 0}).box({r.d / 2 - 0.02, 0, z}, {0.02, r.w - 0.03, high - 0.018});
-    r.mesh.use({"metal", {0.25, 0.25, 0.27}, 0.5, 0}).box({r.d / 2 - 0.006, 0, z + 0.06}, {0.012, 0.14, 0.02});
+    r.mesh.use({"paint", toned(r.color, 1.06), 1, 0})
+        .box({r.d / 2 - 0.02, 0, z}, {0.02, r.w - 0.03, high - 0.018});
+    r.mesh.use({"metal", {0.25, 0.25, 0.27}, 0.5, 0})
+        .box({r.d / 2 - 0.006, 0, z + 0.06}, {0.012, 0.14, 0.02});
   }
 }
 

@@ -20,8 +20,8 @@ void starBase(MeshBuilder& mesh, double radius) {
     mesh.capsule(Eigen::Vector3d(0, 0, 0.105) + 0.03 * out, tip, 0.028, 0.018);
     const Eigen::Vector3d across(-out.y(), out.x(), 0);
     for (const double side : {-0.018, 0.018})
-      mesh.rod(tip + side * across - Eigen::Vector3d(0, 0, 0.047), tip + 1.5 * side * across - Eigen::Vector3d(0, 0, 0.047),
-               0.028, 0.028);
+      mesh.rod(tip + side * across - Eigen::Vector3d(0, 0, 0.047),
+               tip + 1.5 * side * across - Eigen::Vector3d(0, 0, 0.047), 0.028, 0.028);
   }
   mesh.rod({0, 0, 0.07}, {0, 0, 0.24}, 0.034, 0.03);
   mesh.use({"metal", kChrome, 0.5, 0}).rod({0, 0, 0.2}, {0, 0, 0.42}, 0.018, 0.018);
@@ -60,8 +60,8 @@ void buildSwivelChair(const BuildRequest& r) {
     lean.translate(Eigen::Vector3d(-0.245 + 0.018 * std::abs(side), side * 0.14, seat + 0.33));
     lean.rotate(Eigen::AngleAxisd(-0.14, Eigen::Vector3d::UnitY()));
     lean.rotate(Eigen::AngleAxisd(-0.22 * side, Eigen::Vector3d::UnitZ()));
-    r.mesh.frame(lean).roundedBox(Eigen::Vector3d::Zero(), {0.065, side == 0 ? 0.24 : 0.2, side == 0 ? 0.56 : 0.5},
-                                  0.032);
+    r.mesh.frame(lean).roundedBox(Eigen::Vector3d::Zero(),
+                                  {0.065, side == 0 ? 0.24 : 0.2, side == 0 ? 0.56 : 0.5}, 0.032);
   }
   r.mesh.frame(Pose3::Identity());
 }
@@ -72,8 +72,8 @@ void buildSofa(const BuildRequest& r) {
   r.mesh.use({"wood", {0.16, 0.11, 0.08}, 0.6, 0});
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
-      r.mesh.rod({x * (r.d / 2 - 0.08), y * (r.w / 2 - 0.08), 0}, {x * (r.d / 2 - 0.08), y * (r.w / 2 - 0.08), 0.09},
-                 0.022, 0.03);
+      r.mesh.rod({x * (r.d / 2 - 0.08), y * (r.w / 2 - 0.08), 0},
+                 {x * (r.d / 2 - 0.08), y * (r.w / 2 - 0.08), 0.09}, 0.022, 0.03);
   r.mesh.use(cloth).roundedBox({0, 0, 0.19}, {r.d - 0.03, r.w - 0.04, 0.22}, 0.03);
   r.mesh.roundedBox({-r.d / 2 + back / 2, 0, (r.h - 0.04 + 0.1) / 2}, {back, r.w - 0.02, r.h - 0.14}, 0.07);
   for (const double side : {-1.0, 1.0})
@@ -82,7 +82,8 @@ void buildSofa(const BuildRequest& r) {
   const double width = inner / places;
   for (int i = 0; i < places; ++i) {
     const double y = -inner / 2 + (i + 0.5) * width;
-    r.mesh.use(cushion).roundedBox({back / 2 + 0.005, y, seat - 0.07}, {r.d - back - 0.02, width - 0.012, 0.17}, 0.055);
+    r.mesh.use(cushion).roundedBox({back / 2 + 0.005, y, seat - 0.07},
+                                   {r.d - back - 0.02, width - 0.012, 0.17}, 0.055);
     Pose3 lean = Pose3::Identity();
     lean.translate(Eigen::Vector3d(-r.d / 2 + back + 0.06, y, seat + (r.h - seat) / 2 + 0.0));
     lean.rotate(Eigen::AngleAxisd(-0.16, Eigen::Vector3d::UnitY()));

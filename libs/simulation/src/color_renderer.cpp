@@ -15,6 +15,7 @@ namespace roomgraph {
 namespace {
 
 using mrpt::opengl::CSetOfTexturedTriangles;
+constexpr float kNear_m = 0.1f;
 constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
 
 mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
@@ -61,7 +62,8 @@ CSetOfTexturedTriangles::Ptr ColorRenderer::Content::add(int material) {
   return out;
 }
 
-ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model) : scene(source), camera(model) {
+ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
+    : scene(source), camera(model) {
   for (const auto& material : scene.materials()) textures.push_back(textureOf(material));
   std::map<int, CSetOfTexturedTriangles::Ptr> fixed;
   for (std::size_t i = 0; i < scene.parts().size(); ++i) {
@@ -80,18 +82,20 @@ ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
   light.diffuse = {0.42f, 0.42f, 0.42f, 1.f};
   light.specular = {0.f, 0.f, 0.f, 1.f};
   light.direction = mrpt::math::TVector3Df(-0.45f, 0.3f, -0.84f).unitarize();
-  graph->getViewport()->setViewportClipDistances(0.05f, 60.f);
+  graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
   try {
     renderer = std::make_unique<mrpt::opengl::CFBORender>(static_cast<unsigned>(kFine * camera.width),
                                                           static_cast<unsigned>(kFine * camera.height));
   } catch (const std::exception& error) {
     const std::string what = error.what();
-    throw RunError("no off-screen renderer (EGL with software OpenGL: packages libegl1 and libgl1-mesa-dri): " +
-                   what.substr(0, what.find("Call stack")));
+    throw RunError(
+        "no off-screen renderer (EGL with software OpenGL: packages libegl1 and libgl1-mesa-dri): " +
+        what.substr(0, what.find("Call stack")));
   }
 }
 
-void ColorRenderer::Content::place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera) {
+void ColorRenderer::Content::place(const std::vector<Pose3>& world_from_part,
+                                   const Pose3& world_from_camera) {
   for (const auto& [part, drawable] : moving) drawable->setPose(toMrpt(world_from_part[part]));
   mrpt::opengl::CCamera view;
   view.set6DOFMode(true);
@@ -109,15 +113,20 @@ cv::Mat ColorRenderer::render(const std::vector<Pose3>& world_from_part, const P
   mrpt::img::CImage fine;
   content_->renderer->render_RGB(*content_->graph, fine);
   cv::Mat out;
-  cv::resize(fine.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), out, {content_->camera.width, content_->camera.height}, 0,
-             0, cv::INTER_AREA);
+  cv::resize(fine.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), out,
+             {content_->camera.width, content_->camera.height}, 0, 0, cv::INTER_AREA);
   return out;
 }
 
-cv::Mat ColorRenderer::renderDepth(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera) {
+cv::Mat ColorRenderer::renderDepth(const std::vector<Pose3>& world_from_part,
+                                   const Pose3& world_from_camera) {
   content_->place(world_from_part, world_from_camera);
+  // MRPT reads the depth buffer back with few bits: the nearer the clipping plane, the coarser they are far
+  // away.
+  content_->graph->getViewport()->setViewportClipDistances(1.f, 60.f);
   mrpt::math::CMatrixFloat fine;
   content_->renderer->render_depth(*content_->graph, fine);
+  content_->graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
   cv::Mat out(content_->camera.height, content_->camera.width, CV_32F);
   // The centre of a pixel is the common corner of its fine pixels: their mean depth.
   for (int v = 0; v < out.rows; ++v) {

@@ -19,7 +19,9 @@ struct Opening {
   bool own = false;
 };
 
-bool alongX(Side side) { return side == Side::kNorth || side == Side::kSouth; }
+bool alongX(Side side) {
+  return side == Side::kNorth || side == Side::kSouth;
+}
 
 /// Openings of one wall, by its own doorways or by those of the room behind it, sorted.
 std::vector<Opening> openingsOf(const World& world, const Room& room, Side side, const Pose3& room_wall) {
@@ -30,9 +32,11 @@ std::vector<Opening> openingsOf(const World& world, const Room& room, Side side,
       if (own && doorway.side != side) continue;
       const PlanBox hole = doorwayHole(world, other, doorway);
       const Pose3 wall = room_wall.inverse();
-      const V a = wall * V(hole.min().x(), hole.min().y(), 0), b = wall * V(hole.max().x(), hole.max().y(), 0);
+      const V a = wall * V(hole.min().x(), hole.min().y(), 0),
+              b = wall * V(hole.max().x(), hole.max().y(), 0);
       // The hole starts at this wall's inner face (x = 0) and lies behind it.
-      if (!own && (std::max(a.x(), b.x()) < -1e-6 || std::max(a.x(), b.x()) > 1e-6 || alongX(side) != alongX(doorway.side)))
+      if (!own && (std::max(a.x(), b.x()) < -1e-6 || std::max(a.x(), b.x()) > 1e-6 ||
+                   alongX(side) != alongX(doorway.side)))
         continue;
       out.push_back({std::min(a.y(), b.y()), std::max(a.y(), b.y()), doorway.height_m, own});
     }
@@ -70,7 +74,8 @@ void wall(MeshBuilder& mesh, const World& world, const Room& room, Side side) {
     const double deep = -world.wall_thickness_m;
     mesh.quad({V(deep, a, 0), V(0, a, 0), V(0, a, opening.height), V(deep, a, opening.height)});
     mesh.quad({V(0, b, 0), V(deep, b, 0), V(deep, b, opening.height), V(0, b, opening.height)});
-    mesh.quad({V(0, a, opening.height), V(0, b, opening.height), V(deep, b, opening.height), V(deep, a, opening.height)});
+    mesh.quad({V(0, a, opening.height), V(0, b, opening.height), V(deep, b, opening.height),
+               V(deep, a, opening.height)});
     mesh.use(room.floor).quad({V(deep, a, 0), V(0, a, 0), V(0, b, 0), V(deep, b, 0)});
   }
   solid(half);
@@ -79,10 +84,12 @@ void wall(MeshBuilder& mesh, const World& world, const Room& room, Side side) {
 
 void poster(MeshBuilder& mesh, const Room& room, const Poster& poster) {
   mesh.frame(wallFrame(room, poster.side, poster.at_m));
-  const double x = 0.008, w = poster.width_m / 2, low = poster.z_m - poster.height_m / 2, high = low + poster.height_m;
+  const double x = 0.008, w = poster.width_m / 2, low = poster.z_m - poster.height_m / 2,
+               high = low + poster.height_m;
   mesh.use({"poster", {0.93, 0.93, 0.9}, 1, poster.variant});
   mesh.quad({V(x, -w, low), V(x, w, low), V(x, w, high), V(x, -w, high)}, true);
-  mesh.use({"plain", {0.2, 0.2, 0.2}, 1, 0}).box({x / 2 - 0.001, 0, (low + high) / 2}, {x - 0.002, 2 * w, high - low});
+  mesh.use({"plain", {0.2, 0.2, 0.2}, 1, 0})
+      .box({x / 2 - 0.001, 0, (low + high) / 2}, {x - 0.002, 2 * w, high - low});
   mesh.frame(Pose3::Identity());
 }
 
@@ -90,17 +97,22 @@ void poster(MeshBuilder& mesh, const Room& room, const Poster& poster) {
 
 Pose3 wallFrame(const Room& room, Side side, double at_m) {
   switch (side) {
-    case Side::kNorth: return poseFromYpr(at_m, room.max_m.y(), 0, -kPi / 2, 0, 0);
-    case Side::kEast: return poseFromYpr(room.max_m.x(), at_m, 0, kPi, 0, 0);
-    case Side::kSouth: return poseFromYpr(at_m, room.min_m.y(), 0, kPi / 2, 0, 0);
-    case Side::kWest: break;
+    case Side::kNorth:
+      return poseFromYpr(at_m, room.max_m.y(), 0, -kPi / 2, 0, 0);
+    case Side::kEast:
+      return poseFromYpr(room.max_m.x(), at_m, 0, kPi, 0, 0);
+    case Side::kSouth:
+      return poseFromYpr(at_m, room.min_m.y(), 0, kPi / 2, 0, 0);
+    case Side::kWest:
+      break;
   }
   return poseFromYpr(room.min_m.x(), at_m, 0, 0, 0, 0);
 }
 
 PlanBox doorwayHole(const World& world, const Room& room, const Doorway& doorway) {
   const Pose3 frame = wallFrame(room, doorway.side, doorway.at_m);
-  const V a = frame * V(0, -doorway.width_m / 2, 0), b = frame * V(-world.wall_thickness_m, doorway.width_m / 2, 0);
+  const V a = frame * V(0, -doorway.width_m / 2, 0),
+          b = frame * V(-world.wall_thickness_m, doorway.width_m / 2, 0);
   PlanBox box(a.head<2>());
   box.extend(Eigen::Vector2d(b.head<2>()));
   return box;
@@ -119,7 +131,8 @@ bool discIsFree(const std::vector<PlanBox>& areas, const Eigen::Vector2d& center
   constexpr int kDirections = 24;
   constexpr double kTolerance = 1e-6;
   const auto free = [&](const Eigen::Vector2d& p) {
-    return std::any_of(areas.begin(), areas.end(), [&](const PlanBox& box) { return box.exteriorDistance(p) < kTolerance; });
+    return std::any_of(areas.begin(), areas.end(),
+                       [&](const PlanBox& box) { return box.exteriorDistance(p) < kTolerance; });
   };
   if (!free(center)) return false;
   for (int i = 0; i < kDirections; ++i) {
@@ -137,7 +150,8 @@ Mesh buildingMesh(const World& world, MaterialList& materials) {
     mesh.use(room.floor).quad({V(x0, y0, 0), V(x1, y0, 0), V(x1, y1, 0), V(x0, y1, 0)});
     mesh.use({"tiles", {0.9, 0.9, 0.89}, 1.25, 0});
     mesh.quad({V(x0, y0, top), V(x0, y1, top), V(x1, y1, top), V(x1, y0, top)});
-    for (const Side side : {Side::kNorth, Side::kEast, Side::kSouth, Side::kWest}) wall(mesh, world, room, side);
+    for (const Side side : {Side::kNorth, Side::kEast, Side::kSouth, Side::kWest})
+      wall(mesh, world, room, side);
     for (const auto& item : room.posters) poster(mesh, room, item);
   }
   return mesh.take();

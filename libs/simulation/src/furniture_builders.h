@@ -8,7 +8,8 @@ namespace roomgraph {
 
 using Rgb = std::array<double, 3>;
 
-/// What a builder gets: it builds about size (w, d, h), x to the front, bottom at z = 0; the caller fits it exactly.
+/// What a builder gets: it builds about size (w, d, h), x to the front, bottom at z = 0; the caller fits it
+/// exactly.
 struct BuildRequest {
   MeshBuilder& mesh;
   double w, d, h;

@@ -62,7 +62,8 @@ void scan(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& vis
   const double w1_u = (p[2] - p[0]).y() / det, w2_u = -(p[1] - p[0]).y() / det;
   for (int v = v0; v <= v1; ++v) {
     const double dv = v - p[0].y();
-    const double w1_0 = -(p[2] - p[0]).x() * dv / det - w1_u * p[0].x(), w2_0 = (p[1] - p[0]).x() * dv / det - w2_u * p[0].x();
+    const double w1_0 = -(p[2] - p[0]).x() * dv / det - w1_u * p[0].x(),
+                 w2_0 = (p[1] - p[0]).x() * dv / det - w2_u * p[0].x();
     double from = u_low, to = u_high;
     const double at_0[3] = {1 - w1_0 - w2_0, w1_0, w2_0}, slope[3] = {-w1_u - w2_u, w1_u, w2_u};
     for (int k = 0; k < 3; ++k) {
@@ -72,7 +73,9 @@ void scan(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& vis
     }
     const auto& d = triangle.inverse_depth;
     for (int u = static_cast<int>(from); u <= to; ++u)
-      visit(u, v, d[0] * (at_0[0] + slope[0] * u) + d[1] * (at_0[1] + slope[1] * u) + d[2] * (at_0[2] + slope[2] * u));
+      visit(u, v,
+            d[0] * (at_0[0] + slope[0] * u) + d[1] * (at_0[1] + slope[1] * u) +
+                d[2] * (at_0[2] + slope[2] * u));
   }
 }
 
@@ -109,7 +112,8 @@ struct Seen {
 };
 
 /// Compares the visible pixels with the object's whole silhouette, drawn alone on a canvas beyond the image.
-ObjectView viewOf(int object, Seen& seen, const std::vector<const ScreenTriangle*>& triangles, const cv::Size& image) {
+ObjectView viewOf(int object, Seen& seen, const std::vector<const ScreenTriangle*>& triangles,
+                  const cv::Size& image) {
   const cv::Rect canvas(-kMargin * image.width, -kMargin * image.height, (2 * kMargin + 1) * image.width,
                         (2 * kMargin + 1) * image.height);
   double u0 = 1e9, v0 = 1e9, u1 = -1e9, v1 = -1e9;
@@ -121,8 +125,10 @@ ObjectView viewOf(int object, Seen& seen, const std::vector<const ScreenTriangle
       v1 = std::max(v1, pixel.y());
     }
   }
-  const cv::Rect around = canvas & cv::Rect(cv::Point(static_cast<int>(std::max(u0, -1e6)) - 1, static_cast<int>(std::max(v0, -1e6)) - 1),
-                                            cv::Point(static_cast<int>(std::min(u1, 1e6)) + 2, static_cast<int>(std::min(v1, 1e6)) + 2));
+  const cv::Rect around =
+      canvas &
+      cv::Rect(cv::Point(static_cast<int>(std::max(u0, -1e6)) - 1, static_cast<int>(std::max(v0, -1e6)) - 1),
+               cv::Point(static_cast<int>(std::min(u1, 1e6)) + 2, static_cast<int>(std::min(v1, 1e6)) + 2));
   std::vector<char> covered(static_cast<std::size_t>(around.area()), 0);
   Seen whole;
   int inside = 0;
@@ -170,8 +176,8 @@ void measureViews(const std::vector<ScreenTriangle>& triangles, std::size_t obje
 
 }  // namespace
 
-IdImage rasterize(const Scene& scene, const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera,
-                  const PinholeCamera& camera) {
+IdImage rasterize(const Scene& scene, const std::vector<Pose3>& world_from_part,
+                  const Pose3& world_from_camera, const PinholeCamera& camera) {
   const auto triangles = screenTriangles(scene, world_from_part, world_from_camera, camera);
   cv::Mat inverse = cv::Mat::zeros(camera.height, camera.width, CV_32F);
   IdImage out;

@@ -40,7 +40,8 @@ const nlohmann::json* JsonEntry::find(const std::string& key) {
 }
 
 double JsonEntry::checked(const nlohmann::json& value, const std::string& key) const {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "must be a number, is " + value.dump());
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    fail(key, "must be a number, is " + value.dump());
   return value.get<double>();
 }
 
@@ -87,7 +88,8 @@ std::string JsonEntry::choice(const std::string& key, std::optional<std::string>
 std::vector<double> JsonEntry::numbers(const std::string& key, std::size_t count) {
   const auto* found = find(key);
   if (!found || !found->is_array() || found->size() != count)
-    fail(key, (found ? "must be" : "is missing; must be") + (" a list of " + std::to_string(count)) + " numbers");
+    fail(key,
+         (found ? "must be" : "is missing; must be") + (" a list of " + std::to_string(count)) + " numbers");
   std::vector<double> out;
   for (const auto& item : *found) out.push_back(checked(item, key));
   return out;
@@ -96,7 +98,8 @@ std::vector<double> JsonEntry::numbers(const std::string& key, std::size_t count
 std::array<double, 3> JsonEntry::color(const std::string& key, const std::array<double, 3>& fallback) {
   if (!find(key)) return fallback;
   const std::string code = text(key, "");
-  if (code.size() != 7 || code[0] != '#' || code.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+  if (code.size() != 7 || code[0] != '#' ||
+      code.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
     fail(key, "must be a colour as \"#rrggbb\", is \"" + code + "\"");
   std::array<double, 3> out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = std::stoi(code.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;

@@ -12,8 +12,8 @@
 
 namespace roomgraph {
 
-/// An object of a JSON file that knows its place: every problem names file and entry. Keys that were never asked for
-/// are unknown keys.
+/// An object of a JSON file that knows its place: every problem names file and entry. Keys that were never
+/// asked for are unknown keys.
 class JsonEntry {
  public:
   JsonEntry(const nlohmann::json& value, std::string file, std::string place);

@@ -12,8 +12,8 @@ constexpr double kCell_m = 0.05;
 constexpr uchar kOccupied = 0, kFree = 254, kUnknown = 205;
 
 struct TruthGrid {
-  Eigen::Vector2d origin;              ///< lower left corner, m
-  cv::Mat cells;                       ///< row 0 at the lowest y
+  Eigen::Vector2d origin;  ///< lower left corner, m
+  cv::Mat cells;           ///< row 0 at the lowest y
   cv::Point cellOf(const Eigen::Vector2d& p) const {
     const Eigen::Vector2d cell = (p - origin) / kCell_m;
     return {static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y()))};
@@ -26,8 +26,8 @@ TruthGrid gridAround(const std::vector<Segment>& outlines) {
   TruthGrid grid;
   grid.origin = (box.min().array() - 0.5).unaryExpr([](double x) { return std::floor(x); });
   const Eigen::Vector2d size = (box.max() - grid.origin).array() + 0.5;
-  grid.cells = cv::Mat(static_cast<int>(std::ceil(size.y() / kCell_m)), static_cast<int>(std::ceil(size.x() / kCell_m)),
-                       CV_8U, cv::Scalar(kUnknown));
+  grid.cells = cv::Mat(static_cast<int>(std::ceil(size.y() / kCell_m)),
+                       static_cast<int>(std::ceil(size.x() / kCell_m)), CV_8U, cv::Scalar(kUnknown));
   return grid;
 }
 
@@ -41,7 +41,8 @@ void fill(TruthGrid& grid) {
     open.pop();
     if (!area.contains(cell) || grid.cells.at<uchar>(cell) != kUnknown) continue;
     grid.cells.at<uchar>(cell) = kFree;
-    for (const auto& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) open.push(cell + step);
+    for (const auto& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)})
+      open.push(cell + step);
   }
 }
 
@@ -61,8 +62,10 @@ void writeMapTruth(const std::filesystem::path& folder, const std::vector<Segmen
     picture.stream().write(reinterpret_cast<const char*>(grid.cells.ptr(row)), grid.cells.cols);
   picture.close();
   TruthFile text(folder / "map_truth.yaml");
-  text.line("image: map_truth.pgm\nresolution: %.3f\norigin: [%.3f, %.3f, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196",
-            kCell_m, grid.origin.x(), grid.origin.y());
+  text.line(
+      "image: map_truth.pgm\nresolution: %.3f\norigin: [%.3f, %.3f, 0.0]\nnegate: 0\noccupied_thresh: "
+      "0.65\nfree_thresh: 0.196",
+      kCell_m, grid.origin.x(), grid.origin.y());
   text.close();
 }
 

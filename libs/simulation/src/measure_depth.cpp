@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kUnit_m = 0.001;
 
-/// 1 where another surface hides the point from the projector, which stands `baseline` to the right of the camera.
+/// 1 where another surface hides the point from the projector, which stands `baseline` to the right of the
+/// camera.
 cv::Mat projectorShadow(const cv::Mat& depth, const CameraSpec& spec) {
   cv::Mat shadow = cv::Mat::zeros(depth.size(), CV_8U);
   for (int v = 0; v < depth.rows; ++v) {
@@ -86,7 +87,8 @@ cv::Mat measureColor(const cv::Mat& color, const cv::Mat& light, const CameraSpe
       const double radius = ((u - cx) * (u - cx) + (v - cy) * (v - cy)) / corner;
       const double gain = light.at<float>(v, u) * (noisy ? 1 - kVignette * radius : 1);
       // Sum of uniform numbers: near enough to normal for sensor noise, and much cheaper.
-      const double common = noisy ? kNoise * spec.noise_gain * (random.uniform() + random.uniform() - 1) * 2 : 0;
+      const double common =
+          noisy ? kNoise * spec.noise_gain * (random.uniform() + random.uniform() - 1) * 2 : 0;
       for (int k = 0; k < 3; ++k)
         out.at<cv::Vec3b>(v, u)[k] = cv::saturate_cast<uchar>(gain * color.at<cv::Vec3b>(v, u)[k] + common);
     }

@@ -40,7 +40,8 @@ void clip(CObservationDetections::Item& item, const PinholeCamera& camera) {
 }  // namespace
 
 CObservationDetections measureDetections(const std::vector<ObjectView>& views, const Scene& scene,
-                                         const PinholeCamera& camera, const DetectionsSpec& spec, Random random) {
+                                         const PinholeCamera& camera, const DetectionsSpec& spec,
+                                         Random random) {
   CObservationDetections out;
   out.image_width = static_cast<std::uint32_t>(camera.width);
   out.image_height = static_cast<std::uint32_t>(camera.height);
@@ -52,7 +53,9 @@ CObservationDetections measureDetections(const std::vector<ObjectView>& views, c
     CObservationDetections::Item item;
     item.label = random.chance(spec.confusion) ? randomLabel(random) : label;
     item.score = scoreOf(view.visible, random);
-    const auto edge = [&](int at, int size) { return static_cast<float>(at + spec.jitter * size * random.normal()); };
+    const auto edge = [&](int at, int size) {
+      return static_cast<float>(at + spec.jitter * size * random.normal());
+    };
     item.u_min = edge(view.box.x, view.box.width);
     item.u_max = edge(view.box.br().x, view.box.width);
     item.v_min = edge(view.box.y, view.box.height);
@@ -61,11 +64,13 @@ CObservationDetections measureDetections(const std::vector<ObjectView>& views, c
     out.items.push_back(item);
   }
   // Poisson number of false alarms, by multiplying uniform numbers (Knuth).
-  for (double product = random.uniform(); product > std::exp(-spec.false_positives); product *= random.uniform()) {
+  for (double product = random.uniform(); product > std::exp(-spec.false_positives);
+       product *= random.uniform()) {
     CObservationDetections::Item item;
     item.label = randomLabel(random);
     item.score = static_cast<float>(random.uniform(0.3, 0.6));
-    const double width = random.uniform(0.05, 0.3) * camera.width, height = random.uniform(0.08, 0.5) * camera.height;
+    const double width = random.uniform(0.05, 0.3) * camera.width,
+                 height = random.uniform(0.08, 0.5) * camera.height;
     item.u_min = static_cast<float>(random.uniform(0, camera.width - width));
     item.v_min = static_cast<float>(random.uniform(0, camera.height - height));
     item.u_max = item.u_min + static_cast<float>(width);

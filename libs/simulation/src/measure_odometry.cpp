@@ -17,10 +17,12 @@ std::vector<Pose2> measureOdometry(const std::vector<Pose2>& truth, const Odomet
   for (std::size_t i = 1; i < truth.size(); ++i) {
     Pose2 step = truth[i - 1].inverse() * truth[i];
     const double length = std::hypot(step.x, step.y), turn = std::abs(step.yaw);
-    const double gain = 1 + spec.scale_error + (length > 0 ? spec.sigma_length * random.normal() / std::sqrt(length) : 0);
+    const double gain =
+        1 + spec.scale_error + (length > 0 ? spec.sigma_length * random.normal() / std::sqrt(length) : 0);
     step.x *= gain;
     step.y *= gain;
-    step.yaw += spec.turn_error * step.yaw + spec.drift_rad_m * length + spec.sigma_turn * std::sqrt(turn) * random.normal();
+    step.yaw += spec.turn_error * step.yaw + spec.drift_rad_m * length +
+                spec.sigma_turn * std::sqrt(turn) * random.normal();
     if (slips.count(i)) {
       step.x += spec.slip_m * random.normal();
       step.yaw += spec.slip_rad * random.normal();

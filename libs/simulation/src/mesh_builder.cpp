@@ -11,7 +11,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kSides = 14;
 
-/// Texture coordinates in metres: projected along the axis that the face looks at most, so patterns keep their size.
+/// Texture coordinates in metres: projected along the axis that the face looks at most, so patterns keep
+/// their size.
 Eigen::Vector2d planar(const Eigen::Vector3d& p, const Eigen::Vector3d& face) {
   const Eigen::Vector3d n = face.cwiseAbs();
   if (n.z() >= n.x() && n.z() >= n.y()) return {p.x(), p.y()};

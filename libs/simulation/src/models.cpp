@@ -17,7 +17,8 @@ struct Entry {
 
 const std::map<std::string, Entry>& entries() {
   static const std::map<std::string, Entry> all{
-      {"swivel_chair", {{"swivel_chair", "swivel_chair", {0.64, 0.62, 1.07}, {0.13, 0.17, 0.28}}, buildSwivelChair}},
+      {"swivel_chair",
+       {{"swivel_chair", "swivel_chair", {0.64, 0.62, 1.07}, {0.13, 0.17, 0.28}}, buildSwivelChair}},
       {"sofa", {{"sofa", "sofa", {1.9, 0.88, 0.82}, {0.45, 0.16, 0.14}}, buildSofa}},
       {"wooden_chair", {{"other", "wooden chair", {0.44, 0.44, 0.92}, {0.6, 0.42, 0.25}}, buildWoodenChair}},
       {"desk", {{"other", "desk", {1.6, 0.8, 0.74}, {0.72, 0.56, 0.38}}, buildDesk}},
@@ -58,7 +59,9 @@ const std::vector<std::string>& furnitureModels() {
   return names;
 }
 
-const FurnitureModel& furnitureModel(const std::string& name) { return entries().at(name).model; }
+const FurnitureModel& furnitureModel(const std::string& name) {
+  return entries().at(name).model;
+}
 
 Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const std::array<double, 3>& color,
                    int variant, MaterialList& materials) {
@@ -70,13 +73,16 @@ Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const
 Mesh doorMesh(const Doorway& doorway, double thickness_m, MaterialList& materials) {
   constexpr double kFrame = 0.06, kProud = 0.015, kLeaf = 0.04;
   MeshBuilder mesh(materials);
-  const double w = doorway.width_m, h = doorway.height_m, deep = thickness_m + 2 * kProud, x = -thickness_m / 2;
+  const double w = doorway.width_m, h = doorway.height_m, deep = thickness_m + 2 * kProud,
+               x = -thickness_m / 2;
   mesh.use({"wood", toned(doorway.color, 0.75), 1.0, 0});
   for (const double side : {-1.0, 1.0}) mesh.box({x, side * (w - kFrame) / 2, h / 2}, {deep, kFrame, h});
   mesh.box({x, 0, h - kFrame / 2}, {deep, w - 2 * kFrame, kFrame});
   // The leaf hangs on the left post (+y) at the inner face.
   const double leaf = w - 2 * kFrame - 0.006, high = h - kFrame - 0.01;
-  const double angle = doorway.door == DoorState::kClosed ? 0 : doorway.door == DoorState::kHalfOpen ? 0.8 : 1.5;
+  const double angle = doorway.door == DoorState::kClosed     ? 0
+                       : doorway.door == DoorState::kHalfOpen ? 0.8
+                                                              : 1.5;
   Pose3 hinge = Pose3::Identity();
   hinge.translate(Eigen::Vector3d(0, w / 2 - kFrame - 0.003, 0.006));
   hinge.rotate(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 // Proportions of an adult of 1.75 m.
-constexpr double kHeight = 1.75, kHip = 0.90, kThigh = 0.43, kShank = 0.40, kShoulder = 0.52, kUpperArm = 0.29;
+constexpr double kHeight = 1.75, kHip = 0.90, kThigh = 0.43, kShank = 0.40, kShoulder = 0.52,
+                 kUpperArm = 0.29;
 
 using V = Eigen::Vector3d;
 
@@ -42,7 +43,8 @@ Mesh thigh(const Person& p, MaterialList& materials) {
 Mesh shank(const Person& p, MaterialList& materials) {
   MeshBuilder m(materials);
   m.use({"fabric", p.trousers, 0.5, 0}).capsule({0, 0, 0}, {0, 0, -kShank + 0.05}, 0.06, 0.047);
-  m.use({"leather", {0.1, 0.08, 0.07}, 0.3, 0}).roundedBox({0.06, 0, -kShank - 0.025}, {0.27, 0.095, 0.09}, 0.04);
+  m.use({"leather", {0.1, 0.08, 0.07}, 0.3, 0})
+      .roundedBox({0.06, 0, -kShank + 0.01}, {0.27, 0.095, 0.09}, 0.04);
   return m.take();
 }
 
@@ -70,7 +72,9 @@ Pose3 joint(const V& at, double pitch) {
 }  // namespace
 
 PersonModel::PersonModel(const Person& person, MaterialList& materials)
-    : sits_(person.sits), scale_(person.height_m / kHeight), hip_m_(person.sits ? person.seat_height_m / scale_ + 0.09 : kHip) {
+    : sits_(person.sits),
+      scale_(person.height_m / kHeight),
+      hip_m_(person.sits ? person.seat_height_m / scale_ + 0.09 : kHip) {
   parts_.push_back(torso(person, materials));
   for (int side = 0; side < 2; ++side) {
     parts_.push_back(thigh(person, materials));
@@ -90,11 +94,14 @@ std::vector<Pose3> PersonModel::pose(const PersonState& state) const {
   for (const double side : {-1.0, 1.0}) {
     const double leg = sits_ ? -1.5 : -side * swing;
     // The knee bends while its leg swings forward.
-    const double knee = sits_ ? 1.45 : state.walks ? 0.12 + 0.5 * std::max(0.0, side * std::cos(state.phase)) : 0.04;
+    const double knee = sits_         ? 1.45
+                        : state.walks ? 0.12 + 0.5 * std::max(0.0, side * std::cos(state.phase))
+                                      : 0.04;
     const Pose3 hip = joint({0, side * 0.095, hip_m_ + bob - 0.03}, leg);
     out.push_back(hip);
     out.push_back(hip * joint({0, 0, -kThigh}, knee));
-    const Pose3 shoulder = out.front() * joint({-0.01, side * 0.225, kShoulder - 0.02}, sits_ ? -0.5 : side * 0.8 * swing);
+    const Pose3 shoulder =
+        out.front() * joint({-0.01, side * 0.225, kShoulder - 0.02}, sits_ ? -0.5 : side * 0.8 * swing);
     out.push_back(shoulder);
     out.push_back(shoulder * joint({0, 0, -kUpperArm}, sits_ ? -1.0 : -0.25));
   }

@@ -41,7 +41,8 @@ void Scene::setPath(const World& world) {
     robot_from_camera_.linear() *= bodyFromOptical();
   }
   if (world.handheld) {
-    // The "robot" of a hand-held camera is where it stands on the floor at first, moved rigidly with the camera.
+    // The "robot" of a hand-held camera is where it stands on the floor at first, moved rigidly with the
+    // camera.
     Pose3 body_from_optical = Pose3::Identity();
     body_from_optical.linear() = bodyFromOptical();
     body_from_robot_ = (world_from_plan_ * first).inverse();
@@ -49,7 +50,9 @@ void Scene::setPath(const World& world) {
   }
 }
 
-Pose3 Scene::worldFromRobot(double seconds) const { return world_from_plan_ * path_[0].at(seconds) * body_from_robot_; }
+Pose3 Scene::worldFromRobot(double seconds) const {
+  return world_from_plan_ * path_[0].at(seconds) * body_from_robot_;
+}
 
 void Scene::addPart(Mesh mesh, int object, int person) {
   ScenePart part;
@@ -81,7 +84,8 @@ void Scene::addFurniture(const World& world) {
     object.model = "procedural:" + item.model;
     object.size_wdh = item.size_m.value_or(model.size_m);
     object.world_from_object = poseFromYpr(item.at_m.x(), item.at_m.y(), item.at_m.z(), item.yaw_rad, 0, 0);
-    const Mesh mesh = furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color), variant++, materials_);
+    const Mesh mesh =
+        furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color), variant++, materials_);
     const Pose3 pose = object.world_from_object;
     add(std::move(object), mesh.moved(pose));
   }
@@ -101,7 +105,8 @@ void Scene::addDoors(const World& world) {
       // The truth is the door in its wall; an open leaf does not move it.
       for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
         object.footprint.emplace_back((world_from_plan_ * object.world_from_object *
-                                       Eigen::Vector3d(x * deep / 2, y * doorway.width_m / 2, 0)).head<2>());
+                                       Eigen::Vector3d(x * deep / 2, y * doorway.width_m / 2, 0))
+                                          .head<2>());
       add(std::move(object), doorMesh(doorway, deep, materials_).moved(frame));
     }
   }
@@ -154,7 +159,8 @@ std::vector<Pose3> Scene::partPoses(double seconds) const {
 
 std::vector<std::pair<int, Pose2>> Scene::persons(double seconds) const {
   std::vector<std::pair<int, Pose2>> out;
-  for (std::size_t i = 0; i < walks_.size(); ++i) out.emplace_back(person_objects_[i], walks_[i].at(seconds).pose);
+  for (std::size_t i = 0; i < walks_.size(); ++i)
+    out.emplace_back(person_objects_[i], walks_[i].at(seconds).pose);
   return out;
 }
 

@@ -21,7 +21,8 @@ Vector neighbour(const std::vector<Vector>& points, int i, bool closed) {
   return points[static_cast<std::size_t>(i)];
 }
 
-/// Centripetal Catmull-Rom spline (Yuksel et al. 2011: no loops) in `dimensions` whose first `metric` are metres.
+/// Centripetal Catmull-Rom spline (Yuksel et al. 2011: no loops) in `dimensions` whose first `metric` are
+/// metres.
 std::vector<Vector> spline(const std::vector<Vector>& points, bool closed, int metric) {
   std::vector<Vector> out;
   const int segments = static_cast<int>(points.size()) - (closed ? 0 : 1);
@@ -46,7 +47,8 @@ std::vector<Vector> spline(const std::vector<Vector>& points, bool closed, int m
   return out;
 }
 
-/// The curve at equal steps of its first `metric` dimensions, averaged over +-half_width metres: continuous curvature.
+/// The curve at equal steps of its first `metric` dimensions, averaged over +-half_width metres: continuous
+/// curvature.
 std::vector<Vector> evenAndSmooth(const std::vector<Vector>& curve, int metric, double half_width) {
   std::vector<Vector> even{curve.front()};
   double left = kStep_m;
@@ -75,7 +77,8 @@ std::vector<Vector> evenAndSmooth(const std::vector<Vector>& curve, int metric, 
   return even;
 }
 
-std::vector<double> speeds(const std::vector<double>& lengths, const std::vector<double>& limits, double acceleration) {
+std::vector<double> speeds(const std::vector<double>& lengths, const std::vector<double>& limits,
+                           double acceleration) {
   std::vector<double> v = limits;
   v.front() = v.back() = 0;
   for (std::size_t i = 1; i < v.size(); ++i)
@@ -95,7 +98,8 @@ std::vector<Pose3> timed(const std::vector<Pose3>& poses, const std::vector<doub
     const double a = (v[i + 1] - v[i]) / duration;
     for (; next < start + duration; next += step_s) {
       const double t = next - start;
-      out.push_back(interpolate(poses[i], poses[i + 1], std::clamp((v[i] + a * t / 2) * t / lengths[i], 0.0, 1.0)));
+      out.push_back(
+          interpolate(poses[i], poses[i + 1], std::clamp((v[i] + a * t / 2) * t / lengths[i], 0.0, 1.0)));
     }
     start += duration;
   }
@@ -148,7 +152,8 @@ SensorPath::SensorPath(const HandheldSpec& spec) {
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const Pose3 step = poses[i].inverse() * poses[i + 1];
     lengths.push_back(std::max(1e-6, step.translation().norm()));
-    limits.push_back(std::min(spec.speed_m_s, kTurn_rad_s * lengths.back() / std::max(1e-9, rotationAngle(step))));
+    limits.push_back(
+        std::min(spec.speed_m_s, kTurn_rad_s * lengths.back() / std::max(1e-9, rotationAngle(step))));
   }
   limits.push_back(0);
   states_ = timed(poses, lengths, speeds(lengths, limits, kAcceleration), step_s_);

@@ -19,9 +19,17 @@ namespace {
 
 constexpr double kStart = 1700000000;  // s; a fixed day, so that the same seed gives the same bytes
 constexpr double kNever = std::numeric_limits<double>::infinity();
-enum Stream : std::uint64_t { kDepthStream = 1, kColorStream, kLidarStream, kOdometryStream, kDetectionStream };
+enum Stream : std::uint64_t {
+  kDepthStream = 1,
+  kColorStream,
+  kLidarStream,
+  kOdometryStream,
+  kDetectionStream
+};
 
-mrpt::Clock::time_point stamp(double seconds) { return mrpt::Clock::fromDouble(kStart + seconds); }
+mrpt::Clock::time_point stamp(double seconds) {
+  return mrpt::Clock::fromDouble(kStart + seconds);
+}
 
 mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
   mrpt::img::TCamera out;
@@ -80,7 +88,8 @@ std::filesystem::path made(const std::filesystem::path& folder) {
   return folder;
 }
 
-Simulation::Simulation(const World& world, const std::filesystem::path& folder, const SimulateOptions& options)
+Simulation::Simulation(const World& world, const std::filesystem::path& folder,
+                       const SimulateOptions& options)
     : world_(world),
       folder_(made(folder)),
       options_(options),
@@ -103,10 +112,13 @@ Simulation::Simulation(const World& world, const std::filesystem::path& folder, 
   if (world.odometry) prepareOdometry();
   result_.rawlog = folder_ / (world.name + ".rawlog");
   result_.objects = static_cast<int>(scene_.objects().size());
-  if (!stream_.open(result_.rawlog.string(), 1)) throw RunError(result_.rawlog.string() + ": cannot be written");
-  camera_truth_.line("# camera optical frame (x right, y down, z forward) in the world\n# timestamp tx ty tz qx qy qz qw");
-  robot_truth_.line("# robot base frame (x forward, y left, z up) in the world, at the instants of images and scans\n"
-                    "# timestamp tx ty tz qx qy qz qw");
+  if (!stream_.open(result_.rawlog.string(), 1))
+    throw RunError(result_.rawlog.string() + ": cannot be written");
+  camera_truth_.line(
+      "# camera optical frame (x right, y down, z forward) in the world\n# timestamp tx ty tz qx qy qz qw");
+  robot_truth_.line(
+      "# robot base frame (x forward, y left, z up) in the world, at the instants of images and scans\n"
+      "# timestamp tx ty tz qx qy qz qw");
   odometry_truth_.line("# wheel odometry (drifting), starts at 0 0 0\n# timestamp x y yaw");
   persons_.line("# timestamp id x y yaw   (world frame, at the image instants)");
 }
@@ -155,7 +167,8 @@ void Simulation::frame(double t) {
   write(record);
 
   if (world_.detections) {
-    auto found = measureDetections(exact.views, scene_, spec.model, *world_.detections, random(kDetectionStream, index));
+    auto found = measureDetections(exact.views, scene_, spec.model, *world_.detections,
+                                   random(kDetectionStream, index));
     found.timestamp = record.timestamp;
     found.sensorLabel = "DETECTIONS";
     found.image_label = record.sensorLabel;
@@ -166,8 +179,8 @@ void Simulation::frame(double t) {
   writePose(robot_truth_, kStart + t, scene_.worldFromRobot(t));
   writeBoxes(boxes_, index, kStart + t, exact.views, scene_);
   for (const auto& [object, pose] : scene_.persons(t))
-    persons_.line("%.3f %d %.4f %.4f %.4f", kStart + t, scene_.objects()[static_cast<std::size_t>(object)].id, pose.x,
-                  pose.y, pose.yaw);
+    persons_.line("%.3f %d %.4f %.4f %.4f", kStart + t, scene_.objects()[static_cast<std::size_t>(object)].id,
+                  pose.x, pose.y, pose.yaw);
   ++frames_.count;
 }
 
@@ -228,7 +241,8 @@ void Simulation::finish() {
 
 }  // namespace
 
-SimulateResult simulate(const World& world, const std::filesystem::path& folder, const SimulateOptions& options) {
+SimulateResult simulate(const World& world, const std::filesystem::path& folder,
+                        const SimulateOptions& options) {
   return Simulation(world, folder, options).run();
 }
 

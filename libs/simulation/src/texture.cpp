@@ -43,7 +43,9 @@ cv::Mat shaded(const Material& material, const cv::Mat& gain) {
   return out;
 }
 
-cv::Mat plain(const Material& m, Random&) { return shaded(m, cv::Mat::zeros(kTexels, kTexels, CV_32F)); }
+cv::Mat plain(const Material& m, Random&) {
+  return shaded(m, cv::Mat::zeros(kTexels, kTexels, CV_32F));
+}
 
 cv::Mat paint(const Material& m, Random& random) {
   return shaded(m, 0.015 * noise(random, 4, 4) + 0.012 * noise(random, 24, 24));
@@ -54,7 +56,8 @@ cv::Mat plaster(const Material& m, Random& random) {
 }
 
 cv::Mat carpet(const Material& m, Random& random) {
-  return shaded(m, 0.10 * noise(random, 12, 12) + 0.12 * noise(random, 60, 60) + 0.16 * noise(random, 128, 128));
+  return shaded(m,
+                0.10 * noise(random, 12, 12) + 0.12 * noise(random, 60, 60) + 0.16 * noise(random, 128, 128));
 }
 
 cv::Mat fabric(const Material& m, Random& random) {
@@ -72,7 +75,9 @@ cv::Mat wood(const Material& m, Random& random) {
   return shaded(m, 0.09 * noise(random, 2, 12) + 0.10 * noise(random, 3, 48) + 0.05 * noise(random, 8, 120));
 }
 
-cv::Mat metal(const Material& m, Random& random) { return shaded(m, 0.05 * noise(random, 3, 90)); }
+cv::Mat metal(const Material& m, Random& random) {
+  return shaded(m, 0.05 * noise(random, 3, 90));
+}
 
 cv::Mat leaf(const Material& m, Random& random) {
   return shaded(m, 0.22 * noise(random, 10, 10) + 0.16 * noise(random, 40, 40));
@@ -99,8 +104,8 @@ cv::Mat parquet(const Material& m, Random& random) {
         const int u = (offset + half * kTexels / 2 + i) % kTexels;
         for (int v = top; v < top + kTexels / rows; ++v)
           for (int k = 0; k < 3; ++k)
-            out.at<cv::Vec3b>(v, u)[k] = cv::saturate_cast<uchar>(
-                out.at<cv::Vec3b>(v, u)[k] * (i == 0 || v == top ? 0.6 : gain));
+            out.at<cv::Vec3b>(v, u)[k] =
+                cv::saturate_cast<uchar>(out.at<cv::Vec3b>(v, u)[k] * (i == 0 || v == top ? 0.6 : gain));
       }
     }
   }
@@ -114,10 +119,12 @@ cv::Scalar vivid(Random& random) {
 /// A picture on a wall: blocks, discs and lines of text.
 cv::Mat poster(const Material& m, Random& random) {
   cv::Mat out(kTexels, kTexels, CV_8UC3, bgr(m.rgb));
-  const auto any = [&](double low, double high) { return static_cast<int>(random.uniform(low, high) * kTexels); };
+  const auto any = [&](double low, double high) {
+    return static_cast<int>(random.uniform(low, high) * kTexels);
+  };
   for (int i = 0; i < 7; ++i)
-    cv::rectangle(out, cv::Rect(any(0.02, 0.75), any(0.02, 0.6), any(0.1, 0.4), any(0.08, 0.3)), vivid(random),
-                  cv::FILLED);
+    cv::rectangle(out, cv::Rect(any(0.02, 0.75), any(0.02, 0.6), any(0.1, 0.4), any(0.08, 0.3)),
+                  vivid(random), cv::FILLED);
   for (int i = 0; i < 5; ++i)
     cv::circle(out, {any(0.1, 0.9), any(0.1, 0.6)}, any(0.03, 0.14), vivid(random), cv::FILLED, cv::LINE_AA);
   cv::rectangle(out, {0, 7 * kTexels / 10, kTexels, kTexels / 3}, bgr(m.rgb), cv::FILLED);
@@ -162,9 +169,10 @@ using Painter = std::function<cv::Mat(const Material&, Random&)>;
 
 const std::map<std::string, Painter>& painters() {
   static const std::map<std::string, Painter> all{
-      {"plain", plain}, {"paint", paint},     {"plaster", plaster}, {"carpet", carpet}, {"fabric", fabric},
-      {"wood", wood},   {"leather", leather}, {"metal", metal},     {"leaf", leaf},     {"tiles", tiles},
-      {"parquet", parquet}, {"poster", poster}, {"screen", screen}, {"cardboard", cardboard}};
+      {"plain", plain},   {"paint", paint},        {"plaster", plaster}, {"carpet", carpet},
+      {"fabric", fabric}, {"wood", wood},          {"leather", leather}, {"metal", metal},
+      {"leaf", leaf},     {"tiles", tiles},        {"parquet", parquet}, {"poster", poster},
+      {"screen", screen}, {"cardboard", cardboard}};
   return all;
 }
 
@@ -182,8 +190,10 @@ const std::vector<std::string>& texturePatterns() {
 cv::Mat textureOf(const Material& material) {
   const auto painter = painters().find(material.pattern);
   if (painter == painters().end())
-    throw ConfigError("unknown surface pattern '" + material.pattern + "': one of " + join(texturePatterns()));
-  Random random(0x7e57u, static_cast<std::uint64_t>(std::distance(painters().begin(), painter)), static_cast<std::uint64_t>(material.variant));
+    throw ConfigError("unknown surface pattern '" + material.pattern + "': one of " +
+                      join(texturePatterns()));
+  Random random(0x7e57u, static_cast<std::uint64_t>(std::distance(painters().begin(), painter)),
+                static_cast<std::uint64_t>(material.variant));
   return painter->second(material, random);
 }
 

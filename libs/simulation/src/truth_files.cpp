@@ -13,7 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+double rounded(double value) {
+  return std::round(value * 1e4) / 1e4;
+}
 
 Json list(const Eigen::VectorXd& values) {
   Json out = Json::array();
@@ -21,7 +23,9 @@ Json list(const Eigen::VectorXd& values) {
   return out;
 }
 
-Json list(const cv::Rect& box) { return {box.x, box.y, box.br().x, box.br().y}; }
+Json list(const cv::Rect& box) {
+  return {box.x, box.y, box.br().x, box.br().y};
+}
 
 }  // namespace
 
@@ -49,7 +53,8 @@ void writePose(TruthFile& file, double t, const Pose3& pose) {
   file.line("%.3f %.6f %.6f %.6f %.8f %.8f %.8f %.8f", t, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
-void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectView>& views, const Scene& scene) {
+void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectView>& views,
+                const Scene& scene) {
   Json objects = Json::array();
   for (const auto& view : views) {
     const auto& object = scene.objects()[static_cast<std::size_t>(view.object)];
@@ -91,7 +96,9 @@ void writeObjects(const std::filesystem::path& file, const Scene& scene) {
     objects.push_back(std::move(item));
   }
   TruthFile out(file);
-  out.stream() << Json{{"frame", "world: z up, origin at the robot's first pose"}, {"objects", objects}}.dump(1) << "\n";
+  out.stream() << Json{{"frame", "world: z up, origin at the robot's first pose"}, {"objects", objects}}.dump(
+                      1)
+               << "\n";
   out.close();
 }
 
@@ -112,15 +119,20 @@ void writeCalibration(const std::filesystem::path& file, const World& world, con
                      {"rate_hz", spec.rate_hz}};
     const Pose3& pose = scene.robotFromCamera();
     Json rotation = Json::array();
-    for (int r = 0; r < 3; ++r) rotation.push_back({pose.linear()(r, 0), pose.linear()(r, 1), pose.linear()(r, 2)});
+    for (int r = 0; r < 3; ++r)
+      rotation.push_back({pose.linear()(r, 0), pose.linear()(r, 1), pose.linear()(r, 2)});
     out["robot_from_camera"] = {{"comment", "camera optical frame in the robot frame: p_robot = R p_cam + t"},
                                 {"t", list(pose.translation())},
                                 {"R", rotation}};
   }
   if (world.lidar) {
     const auto& spec = *world.lidar;
-    out["lidar"] = {{"beams", spec.beams}, {"rate_hz", spec.rate_hz}, {"range_min_m", spec.min_m}, {"range_max_m", spec.max_m},
-                    {"angle_first_rad", -3.141592653589793}, {"angle_last_rad", 3.141592653589793},
+    out["lidar"] = {{"beams", spec.beams},
+                    {"rate_hz", spec.rate_hz},
+                    {"range_min_m", spec.min_m},
+                    {"range_max_m", spec.max_m},
+                    {"angle_first_rad", -3.141592653589793},
+                    {"angle_last_rad", 3.141592653589793},
                     {"angle_increment_rad", 6.283185307179586 / (spec.beams - 1)}};
     out["robot_from_lidar"] = {{"t", list(spec.at_m)}, {"yaw", 0.0}};
   }

@@ -28,7 +28,8 @@ class TruthFile {
 /// One line "t tx ty tz qx qy qz qw".
 void writePose(TruthFile& file, double t, const Pose3& pose);
 /// One line of boxes.jsonl.
-void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectView>& views, const Scene& scene);
+void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectView>& views,
+                const Scene& scene);
 void writeObjects(const std::filesystem::path& file, const Scene& scene);
 void writeCalibration(const std::filesystem::path& file, const World& world, const Scene& scene);
 /// map_truth.pgm and .yaml: outlines at the lidar's height occupied, what can be reached from the start free.

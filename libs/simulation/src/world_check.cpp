@@ -30,20 +30,24 @@ std::string text(const Eigen::Vector2d& p) {
 void checkWalls(const World& world) {
   for (std::size_t i = 0; i < world.rooms.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      const PlanBox a(world.rooms[i].min_m, world.rooms[i].max_m), b(world.rooms[k].min_m, world.rooms[k].max_m);
+      const PlanBox a(world.rooms[i].min_m, world.rooms[i].max_m),
+          b(world.rooms[k].min_m, world.rooms[k].max_m);
       // Rooms share a wall when they are exactly its thickness apart; then each may be as thick as it.
       const Eigen::Vector2d gap = (a.min() - b.max()).cwiseMax(b.min() - a.max());
       if (gap.maxCoeff() < world.wall_thickness_m - kTolerance_m)
         fail(world, world.rooms[i].place,
-             "overlaps " + world.rooms[k].place + " or its walls: rooms must be at least wall_thickness_m apart");
+             "overlaps " + world.rooms[k].place +
+                 " or its walls: rooms must be at least wall_thickness_m apart");
     }
   }
 }
 
 void checkDoorway(const World& world, const Room& room, const Doorway& doorway) {
   const bool along_x = doorway.side == Side::kNorth || doorway.side == Side::kSouth;
-  const double low = along_x ? room.min_m.x() : room.min_m.y(), high = along_x ? room.max_m.x() : room.max_m.y();
-  if (doorway.at_m - doorway.width_m / 2 < low - kTolerance_m || doorway.at_m + doorway.width_m / 2 > high + kTolerance_m)
+  const double low = along_x ? room.min_m.x() : room.min_m.y(),
+               high = along_x ? room.max_m.x() : room.max_m.y();
+  if (doorway.at_m - doorway.width_m / 2 < low - kTolerance_m ||
+      doorway.at_m + doorway.width_m / 2 > high + kTolerance_m)
     fail(world, doorway.place + ".at_m", "the doorway does not fit into its wall");
   if (doorway.door == DoorState::kClosed) return;
   const PlanBox hole = doorwayHole(world, room, doorway);
@@ -56,7 +60,8 @@ void checkDoorway(const World& world, const Room& room, const Doorway& doorway) 
     const double extent = along_x ? shared.sizes().x() : shared.sizes().y();
     if (!shared.isEmpty() && extent > doorway.width_m - 1e-3) return;
   }
-  fail(world, doorway.place, "leads into nothing: there is no room exactly wall_thickness_m away; close it by a door");
+  fail(world, doorway.place,
+       "leads into nothing: there is no room exactly wall_thickness_m away; close it by a door");
 }
 
 /// Footprint rectangle of furniture in the plan.
@@ -117,17 +122,20 @@ void checkPaths(const World& world, const std::vector<PlanBox>& areas) {
     for (double t = 0; t <= path.duration(); t += 0.05) {
       const Eigen::Vector3d at = path.at(t).translation();
       if (!discIsFree(areas, at.head<2>(), 0.1) || at.z() < 0.1 || at.z() > world.wall_height_m - 0.1)
-        fail(world, world.handheld->place + ".views", "the path goes through a wall at " + text(at.head<2>()));
+        fail(world, world.handheld->place + ".views",
+             "the path goes through a wall at " + text(at.head<2>()));
     }
   }
   for (const auto& person : world.people) {
     for (std::size_t i = 0; i < person.path_m.size(); ++i) {
-      const Eigen::Vector2d a = person.path_m[i], b = person.path_m[std::min(i + 1, person.path_m.size() - 1)];
+      const Eigen::Vector2d a = person.path_m[i],
+                            b = person.path_m[std::min(i + 1, person.path_m.size() - 1)];
       const int steps = 1 + static_cast<int>((b - a).norm() / 0.05);
       for (int k = 0; k <= steps; ++k) {
         const Eigen::Vector2d at = a + (b - a) * k / steps;
         if (person.path_m.size() > 1) checkPoint(world, areas, person.place + ".path_m", at, 0.15);
-        if (!discIsFree(areas, at, 0.15)) fail(world, person.place + ".path_m", "stands in a wall at " + text(at));
+        if (!discIsFree(areas, at, 0.15))
+          fail(world, person.place + ".path_m", "stands in a wall at " + text(at));
         checkDoorsOnPath(world, person.place + ".path_m", at);
       }
     }
@@ -139,7 +147,8 @@ void checkPosters(const World& world) {
     for (std::size_t i = 0; i < room.posters.size(); ++i) {
       const auto& poster = room.posters[i];
       const bool along_x = poster.side == Side::kNorth || poster.side == Side::kSouth;
-      const double low = along_x ? room.min_m.x() : room.min_m.y(), high = along_x ? room.max_m.x() : room.max_m.y();
+      const double low = along_x ? room.min_m.x() : room.min_m.y(),
+                   high = along_x ? room.max_m.x() : room.max_m.y();
       if (poster.at_m - poster.width_m / 2 < low || poster.at_m + poster.width_m / 2 > high ||
           poster.z_m - poster.height_m / 2 < 0 || poster.z_m + poster.height_m / 2 > world.wall_height_m)
         fail(world, room.place + ".posters[" + std::to_string(i) + "]", "does not fit on its wall");

@@ -21,7 +21,10 @@ constexpr double kFar = 1000;  // m
 
 Side side(JsonEntry& entry) {
   const std::string name = entry.choice("side", std::nullopt, {"north", "east", "south", "west"});
-  return name == "north" ? Side::kNorth : name == "east" ? Side::kEast : name == "south" ? Side::kSouth : Side::kWest;
+  return name == "north"   ? Side::kNorth
+         : name == "east"  ? Side::kEast
+         : name == "south" ? Side::kSouth
+                           : Side::kWest;
 }
 
 Doorway doorway(JsonEntry& entry, double wall_height) {
@@ -121,7 +124,8 @@ RobotPathSpec robot(JsonEntry entry) {
   out.place = entry.place();
   out.path_m = entry.path("path_m");
   out.closed = entry.flag("closed", false);
-  if (out.path_m.size() < (out.closed ? 3 : 2)) entry.fail("path_m", "needs at least 2 points, 3 when closed");
+  if (out.path_m.size() < (out.closed ? 3 : 2))
+    entry.fail("path_m", "needs at least 2 points, 3 when closed");
   out.max_speed_m_s = entry.number("max_speed_m_s", out.max_speed_m_s, 0.01, 5);
   out.max_turn_rad_s = kDegree * entry.number("max_turn_deg_s", out.max_turn_rad_s / kDegree, 1, 360);
   out.acceleration_m_s2 = entry.number("acceleration_m_s2", out.acceleration_m_s2, 0.01, 10);
@@ -160,7 +164,8 @@ World world(JsonEntry& entry) {
   if (out.rooms.empty()) entry.fail("rooms", "a world needs at least one room");
   for (auto& item : entry.children("furniture")) out.furniture.push_back(furniture(item));
   for (auto& item : entry.children("people")) out.people.push_back(person(item));
-  if (entry.has("robot") == entry.has("handheld")) entry.fail("robot", "either robot or handheld must be given");
+  if (entry.has("robot") == entry.has("handheld"))
+    entry.fail("robot", "either robot or handheld must be given");
   if (entry.has("robot")) out.robot = robot(entry.child("robot"));
   if (entry.has("handheld")) out.handheld = handheld(entry.child("handheld"));
   readSensors(entry.child("sensors"), out);

@@ -13,10 +13,10 @@ namespace roomgraph {
 
 /// What a surface looks like: a procedural pattern in one main colour.
 struct Material {
-  std::string pattern;                 ///< see texture.h
-  std::array<double, 3> rgb{};         ///< in [0, 1]
-  double size_m = 1;                   ///< edge of the square that the texture covers
-  int variant = 0;                     ///< another picture of the same pattern
+  std::string pattern;          ///< see texture.h
+  std::array<double, 3> rgb{};  ///< in [0, 1]
+  double size_m = 1;            ///< edge of the square that the texture covers
+  int variant = 0;              ///< another picture of the same pattern
   bool operator==(const Material&) const = default;
 };
 

@@ -11,9 +11,9 @@ namespace roomgraph {
 const std::vector<std::string>& furnitureModels();
 
 struct FurnitureModel {
-  std::string class_name;              ///< of the object database, or "other"
-  std::string kind;                    ///< what it is, in words
-  Eigen::Vector3d size_m;              ///< w, d, h
+  std::string class_name;  ///< of the object database, or "other"
+  std::string kind;        ///< what it is, in words
+  Eigen::Vector3d size_m;  ///< w, d, h
   std::array<double, 3> color;
 };
 
@@ -25,8 +25,8 @@ const FurnitureModel& furnitureModel(const std::string& name);
 Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const std::array<double, 3>& color,
                    int variant, MaterialList& materials);
 
-/// Frame and leaf of a door; origin at the bottom centre of the doorway, x out of the wall, the wall's inner face at
-/// x = 0 and its outer one at x = -thickness. The leaf opens towards +x.
+/// Frame and leaf of a door; origin at the bottom centre of the doorway, x out of the wall, the wall's inner
+/// face at x = 0 and its outer one at x = -thickness. The leaf opens towards +x.
 Mesh doorMesh(const Doorway& doorway, double thickness_m, MaterialList& materials);
 
 }  // namespace roomgraph

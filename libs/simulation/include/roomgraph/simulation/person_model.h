@@ -9,8 +9,8 @@ namespace roomgraph {
 
 /// Where a person is and what its limbs do.
 struct PersonState {
-  Pose2 pose;                          ///< on the floor, x to the front
-  double phase = 0;                    ///< of the gait, rad; 2 pi = two steps
+  Pose2 pose;        ///< on the floor, x to the front
+  double phase = 0;  ///< of the gait, rad; 2 pi = two steps
   bool walks = false;
 };
 
@@ -36,7 +36,7 @@ class PersonWalk {
 
  private:
   Person person_;
-  std::vector<double> lengths_;        ///< along the path up to each corner
+  std::vector<double> lengths_;  ///< along the path up to each corner
 };
 
 }  // namespace roomgraph

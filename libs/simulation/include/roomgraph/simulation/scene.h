@@ -14,19 +14,19 @@ namespace roomgraph {
 
 /// What the truth says about one object; poses are in the world = frame of the robot's first pose.
 struct SceneObject {
-  int id = 0;                          ///< from 1
+  int id = 0;  ///< from 1
   std::string class_name, kind, model;
-  Eigen::Vector3d size_wdh;            ///< m
-  Pose3 world_from_object;             ///< bottom centre, x to the front; at the first instant when it moves
+  Eigen::Vector3d size_wdh;  ///< m
+  Pose3 world_from_object;   ///< bottom centre, x to the front; at the first instant when it moves
   std::vector<Eigen::Vector2d> footprint;  ///< world; hull of what is lower than 1 m
   bool moving = false;
 };
 
 /// One rigid piece of the scene.
 struct ScenePart {
-  Mesh mesh;                           ///< fixed parts: in world
-  int object = -1;                     ///< index of objects(); -1: the building
-  int person = -1;                     ///< index of the person it belongs to; -1: it never moves
+  Mesh mesh;        ///< fixed parts: in world
+  int object = -1;  ///< index of objects(); -1: the building
+  int person = -1;  ///< index of the person it belongs to; -1: it never moves
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of a sphere around the mesh, in the mesh's frame
   double radius = 0;
 };
@@ -43,7 +43,8 @@ class Scene {
   std::vector<Pose3> partPoses(double seconds) const;
   /// (object index, world_from_person) of everybody.
   std::vector<std::pair<int, Pose2>> persons(double seconds) const;
-  /// Robot base in the world; for a hand-held camera a frame fixed to it that is level on the floor below it at first.
+  /// Robot base in the world; for a hand-held camera a frame fixed to it that is level on the floor below it
+  /// at first.
   Pose3 worldFromRobot(double seconds) const;
   Pose3 worldFromCamera(double seconds) const { return worldFromRobot(seconds) * robot_from_camera_; }
   /// Optical frame.
@@ -64,7 +65,7 @@ class Scene {
   std::vector<PersonModel> people_;
   std::vector<PersonWalk> walks_;
   std::vector<int> person_objects_;
-  std::vector<SensorPath> path_;       ///< one
+  std::vector<SensorPath> path_;  ///< one
   Pose3 world_from_plan_ = Pose3::Identity(), robot_from_camera_ = Pose3::Identity();
   Pose3 body_from_robot_ = Pose3::Identity();
   double duration_s_ = 0;

@@ -21,12 +21,13 @@ struct SimulateOptions {
 struct SimulateResult {
   std::filesystem::path rawlog;
   int frames = 0, scans = 0, odometry = 0, detections = 0, objects = 0;
-  double seconds = 0;                  ///< simulated
+  double seconds = 0;  ///< simulated
   bool interrupted = false;
 };
 
-/// Drives through the world and writes NAME.rawlog (gzip) and the truth files into `folder`, which is made. The same
-/// world and seed give the same bytes. Throws RunError when something cannot be written or rendered.
-SimulateResult simulate(const World& world, const std::filesystem::path& folder, const SimulateOptions& options);
+/// Drives through the world and writes NAME.rawlog (gzip) and the truth files into `folder`, which is made.
+/// The same world and seed give the same bytes. Throws RunError when something cannot be written or rendered.
+SimulateResult simulate(const World& world, const std::filesystem::path& folder,
+                        const SimulateOptions& options);
 
 }  // namespace roomgraph

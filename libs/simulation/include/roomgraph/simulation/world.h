@@ -13,19 +13,19 @@
 
 namespace roomgraph {
 
-// A world as its file describes it. Lengths in metres, angles in radians, all in the plan's own frame (z up, floor at
-// z = 0); what is simulated from it is expressed in the frame of the robot's first pose.
+// A world as its file describes it. Lengths in metres, angles in radians, all in the plan's own frame (z up,
+// floor at z = 0); what is simulated from it is expressed in the frame of the robot's first pose.
 
 enum class Side { kNorth, kEast, kSouth, kWest };  ///< +y, +x, -y, -x
 enum class DoorState { kNone, kClosed, kHalfOpen, kOpen };
 
 struct Doorway {
   Side side = Side::kNorth;
-  double at_m = 0;                     ///< middle, x or y of the plan
+  double at_m = 0;  ///< middle, x or y of the plan
   double width_m = 0.95, height_m = 2.1;
   DoorState door = DoorState::kNone;
   std::array<double, 3> color{0.55, 0.38, 0.22};
-  std::string place;                   ///< where it stands in the file, for messages
+  std::string place;  ///< where it stands in the file, for messages
 };
 
 struct Poster {
@@ -36,7 +36,7 @@ struct Poster {
 
 struct Room {
   std::string name;
-  Eigen::Vector2d min_m, max_m;        ///< inner faces of its walls
+  Eigen::Vector2d min_m, max_m;  ///< inner faces of its walls
   Material wall, floor;
   std::vector<Doorway> doorways;
   std::vector<Poster> posters;
@@ -44,16 +44,16 @@ struct Room {
 };
 
 struct Furniture {
-  std::string model;                   ///< see models.h
+  std::string model;                               ///< see models.h
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< bottom centre
-  double yaw_rad = 0;                  ///< direction of the front
+  double yaw_rad = 0;                              ///< direction of the front
   std::optional<Eigen::Vector3d> size_m;           ///< w, d, h; otherwise the model's own
   std::optional<std::array<double, 3>> color;
   std::string place;
 };
 
 struct Person {
-  std::vector<Eigen::Vector2d> path_m; ///< one point: stays there
+  std::vector<Eigen::Vector2d> path_m;  ///< one point: stays there
   double speed_m_s = 0.7, start_s = 0, yaw_rad = 0;
   bool sits = false;
   double seat_height_m = 0.47, height_m = 1.75;
@@ -64,7 +64,7 @@ struct Person {
 
 struct RobotPathSpec {
   std::vector<Eigen::Vector2d> path_m;
-  bool closed = false;                 ///< returns to the first point
+  bool closed = false;  ///< returns to the first point
   double max_speed_m_s = 0.45, max_turn_rad_s = 0.6, acceleration_m_s2 = 0.4, radius_m = 0.18;
   std::string place;
 };
@@ -88,7 +88,7 @@ struct CameraSpec {
   double pitch_down_rad = 0.2094395102393195;
   double near_m = 0.45, far_m = 5.0;
   double baseline_m = 0.075, focal_px = 580, disparity_step_px = 0.125;  ///< of the depth sensor
-  double noise_gain = 1;               ///< 0: exact depth, quantised to the unit of 1 mm only; no colour noise
+  double noise_gain = 1;  ///< 0: exact depth, quantised to the unit of 1 mm only; no colour noise
   int jpeg_quality = 86;
 };
 
@@ -102,25 +102,25 @@ struct LidarSpec {
 
 struct OdometrySpec {
   double rate_hz = 20;
-  double scale_error = 0.03;           ///< measured length = (1 + scale_error) * true length
+  double scale_error = 0.03;  ///< measured length = (1 + scale_error) * true length
   double turn_error = 0.02;
-  double drift_rad_m = 0.01;           ///< heading error gained per metre
-  double sigma_length = 0.03;          ///< m per sqrt(m)
-  double sigma_turn = 0.03;            ///< rad per sqrt(rad)
-  int slips = 2;                       ///< times that the wheels spin
-  double slip_m = 0.15, slip_rad = 0.1;///< spread of what such a slip adds
+  double drift_rad_m = 0.01;             ///< heading error gained per metre
+  double sigma_length = 0.03;            ///< m per sqrt(m)
+  double sigma_turn = 0.03;              ///< rad per sqrt(rad)
+  int slips = 2;                         ///< times that the wheels spin
+  double slip_m = 0.15, slip_rad = 0.1;  ///< spread of what such a slip adds
 };
 
 struct DetectionsSpec {
   double detect_probability = 0.9, min_visible = 0.25, min_height_px = 20;
-  double jitter = 0.03;                ///< sigma of every edge, share of the box's size
-  double false_positives = 0.05;       ///< expected per frame
-  double confusion = 0.03;             ///< probability of a wrong label
+  double jitter = 0.03;           ///< sigma of every edge, share of the box's size
+  double false_positives = 0.05;  ///< expected per frame
+  double confusion = 0.03;        ///< probability of a wrong label
 };
 
 struct World {
   std::string name, file;
-  std::optional<double> duration_s;    ///< default: until the path ends
+  std::optional<double> duration_s;  ///< default: until the path ends
   double wall_height_m = 2.6, wall_thickness_m = 0.12;
   std::vector<Room> rooms;
   std::vector<Furniture> furniture;
