@@ -55,7 +55,7 @@ void buildMonitor(const BuildRequest& r) {
   r.mesh.box({-0.05, 0, r.h * 0.35}, {0.03, 0.06, r.h * 0.6});
   const double low = r.h * 0.26, high = r.h - low;
   r.mesh.roundedBox({0, 0, low + high / 2}, {0.045, r.w, high}, 0.015);
-  const double y = r.w / 2 - 0.014, x = 0.0232;
+  const double y = r.w / 2 - 0.014, x = 0.034;
   r.mesh.use({"screen", {0.2, 0.35, 0.55}, 1, r.variant % 6});
   r.mesh.quad({Eigen::Vector3d(x, -y, low + 0.014), Eigen::Vector3d(x, y, low + 0.014),
                Eigen::Vector3d(x, y, r.h - 0.014), Eigen::Vector3d(x, -y, r.h - 0.014)},
@@ -75,8 +75,8 @@ void buildBin(const BuildRequest& r) {
 }
 
 void buildWhiteboard(const BuildRequest& r) {
-  r.mesh.use({"metal", {0.6, 0.6, 0.62}, 0.5, 0}).box({-0.005, 0, r.h / 2}, {r.d - 0.01, r.w, r.h});
-  const double y = r.w / 2 - 0.03, x = r.d / 2 - 0.004;
+  r.mesh.use({"metal", {0.6, 0.6, 0.62}, 0.5, 0}).box({-0.01, 0, r.h / 2}, {r.d - 0.02, r.w, r.h});
+  const double y = r.w / 2 - 0.03, x = r.d / 2 - 0.003;
   r.mesh.use({"poster", {0.94, 0.95, 0.95}, 1, 900 + r.variant % 8});
   r.mesh.quad({Eigen::Vector3d(x, -y, 0.03), Eigen::Vector3d(x, y, 0.03), Eigen::Vector3d(x, y, r.h - 0.03),
                Eigen::Vector3d(x, -y, r.h - 0.03)},

@@ -15,7 +15,8 @@ namespace roomgraph {
 namespace {
 
 using mrpt::opengl::CSetOfTexturedTriangles;
-constexpr float kNear_m = 0.1f;
+constexpr float kNear_m =
+    0.2f;  ///< the depth buffer has few bits: near things would cost thin ones their place in front
 constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
 
 mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -39,6 +40,8 @@ class JsonEntry {
 
   /// Throws ConfigError when a key was not asked for.
   void finish() const;
+  /// Folder of the file.
+  std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
   /// "rooms[1].width_m" (or only the entry without a key).
   std::string place(const std::string& key = "") const;
   /// Throws ConfigError "file: place: what".

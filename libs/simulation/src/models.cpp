@@ -33,8 +33,9 @@ const std::map<std::string, Entry>& entries() {
   return all;
 }
 
-/// Moves and stretches the mesh so that its bounding box is d x w x h on the origin.
-Mesh fitted(Mesh mesh, const Eigen::Vector3d& size_wdh) {
+}  // namespace
+
+Mesh fittedMesh(Mesh mesh, const Eigen::Vector3d& size_wdh) {
   const Eigen::AlignedBox3d box = mesh.bounds();
   const Eigen::Vector3d target(size_wdh.y(), size_wdh.x(), size_wdh.z());
   const Eigen::Vector3d scale = target.cwiseQuotient(box.sizes());
@@ -47,8 +48,6 @@ Mesh fitted(Mesh mesh, const Eigen::Vector3d& size_wdh) {
   }
   return mesh;
 }
-
-}  // namespace
 
 const std::vector<std::string>& furnitureModels() {
   static const std::vector<std::string> names = [] {
@@ -67,7 +66,7 @@ Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const
                    int variant, MaterialList& materials) {
   MeshBuilder builder(materials);
   entries().at(name).build({builder, size_m.x(), size_m.y(), size_m.z(), color, variant});
-  return fitted(builder.take(), size_m);
+  return fittedMesh(builder.take(), size_m);
 }
 
 Mesh doorMesh(const Doorway& doorway, double thickness_m, MaterialList& materials) {

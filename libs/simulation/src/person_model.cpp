@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "furniture_builders.h"
+#include "mesh_file.h"
 
 namespace roomgraph {
 namespace {
@@ -69,12 +70,27 @@ Pose3 joint(const V& at, double pitch) {
   return out;
 }
 
+Mesh ofHeight(Mesh mesh, double height) {
+  const auto box = mesh.bounds();
+  const double scale = height / box.sizes().z();
+  const Eigen::Vector3f bottom =
+      Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z()).cast<float>();
+  for (auto& triangle : mesh.triangles)
+    for (auto& corner : triangle.position) corner = (corner - bottom) * static_cast<float>(scale);
+  return mesh;
+}
+
 }  // namespace
 
 PersonModel::PersonModel(const Person& person, MaterialList& materials)
     : sits_(person.sits),
       scale_(person.height_m / kHeight),
       hip_m_(person.sits ? person.seat_height_m / scale_ + 0.09 : kHip) {
+  if (!person.mesh_file.empty()) {
+    parts_.push_back(ofHeight(readMeshFile(person.mesh_file, materials), person.height_m));
+    rigid_ = true;
+    return;
+  }
   parts_.push_back(torso(person, materials));
   for (int side = 0; side < 2; ++side) {
     parts_.push_back(thigh(person, materials));
@@ -88,6 +104,7 @@ PersonModel::PersonModel(const Person& person, MaterialList& materials)
 }
 
 std::vector<Pose3> PersonModel::pose(const PersonState& state) const {
+  if (rigid_) return {Pose3::Identity()};
   const double swing = state.walks ? 0.42 * std::sin(state.phase) : 0.05;
   const double bob = state.walks ? -0.018 * (1 - std::cos(2 * state.phase)) : 0;
   std::vector<Pose3> out{joint({0, 0, hip_m_ + bob}, sits_ ? -0.12 : 0.03)};

@@ -2,6 +2,9 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/simulation/scene.h"
 
+#include <filesystem>
+
+#include "mesh_file.h"
 #include "roomgraph/simulation/floor_plan.h"
 #include "roomgraph/simulation/models.h"
 
@@ -18,6 +21,19 @@ std::vector<Eigen::Vector2d> lowHull(const Mesh& world_mesh) {
     for (const auto& triangle : world_mesh.triangles)
       for (const auto& corner : triangle.position) points.emplace_back(corner.cast<double>().head<2>());
   return convexHull(std::move(points));
+}
+
+std::string modelName(const std::string& built, const std::string& mesh_file) {
+  return mesh_file.empty() ? "procedural:" + built
+                           : "mesh:" + std::filesystem::path(mesh_file).stem().string();
+}
+
+Mesh doorShape(const Doorway& doorway, double thickness, MaterialList& materials) {
+  if (doorway.mesh_file.empty()) return doorMesh(doorway, thickness, materials);
+  constexpr double kProud = 0.02;
+  const Mesh mesh = fittedMesh(readMeshFile(doorway.mesh_file, materials),
+                               {doorway.width_m, thickness + 2 * kProud, doorway.height_m});
+  return mesh.moved(poseFromYpr(-thickness / 2, 0, 0, 0, 0, 0));
 }
 
 }  // namespace
@@ -81,11 +97,14 @@ void Scene::addFurniture(const World& world) {
     SceneObject object;
     object.class_name = model.class_name;
     object.kind = model.kind;
-    object.model = "procedural:" + item.model;
+    object.model = modelName(item.model, item.mesh_file);
     object.size_wdh = item.size_m.value_or(model.size_m);
     object.world_from_object = poseFromYpr(item.at_m.x(), item.at_m.y(), item.at_m.z(), item.yaw_rad, 0, 0);
-    const Mesh mesh =
-        furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color), variant++, materials_);
+    const Mesh mesh = item.mesh_file.empty()
+                          ? furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color),
+                                          variant, materials_)
+                          : fittedMesh(readMeshFile(item.mesh_file, materials_), object.size_wdh);
+    ++variant;
     const Pose3 pose = object.world_from_object;
     add(std::move(object), mesh.moved(pose));
   }
@@ -99,7 +118,7 @@ void Scene::addDoors(const World& world) {
       const double deep = world.wall_thickness_m;
       SceneObject object;
       object.class_name = object.kind = "door";
-      object.model = "procedural:door";
+      object.model = modelName("door", doorway.mesh_file);
       object.size_wdh = {doorway.width_m, deep, doorway.height_m};
       object.world_from_object = frame * Eigen::Translation3d(-deep / 2, 0, 0);
       // The truth is the door in its wall; an open leaf does not move it.
@@ -107,7 +126,7 @@ void Scene::addDoors(const World& world) {
         object.footprint.emplace_back((world_from_plan_ * object.world_from_object *
                                        Eigen::Vector3d(x * deep / 2, y * doorway.width_m / 2, 0))
                                           .head<2>());
-      add(std::move(object), doorMesh(doorway, deep, materials_).moved(frame));
+      add(std::move(object), doorShape(doorway, deep, materials_).moved(frame));
     }
   }
 }
@@ -128,7 +147,7 @@ void Scene::addPeople(const World& world) {
     SceneObject object;
     object.id = static_cast<int>(objects_.size()) + 1;
     object.class_name = object.kind = "person";
-    object.model = spec.sits ? "procedural:sitting person" : "procedural:person";
+    object.model = modelName(spec.sits ? "sitting person" : "person", spec.mesh_file);
     object.size_wdh = {box.sizes().y(), box.sizes().x(), box.sizes().z()};
     object.world_from_object = toPose3(first.pose);
     object.moving = !spec.sits && spec.path_m.size() > 1;

@@ -188,6 +188,7 @@ const std::vector<std::string>& texturePatterns() {
 }
 
 cv::Mat textureOf(const Material& material) {
+  if (material.picture) return *material.picture;
   const auto painter = painters().find(material.pattern);
   if (painter == painters().end())
     throw ConfigError("unknown surface pattern '" + material.pattern + "': one of " +

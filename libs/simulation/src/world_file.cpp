@@ -19,6 +19,15 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFar = 1000;  // m
 
+/// The mesh file that an entry names, relative to the world file; empty when it names none.
+std::string meshFile(JsonEntry& entry) {
+  const std::string name = entry.text("mesh", "");
+  if (name.empty()) return "";
+  const auto file = entry.folder() / name;
+  if (!std::filesystem::is_regular_file(file)) entry.fail("mesh", "no such file: " + file.string());
+  return file.string();
+}
+
 Side side(JsonEntry& entry) {
   const std::string name = entry.choice("side", std::nullopt, {"north", "east", "south", "west"});
   return name == "north"   ? Side::kNorth
@@ -40,6 +49,9 @@ Doorway doorway(JsonEntry& entry, double wall_height) {
              : door == "open"      ? DoorState::kOpen
                                    : DoorState::kNone;
   out.color = entry.color("color", out.color);
+  out.mesh_file = meshFile(entry);
+  if (!out.mesh_file.empty() && out.door != DoorState::kClosed)
+    entry.fail("mesh", "only a closed door can be a mesh");
   entry.finish();
   return out;
 }
@@ -96,6 +108,7 @@ Furniture furniture(JsonEntry& entry) {
     out.size_m = Eigen::Vector3d(size[0], size[1], size[2]);
   }
   if (entry.has("color")) out.color = entry.color("color", {});
+  out.mesh_file = meshFile(entry);
   entry.finish();
   return out;
 }
@@ -115,6 +128,7 @@ Person person(JsonEntry& entry) {
   out.trousers = entry.color("trousers", out.trousers);
   out.skin = entry.color("skin", out.skin);
   out.hair = entry.color("hair", out.hair);
+  out.mesh_file = meshFile(entry);
   entry.finish();
   return out;
 }

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
@@ -13,10 +15,11 @@ namespace roomgraph {
 
 /// What a surface looks like: a procedural pattern in one main colour.
 struct Material {
-  std::string pattern;          ///< see texture.h
-  std::array<double, 3> rgb{};  ///< in [0, 1]
-  double size_m = 1;            ///< edge of the square that the texture covers
-  int variant = 0;              ///< another picture of the same pattern
+  std::string pattern;                               ///< see texture.h
+  std::array<double, 3> rgb{};                       ///< in [0, 1]
+  double size_m = 1;                                 ///< edge of the square that the texture covers
+  int variant = 0;                                   ///< another picture of the same pattern
+  std::shared_ptr<const cv::Mat> picture = nullptr;  ///< of a mesh file: used instead of a pattern
   bool operator==(const Material&) const = default;
 };
 

@@ -25,6 +25,9 @@ const FurnitureModel& furnitureModel(const std::string& name);
 Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const std::array<double, 3>& color,
                    int variant, MaterialList& materials);
 
+/// Moves and stretches a mesh so that its bounding box is d x w x h on the origin.
+Mesh fittedMesh(Mesh mesh, const Eigen::Vector3d& size_wdh);
+
 /// Frame and leaf of a door; origin at the bottom centre of the doorway, x out of the wall, the wall's inner
 /// face at x = 0 and its outer one at x = -thickness. The leaf opens towards +x.
 Mesh doorMesh(const Doorway& doorway, double thickness_m, MaterialList& materials);

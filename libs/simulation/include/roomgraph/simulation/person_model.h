@@ -23,7 +23,7 @@ class PersonModel {
   std::vector<Pose3> pose(const PersonState& state) const;
 
  private:
-  bool sits_;
+  bool sits_, rigid_ = false;
   double scale_, hip_m_;
   std::vector<Mesh> parts_;
 };

@@ -25,7 +25,8 @@ struct Doorway {
   double width_m = 0.95, height_m = 2.1;
   DoorState door = DoorState::kNone;
   std::array<double, 3> color{0.55, 0.38, 0.22};
-  std::string place;  ///< where it stands in the file, for messages
+  std::string mesh_file;  ///< replaces frame and leaf; empty: built
+  std::string place;      ///< where it stands in the file, for messages
 };
 
 struct Poster {
@@ -49,6 +50,7 @@ struct Furniture {
   double yaw_rad = 0;                              ///< direction of the front
   std::optional<Eigen::Vector3d> size_m;           ///< w, d, h; otherwise the model's own
   std::optional<std::array<double, 3>> color;
+  std::string mesh_file;  ///< replaces the built shape, fitted to the size; empty: built
   std::string place;
 };
 
@@ -59,6 +61,7 @@ struct Person {
   double seat_height_m = 0.47, height_m = 1.75;
   std::array<double, 3> shirt{0.2, 0.3, 0.6}, trousers{0.15, 0.15, 0.2}, skin{0.85, 0.65, 0.52},
       hair{0.2, 0.13, 0.08};
+  std::string mesh_file;  ///< replaces the built body, which then glides without moving its limbs
   std::string place;
 };
 
