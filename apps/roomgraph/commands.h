@@ -15,5 +15,6 @@ void addRunCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
 void addConfigReferenceCommand(CLI::App& app);
+void addSimulateCommand(CLI::App& app);
 
 }  // namespace roomgraph

@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
   roomgraph::addEvaluateCommand(app);
   roomgraph::addSnapshotCommand(app);
   roomgraph::addConfigReferenceCommand(app);
+  roomgraph::addSimulateCommand(app);
 
   try {
     app.parse(argc, argv);
