@@ -23,7 +23,7 @@ struct Rendered {
 
 TEST(ColorRenderer, ItsDepthIsThatOfTheExactPicture) {
   Rendered r;
-  const cv::Mat depth = r.renderer.renderDepth(r.parts, r.pose);
+  const cv::Mat depth = r.renderer.renderDepth(r.parts, r.pose, 1);
   int compared = 0, different = 0;
   for (int v = 1; v < depth.rows - 1; ++v) {
     for (int u = 1; u < depth.cols - 1; ++u) {
@@ -39,7 +39,7 @@ TEST(ColorRenderer, ItsDepthIsThatOfTheExactPicture) {
 TEST(ColorRenderer, ColourAndDepthAreRegisteredWithinAPixel) {
   Rendered r;
   cv::Mat gray;
-  cv::cvtColor(r.renderer.render(r.parts, r.pose), gray, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(r.renderer.render(r.parts, r.pose, 1), gray, cv::COLOR_BGR2GRAY);
   // The black block before the white wall: in every row both edges are where the object's pixels end.
   int rows = 0;
   for (int v = 220; v < 300; v += 4) {

@@ -77,7 +77,7 @@ void buildCabinet(const BuildRequest& r) {
 }
 
 void buildBlock(const BuildRequest& r) {
-  r.mesh.use({"plaster", r.color, 2.0, 0}).box({0, 0, r.h / 2}, {r.d, r.w, r.h});
+  r.mesh.use({"paint", r.color, 2.0, 0}).box({0, 0, r.h / 2}, {r.d, r.w, r.h});
 }
 
 }  // namespace roomgraph

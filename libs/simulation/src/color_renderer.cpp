@@ -5,6 +5,7 @@
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
 
+#include <algorithm>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
@@ -17,6 +18,7 @@ namespace {
 using mrpt::opengl::CSetOfTexturedTriangles;
 constexpr float kNear_m =
     0.2f;  ///< the depth buffer has few bits: near things would cost thin ones their place in front
+constexpr float kFar_m = 60;
 constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
 
 mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
@@ -45,7 +47,7 @@ mrpt::img::TCamera finePinhole(const PinholeCamera& camera) {
 struct ColorRenderer::Content {
   Content(const Scene& scene, const PinholeCamera& camera);
   CSetOfTexturedTriangles::Ptr add(int material);
-  void place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera);
+  void place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera, double nearest_m);
 
   const Scene& scene;
   PinholeCamera camera;
@@ -79,11 +81,10 @@ ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
     for (const auto& [material, drawable] : own) moving.emplace_back(i, drawable);
   }
   auto& light = graph->getViewport()->lightParameters();
-  light.ambient = {0.66f, 0.66f, 0.66f, 1.f};
-  light.diffuse = {0.42f, 0.42f, 0.42f, 1.f};
+  light.ambient = {0.7f, 0.7f, 0.7f, 1.f};
+  light.diffuse = {0.45f, 0.45f, 0.45f, 1.f};
   light.specular = {0.f, 0.f, 0.f, 1.f};
   light.direction = mrpt::math::TVector3Df(-0.45f, 0.3f, -0.84f).unitarize();
-  graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
   try {
     renderer = std::make_unique<mrpt::opengl::CFBORender>(static_cast<unsigned>(kFine * camera.width),
                                                           static_cast<unsigned>(kFine * camera.height));
@@ -95,8 +96,11 @@ ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
   }
 }
 
-void ColorRenderer::Content::place(const std::vector<Pose3>& world_from_part,
-                                   const Pose3& world_from_camera) {
+void ColorRenderer::Content::place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera,
+                                   double nearest_m) {
+  // The depth buffer has few bits: the nearer the clipping plane, the thicker a picture must be to stay
+  // before its wall.
+  graph->getViewport()->setViewportClipDistances(static_cast<float>(std::max(0.05, 0.9 * nearest_m)), kFar_m);
   for (const auto& [part, drawable] : moving) drawable->setPose(toMrpt(world_from_part[part]));
   mrpt::opengl::CCamera view;
   view.set6DOFMode(true);
@@ -109,8 +113,9 @@ ColorRenderer::ColorRenderer(const Scene& scene, const PinholeCamera& camera)
     : content_(std::make_unique<Content>(scene, camera)) {}
 ColorRenderer::~ColorRenderer() = default;
 
-cv::Mat ColorRenderer::render(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera) {
-  content_->place(world_from_part, world_from_camera);
+cv::Mat ColorRenderer::render(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera,
+                              double nearest_m) {
+  content_->place(world_from_part, world_from_camera, nearest_m);
   mrpt::img::CImage fine;
   content_->renderer->render_RGB(*content_->graph, fine);
   cv::Mat out;
@@ -119,15 +124,11 @@ cv::Mat ColorRenderer::render(const std::vector<Pose3>& world_from_part, const P
   return out;
 }
 
-cv::Mat ColorRenderer::renderDepth(const std::vector<Pose3>& world_from_part,
-                                   const Pose3& world_from_camera) {
-  content_->place(world_from_part, world_from_camera);
-  // MRPT reads the depth buffer back with few bits: the nearer the clipping plane, the coarser they are far
-  // away.
-  content_->graph->getViewport()->setViewportClipDistances(1.f, 60.f);
+cv::Mat ColorRenderer::renderDepth(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera,
+                                   double nearest_m) {
+  content_->place(world_from_part, world_from_camera, nearest_m);
   mrpt::math::CMatrixFloat fine;
   content_->renderer->render_depth(*content_->graph, fine);
-  content_->graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
   cv::Mat out(content_->camera.height, content_->camera.width, CV_32F);
   // The centre of a pixel is the common corner of its fine pixels: their mean depth.
   for (int v = 0; v < out.rows; ++v) {

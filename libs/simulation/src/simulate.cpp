@@ -49,6 +49,13 @@ struct Clock {
   }
 };
 
+double nearest(const cv::Mat& depth) {
+  double out = 10;  // m; far enough for any precision
+  for (const float z : cv::Mat_<float>(depth))
+    if (z > 0) out = std::min<double>(out, z);
+  return out;
+}
+
 class Simulation {
  public:
   Simulation(const World& world, const std::filesystem::path& folder, const SimulateOptions& options);
@@ -136,15 +143,14 @@ void Simulation::frame(double t) {
   const CameraSpec& spec = *world_.camera;
   const auto parts = scene_.partPoses(t);
   const Pose3 world_from_camera = scene_.worldFromCamera(t);
-  IdImage exact;
+  const IdImage exact = rasterize(scene_, parts, world_from_camera, spec.model);
   cv::Mat depth, light;
   tbb::task_group beside;
   beside.run([&] {
-    exact = rasterize(scene_, parts, world_from_camera, spec.model);
     depth = measureDepth(exact.depth, spec, random(kDepthStream, index));
     light = ambientLight(exact.depth, spec.model);
   });
-  const cv::Mat plain = renderer_->render(parts, world_from_camera);
+  const cv::Mat plain = renderer_->render(parts, world_from_camera, nearest(exact.depth));
   beside.wait();
   const cv::Mat color = measureColor(plain, light, spec, random(kColorStream, index));
 

@@ -18,11 +18,13 @@ class ColorRenderer {
   ColorRenderer(const Scene& scene, const PinholeCamera& camera);
   ~ColorRenderer();
 
-  /// BGR 8 bit, anti-aliased, lit by one lamp and the surroundings; no shadows.
-  cv::Mat render(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera);
-  /// Depth in metres (CV_32F) by the same renderer, at the picture's centres of pixels; good to
-  /// some millimetres from 1 m on, nothing nearer. For checking the exact picture.
-  cv::Mat renderDepth(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera);
+  /// BGR 8 bit, anti-aliased, lit by one lamp and the surroundings; no shadows. Nothing may be nearer than
+  /// `nearest_m` along the optical axis (it would be cut off).
+  cv::Mat render(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera, double nearest_m);
+  /// Depth in metres (CV_32F) by the same renderer, at the picture's centres of pixels; 0: nothing. MRPT's
+  /// depth has few bits: good to some millimetres when nothing is near. For checking the exact picture.
+  cv::Mat renderDepth(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera,
+                      double nearest_m);
 
  private:
   struct Content;
