@@ -143,6 +143,9 @@ AssociationErrors evaluateAssociations(const std::vector<TrueFrame>& truth,
   out.attributed = static_cast<int>(list.size());
   out.unattributed = static_cast<int>(measurements - list.size());
   out.object_of_landmark = majorityObjects(list);
+  std::set<int> objects;
+  for (const auto& a : list) objects.insert(a.object);
+  out.objects = static_cast<int>(objects.size());
   const auto correct = judge(list, out);
   out.correct = static_cast<int>(std::count(correct.begin(), correct.end(), 1));
   if (out.attributed > 0) out.accuracy = static_cast<double>(out.correct) / out.attributed;

@@ -60,7 +60,8 @@ std::string toTable(const AssociationErrors& e) {
           "associations: accuracy %s (%d of %d; needless new %d, wrong landmark %d), of no true object %d\n",
           cell(e.accuracy, e.attributed > 0, "%.4f").c_str(), e.correct, e.attributed, e.needless_new,
           e.wrong_landmark, e.unattributed) +
-      format("identity switches %d, expected calibration error %s\n%-12s %8s %8s %8s\n", e.identity_switches,
+      format("landmarks of %d true objects %d, identity switches %d, expected calibration error %s\n",
+             e.objects, static_cast<int>(e.object_of_landmark.size()), e.identity_switches,
              cell(e.ece, e.with_probability > 0, "%.4f").c_str(), "probability", "count", "mean p",
              "correct");
   for (std::size_t i = 0; i < e.reliability.size(); ++i) {

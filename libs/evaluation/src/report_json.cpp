@@ -74,6 +74,8 @@ void putAssociations(ordered_json& out, const AssociationErrors& e) {
   out["associations_correct"] = e.correct;
   out["associations_needless_new"] = e.needless_new;
   out["associations_wrong_landmark"] = e.wrong_landmark;
+  out["associations_objects"] = e.objects;
+  out["associations_landmarks"] = e.object_of_landmark.size();
   out["association_reliability"] = ordered_json::array();
   for (std::size_t i = 0; i < e.reliability.size(); ++i) {
     const auto& bin = e.reliability[i];

@@ -29,6 +29,7 @@ struct AssociationErrors {
   int correct = 0;       ///< decisions
   int needless_new = 0;  ///< wrong: a new landmark for an object that had one
   int wrong_landmark = 0;
+  int objects = 0;            ///< true objects with measurements; object_of_landmark has their landmarks
   double accuracy = 0;        ///< correct / attributed; 0 without any
   int identity_switches = 0;  ///< consecutive sightings of one true object that went to different landmarks
   std::array<ReliabilityBin, 10> reliability;
