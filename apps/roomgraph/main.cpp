@@ -30,7 +30,8 @@ std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::P
   if (&command != &app || unknown.front().starts_with("-"))
     return "unknown argument '" + unknown.front() + "'";
   std::vector<std::string> known;
-  for (const auto* known_command : app.get_subcommands({})) known.push_back(known_command->get_name());
+  for (const auto* listed : app.get_subcommands({}))
+    if (!listed->get_group().empty()) known.push_back(listed->get_name());
   return "unknown command '" + unknown.front() + "'" + didYouMean(unknown.front(), known) +
          "; known: " + join(known);
 }
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
   roomgraph::addEvaluateCommand(app);
   roomgraph::addSnapshotCommand(app);
   roomgraph::addConfigReferenceCommand(app);
+  roomgraph::addSimulateCommand(app);
 
   try {
     app.parse(argc, argv);

@@ -105,27 +105,45 @@ TEST(LandmarkMap, SizeIsTheMeanOfItsSightings) {
   EXPECT_NEAR(map.find(id)->shape.height, 0.9, 1e-12);
 }
 
-// Bernoulli filter with p(detection | object) = 0.8, p(detection | nothing) = 0.2, prior 0.5.
+// Prior 0.5; a sighting of full score speaks 4 to 1 for the object (exp(gain) = 4), a miss 4 to 1 against it:
+// p(none | object) = 0.2, p(none | nothing) = 0.8.
+const std::string kFourToOne =
+    "birth_existence = 0.5\nscore_gain = 1.3862943611198906\nneutral_score = 0\ndetection_probability = 0.8\n"
+    "false_alarm_probability = 0.2\n";
+
 TEST(LandmarkMap, ExistenceFollowsBayesRule) {
-  LandmarkMap map =
-      mapWith("birth_existence = 0.5\ndetection_probability = 0.8\nfalse_alarm_probability = 0.2");
+  LandmarkMap map = mapWith(kFourToOne);
   const LandmarkId id = born(map, sightingAt(0, 0));
   map.update(sightingAt(0, 0), belongsTo(id));
-  EXPECT_NEAR(map.find(id)->existence, 0.8, 1e-12);  // 0.8 : 0.2
+  EXPECT_NEAR(map.find(id)->existence, 4.0 / 5, 1e-12);
   map.update(sightingAt(0, 0), belongsTo(id));
-  EXPECT_NEAR(map.find(id)->existence, 16.0 / 17, 1e-12);  // 0.64 : 0.04
+  EXPECT_NEAR(map.find(id)->existence, 16.0 / 17, 1e-12);
   map.miss(id);
-  EXPECT_NEAR(map.find(id)->existence, 0.8, 1e-12);  // 0.2 : 0.8 takes back one sighting
+  EXPECT_NEAR(map.find(id)->existence, 4.0 / 5, 1e-12) << "a miss takes back one sighting";
   map.miss(id);
   map.miss(id);
-  EXPECT_NEAR(map.find(id)->existence, 0.2, 1e-12);
+  EXPECT_NEAR(map.find(id)->existence, 1.0 / 5, 1e-12);
   for (int i = 0; i < 50; ++i) map.miss(id);
   EXPECT_NEAR(map.find(id)->existence, 0.01, 1e-12) << "may come back";
+  for (int i = 0; i < 50; ++i) map.update(sightingAt(0, 0), belongsTo(id));
+  EXPECT_LT(map.find(id)->existence, 1) << "may be gone";
   map.miss(LandmarkId{77});  // unknown: nothing happens
 }
 
+TEST(LandmarkMap, PoorSightingSpeaksAgainstTheObject) {
+  LandmarkMap map = mapWith("birth_existence = 0.5\nscore_gain = 2\nneutral_score = 0.4\n");
+  WorldMeasurement poor = sightingAt(0, 0), neutral = sightingAt(0, 0);
+  poor.measurement.proposal.score = 0.1;
+  neutral.measurement.proposal.score = 0.4;
+  const LandmarkId id = born(map, poor);
+  map.update(neutral, belongsTo(id));
+  EXPECT_NEAR(map.find(id)->existence, 0.5, 1e-12);
+  map.update(poor, belongsTo(id));
+  EXPECT_NEAR(map.find(id)->existence, std::exp(-0.6) / (1 + std::exp(-0.6)), 1e-12);
+}
+
 TEST(LandmarkMap, ConfirmedNeedsExistenceAndSightings) {
-  LandmarkMap map = mapWith("birth_existence = 0.5\nconfirm_existence = 0.9\nconfirm_observations = 3");
+  LandmarkMap map = mapWith(kFourToOne + "confirm_existence = 0.9\nconfirm_observations = 3");
   const LandmarkId id = born(map, sightingAt(0, 0));
   map.update(sightingAt(0, 0), belongsTo(id));
   EXPECT_TRUE(map.confirmed().empty()) << "two sightings";
@@ -135,6 +153,24 @@ TEST(LandmarkMap, ConfirmedNeedsExistenceAndSightings) {
   map.miss(id);
   map.miss(id);
   EXPECT_TRUE(map.confirmed().empty()) << "existence " << map.find(id)->existence;
+}
+
+// Footprints of 0.6 x 0.6 m, 0.3 m apart: half of each lies under the other.
+TEST(LandmarkMap, OfTwoThingsInOnePlaceTheBetterSeenIsConfirmed) {
+  const std::string easy = "confirm_existence = 0\nconfirm_observations = 1\nexclusive_overlap = ";
+  for (const auto& [limit, expected] : {std::pair{"0.49", 2u}, std::pair{"0.51", 3u}}) {
+    LandmarkMap map = mapWith(easy + limit);
+    const LandmarkId chair = born(map, sightingAt(0, 0)),
+                     sofa = born(map, sightingAt(0.3, 0, 0, 0.1, "sofa")),
+                     apart = born(map, sightingAt(2, 0));
+    map.update(sightingAt(0.3, 0, 0, 0.1, "sofa"), belongsTo(sofa));
+    const auto kept = map.confirmed();
+    ASSERT_EQ(kept.size(), expected) << limit;
+    EXPECT_EQ(kept.front().id, expected == 3 ? chair : sofa);
+    EXPECT_EQ(kept[kept.size() - 2].id, sofa);
+    EXPECT_EQ(kept.back().id, apart);
+    EXPECT_EQ(map.landmarks().size(), 3u) << "the other one may still win";
+  }
 }
 
 TEST(LandmarkMap, OverlappingLandmarksOfOneClassBecomeOne) {

@@ -27,6 +27,7 @@ inline WorldMeasurement sightingAt(double x, double y, double yaw = 0, double si
   seen.measurement.proposal.model = class_name;
   seen.measurement.proposal.shape = {ShapeKind::kCuboid, 0.6, 0.6, 0.9};
   seen.measurement.proposal.has_yaw = true;
+  seen.measurement.proposal.score = 1;
   seen.world_from_object = poseFromYpr(x, y, 0, yaw, 0, 0);
   seen.covariance = sigma_m * sigma_m * Eigen::Matrix4d::Identity();
   return seen;

@@ -67,9 +67,11 @@ TEST_F(BadInput, TruncatedGzipIsUsedUpToTheDamage) {
 }
 
 TEST_F(BadInput, RawlogWithoutUsableSensors) {
-  test::writeRawlog(folder.file("wheels.rawlog"), recording.records({false, false, true}));
-  expectOneLine(run(folder.file("wheels.rawlog")), 3,
-                AllOf(HasSubstr("wheels.rawlog"), HasSubstr("no usable sensor records")));
+  const auto comment = mrpt::obs::CObservationComment::Create();
+  comment->timestamp = mrpt::Clock::fromDouble(5);
+  test::writeRawlog(folder.file("talk.rawlog"), {comment, comment, comment});
+  expectOneLine(run(folder.file("talk.rawlog")), 3,
+                AllOf(HasSubstr("talk.rawlog"), HasSubstr("no usable sensor records")));
 }
 
 TEST_F(BadInput, MissingExternalImagesAreCountedAndNamed) {

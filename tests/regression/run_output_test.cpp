@@ -142,7 +142,8 @@ TEST_F(RunOutputTest, AnySubsetOfTheSensorsWillDo) {
                                    {{"tracking", "detection"}, 24, 0.02},
                                    {{"tracking", "detection", "odometry"}, 24, 0.02},
                                    {{"lidar"}, 12, 0.05},
-                                   {{"lidar", "tracking"}, 12, 0.06}};  // wheels only: 3 % of 0.9 m
+                                   {{"lidar", "tracking"}, 12, 0.06},  // wheels only: 3 % of 0.9 m
+                                   {{"lidar", "tracking", "detection"}, 24, 0.06}};
   for (const auto& [off, poses, tolerance_m] : cases) {
     std::vector<std::string> settings;
     for (const auto& source : off) settings.push_back(source + ".enabled=false");

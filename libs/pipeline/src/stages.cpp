@@ -102,10 +102,10 @@ void makeObjectStages(Stages& stages, Loader& loader) {
 }
 
 void prepareAll(Stages& stages) {
-  for (Stage* stage : std::initializer_list<Stage*>{
-           stages.rgbd_odometry.get(), stages.scan_matcher.get(), stages.scan_loop_closer.get(),
-           stages.detector.get(), stages.proposal_generator.get(), stages.proposal_selector.get(),
-           stages.associator.get()})
+  for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
+                                                    stages.scan_loop_closer.get(), stages.detector.get(),
+                                                    stages.proposal_generator.get(),
+                                                    stages.proposal_selector.get(), stages.associator.get()})
     if (stage) stage->prepare();
 }
 

@@ -8,7 +8,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
-constexpr double kSamePlace = 0.3;  // IoU with a detection, of whatever label, that says that something is there
+constexpr double kSamePlace =
+    0.3;  // IoU with a detection, of whatever label, that says that something is there
 
 // Share of the depth pixels in the middle of the box that lie clearly in front of the object.
 double hiddenShare(const Frame& frame, const Box2& box, double distance_m, double margin_m) {
@@ -16,7 +17,8 @@ double hiddenShare(const Frame& frame, const Box2& box, double distance_m, doubl
   constexpr int kSteps = 12;
   for (int i = 1; i < kSteps; ++i) {
     for (int j = 1; j < kSteps; ++j) {
-      const float z = frame.depthAt(box.u_min + box.width() * i / kSteps, box.v_min + box.height() * j / kSteps);
+      const float z =
+          frame.depthAt(box.u_min + box.width() * i / kSteps, box.v_min + box.height() * j / kSteps);
       if (z <= 0) continue;
       ++seen;
       hidden += z < distance_m - margin_m;

@@ -10,8 +10,9 @@
 
 namespace roomgraph {
 
-/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place and size,
-/// Bernoulli filter for existence, merging of duplicates. The one owner of landmarks while a run goes on.
+/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place and
+/// size, Bernoulli filter for existence, merging of duplicates. The one owner of landmarks while a run goes
+/// on.
 class LandmarkMap : public Configurable {
  public:
   void declareParameters(ParameterVisitor& visitor) override;

@@ -16,8 +16,8 @@ struct PosePrior {
 
 struct GridRefinement {
   Pose2 grid_from_scan;
-  /// Of the summed squared residuals by (x, y, yaw) of the pose: directions from the surfaces (surfaceCurvature),
-  /// size from the grid; the prior is not in it.
+  /// Of the summed squared residuals by (x, y, yaw) of the pose: directions from the surfaces
+  /// (surfaceCurvature), size from the grid; the prior is not in it.
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
   double residual_variance = 1;  ///< mean of (1 - p)^2
   double explained = 0;          ///< share of the points on a surface of the grid
@@ -34,9 +34,10 @@ struct GridCost {
 GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& grid_from_scan,
                   const PosePrior& prior);
 
-/// Mean over the points of J^T N J, J the derivative of the point by (x, y, yaw) of the pose and N the projection on
-/// the normal of the surface around it (rounder where they form no line, none where they stand alone). Free of the cells' texture, which a grid's
-/// own curvature mistakes for hold along a corridor. Scaled to the trace in (x, y) of `grid_curvature`.
+/// Mean over the points of J^T N J, J the derivative of the point by (x, y, yaw) of the pose and N the
+/// projection on the normal of the surface around it (rounder where they form no line, none where they stand
+/// alone). Free of the cells' texture, which a grid's own curvature mistakes for hold along a corridor.
+/// Scaled to the trace in (x, y) of `grid_curvature`.
 Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_scan,
                                  const Eigen::Matrix3d& grid_curvature);
 

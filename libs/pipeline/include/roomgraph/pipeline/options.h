@@ -19,9 +19,9 @@ struct GeneralOptions : Configurable {
 
 /// What a source of motion is trusted with: standard deviations grow with the movement.
 struct MotionNoise {
-  double floor_m = 0.01, per_m = 0.02;          ///< translation
-  double floor_rad = 0.003, per_rad = 0.02;     ///< rotation
-  double rad_per_m = 0.01;                      ///< rotation, by distance driven
+  double floor_m = 0.01, per_m = 0.02;       ///< translation
+  double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
+  double rad_per_m = 0.01;                   ///< rotation, by distance driven
   void declare(ParameterVisitor& v);
 };
 
@@ -69,8 +69,9 @@ struct BackendOptions : Configurable {
   double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
   double closure_robust_width = 1.0, landmark_robust_width = 1.0;
   double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
+  double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
-  double landmark_information_share = 0.1;
+  double landmark_information_share = 0.01;
   void declareParameters(ParameterVisitor& v) override;
 };
 

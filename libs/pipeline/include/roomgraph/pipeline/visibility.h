@@ -10,9 +10,9 @@
 
 namespace roomgraph {
 
-/// Whether the detector ought to have found a landmark in this frame and did not: well inside the image, near and large
-/// enough, not hidden behind something that the depth image shows in front of it, and no detection where it stands (one
-/// with another label is a confusion, not a miss).
+/// Whether the detector ought to have found a landmark in this frame and did not: well inside the image, near
+/// and large enough, not hidden behind something that the depth image shows in front of it, and no detection
+/// where it stands (one with another label is a confusion, not a miss).
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
 

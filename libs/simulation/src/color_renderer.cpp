@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/simulation/color_renderer.h"
+
+#include <mrpt/opengl/CFBORender.h>
+#include <mrpt/opengl/CSetOfTexturedTriangles.h>
+
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/simulation/texture.h"
+
+namespace roomgraph {
+namespace {
+
+using mrpt::opengl::CSetOfTexturedTriangles;
+constexpr float kNear_m =
+    0.2f;  ///< the depth buffer has few bits: near things would cost thin ones their place in front
+constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
+
+mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
+  mrpt::opengl::TTriangle out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto& vertex = out.vertices[i];
+    vertex.xyzrgba.pt = {triangle.position[i].x(), triangle.position[i].y(), triangle.position[i].z()};
+    vertex.normal = {triangle.normal[i].x(), triangle.normal[i].y(), triangle.normal[i].z()};
+    vertex.uv = {triangle.uv[i].x(), triangle.uv[i].y()};
+  }
+  return out;
+}
+
+mrpt::img::TCamera finePinhole(const PinholeCamera& camera) {
+  mrpt::img::TCamera out;
+  out.ncols = static_cast<std::uint32_t>(kFine * camera.width);
+  out.nrows = static_cast<std::uint32_t>(kFine * camera.height);
+  // OpenGL counts from the picture's corner, the pinhole model from the centre of the first pixel.
+  out.setIntrinsicParamsFromValues(kFine * camera.fx, kFine * camera.fy, kFine * (camera.cx + 0.5),
+                                   kFine * (camera.cy + 0.5));
+  return out;
+}
+
+}  // namespace
+
+struct ColorRenderer::Content {
+  Content(const Scene& scene, const PinholeCamera& camera);
+  CSetOfTexturedTriangles::Ptr add(int material);
+  void place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera);
+
+  const Scene& scene;
+  PinholeCamera camera;
+  std::vector<cv::Mat> textures;
+  std::unique_ptr<mrpt::opengl::COpenGLScene> graph = std::make_unique<mrpt::opengl::COpenGLScene>();
+  std::vector<std::pair<std::size_t, CSetOfTexturedTriangles::Ptr>> moving;  ///< part, drawable
+  std::unique_ptr<mrpt::opengl::CFBORender> renderer;
+};
+
+CSetOfTexturedTriangles::Ptr ColorRenderer::Content::add(int material) {
+  auto out = CSetOfTexturedTriangles::Create();
+  out->assignImage(mrpt::img::CImage(textures[static_cast<std::size_t>(material)], mrpt::img::DEEP_COPY));
+  out->enableTextureLinearInterpolation(true);
+  graph->insert(out);
+  return out;
+}
+
+ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
+    : scene(source), camera(model) {
+  for (const auto& material : scene.materials()) textures.push_back(textureOf(material));
+  std::map<int, CSetOfTexturedTriangles::Ptr> fixed;
+  for (std::size_t i = 0; i < scene.parts().size(); ++i) {
+    const auto& part = scene.parts()[i];
+    std::map<int, CSetOfTexturedTriangles::Ptr> own;
+    auto& drawables = part.person < 0 ? fixed : own;
+    for (const auto& triangle : part.mesh.triangles) {
+      auto& drawable = drawables[triangle.material];
+      if (!drawable) drawable = add(triangle.material);
+      drawable->insertTriangle(toMrpt(triangle));
+    }
+    for (const auto& [material, drawable] : own) moving.emplace_back(i, drawable);
+  }
+  auto& light = graph->getViewport()->lightParameters();
+  light.ambient = {0.66f, 0.66f, 0.66f, 1.f};
+  light.diffuse = {0.42f, 0.42f, 0.42f, 1.f};
+  light.specular = {0.f, 0.f, 0.f, 1.f};
+  light.direction = mrpt::math::TVector3Df(-0.45f, 0.3f, -0.84f).unitarize();
+  graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
+  try {
+    renderer = std::make_unique<mrpt::opengl::CFBORender>(static_cast<unsigned>(kFine * camera.width),
+                                                          static_cast<unsigned>(kFine * camera.height));
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    throw RunError(
+        "no off-screen renderer (EGL with software OpenGL: packages libegl1 and libgl1-mesa-dri): " +
+        what.substr(0, what.find("Call stack")));
+  }
+}
+
+void ColorRenderer::Content::place(const std::vector<Pose3>& world_from_part,
+                                   const Pose3& world_from_camera) {
+  for (const auto& [part, drawable] : moving) drawable->setPose(toMrpt(world_from_part[part]));
+  mrpt::opengl::CCamera view;
+  view.set6DOFMode(true);
+  view.setProjectiveFromPinhole(finePinhole(camera));
+  view.setPose(toMrpt(world_from_camera));
+  renderer->setCamera(*graph, view);
+}
+
+ColorRenderer::ColorRenderer(const Scene& scene, const PinholeCamera& camera)
+    : content_(std::make_unique<Content>(scene, camera)) {}
+ColorRenderer::~ColorRenderer() = default;
+
+cv::Mat ColorRenderer::render(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera) {
+  content_->place(world_from_part, world_from_camera);
+  mrpt::img::CImage fine;
+  content_->renderer->render_RGB(*content_->graph, fine);
+  cv::Mat out;
+  cv::resize(fine.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), out,
+             {content_->camera.width, content_->camera.height}, 0, 0, cv::INTER_AREA);
+  return out;
+}
+
+cv::Mat ColorRenderer::renderDepth(const std::vector<Pose3>& world_from_part,
+                                   const Pose3& world_from_camera) {
+  content_->place(world_from_part, world_from_camera);
+  // MRPT reads the depth buffer back with few bits: the nearer the clipping plane, the coarser they are far
+  // away.
+  content_->graph->getViewport()->setViewportClipDistances(1.f, 60.f);
+  mrpt::math::CMatrixFloat fine;
+  content_->renderer->render_depth(*content_->graph, fine);
+  content_->graph->getViewport()->setViewportClipDistances(kNear_m, 60.f);
+  cv::Mat out(content_->camera.height, content_->camera.width, CV_32F);
+  // The centre of a pixel is the common corner of its fine pixels: their mean depth.
+  for (int v = 0; v < out.rows; ++v) {
+    for (int u = 0; u < out.cols; ++u) {
+      float sum = 0;
+      for (int k = 0; k < kFine * kFine; ++k) sum += fine(kFine * v + k / kFine, kFine * u + k % kFine);
+      out.at<float>(v, u) = sum / (kFine * kFine);
+    }
+  }
+  return out;
+}
+
+}  // namespace roomgraph

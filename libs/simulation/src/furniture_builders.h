@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "roomgraph/simulation/mesh_builder.h"
+
+namespace roomgraph {
+
+using Rgb = std::array<double, 3>;
+
+/// What a builder gets: it builds about size (w, d, h), x to the front, bottom at z = 0; the caller fits it
+/// exactly.
+struct BuildRequest {
+  MeshBuilder& mesh;
+  double w, d, h;
+  Rgb color;
+  int variant;
+};
+
+// Seats
+void buildSwivelChair(const BuildRequest& request);
+void buildSofa(const BuildRequest& request);
+void buildWoodenChair(const BuildRequest& request);
+// Tables and cases
+void buildDesk(const BuildRequest& request);
+void buildShelf(const BuildRequest& request);
+void buildCabinet(const BuildRequest& request);
+void buildBlock(const BuildRequest& request);
+// Smaller things
+void buildPlant(const BuildRequest& request);
+void buildMonitor(const BuildRequest& request);
+void buildCardboardBox(const BuildRequest& request);
+void buildBin(const BuildRequest& request);
+void buildWhiteboard(const BuildRequest& request);
+
+/// Colour made lighter (gain > 1) or darker.
+Rgb toned(const Rgb& color, double gain);
+
+}  // namespace roomgraph

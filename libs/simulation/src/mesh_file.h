@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+
+#include "roomgraph/simulation/mesh.h"
+
+namespace roomgraph {
+
+/// Reads a mesh file (OBJ with materials and textures, or what else MRPT's assimp model reads). Files have y
+/// up and z to the front, as furniture catalogues do; the mesh has x to the front and z up, in the file's
+/// units. Throws InputError when it cannot be read.
+Mesh readMeshFile(const std::filesystem::path& file, MaterialList& materials);
+
+}  // namespace roomgraph
