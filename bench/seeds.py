@@ -116,11 +116,13 @@ def sequence(program, world, seed, folder):
     return target
 
 
-def evaluations(truth, run):
-    """Arguments of each evaluation whose files are there. Landmarks and map are aligned by the trajectories."""
-    path, boxes = truth / "groundtruth_robot.txt", truth / "boxes.jsonl"
-    aligned = ["--truth-trajectory", path, "--trajectory", run / "trajectory.tum"]
-    yield "trajectory", [path, run / "trajectory.tum"]
+def evaluations(truth, run, handheld):
+    """Arguments of each evaluation whose files are there. Landmarks and map are aligned by the trajectories; without a
+    robot these are the camera's."""
+    path = truth / ("groundtruth.txt" if handheld else "groundtruth_robot.txt")
+    estimate, boxes = run / ("trajectory_camera.tum" if handheld else "trajectory.tum"), truth / "boxes.jsonl"
+    aligned = ["--truth-trajectory", path, "--trajectory", estimate]
+    yield "trajectory", [path, estimate]
     if (run / "landmarks.json").exists():
         images = ["--truth-boxes", boxes, "--associations", run / "associations.jsonl"] if boxes.exists() else []
         yield "objects", [truth / "objects.json", run / "landmarks.json", *images, *aligned]
@@ -130,7 +132,7 @@ def evaluations(truth, run):
         yield "map", [truth / "map_truth.yaml", run / "map.yaml", *aligned]
 
 
-def measure(program, truth, run, settings, threads):
+def measure(program, truth, run, handheld, settings, threads):
     """The figures of one run by report and key, and what failed."""
     shutil.rmtree(run, ignore_errors=True)
     rawlog = next(truth.glob("*.rawlog"), None)
@@ -144,7 +146,7 @@ def measure(program, truth, run, settings, threads):
     summary = json.loads((run / "summary.json").read_text())
     reports = {"run": {"seconds": time.monotonic() - started, "peak_memory_mb": summary.get("peak_memory_mb")}}
     problems = []
-    for name, arguments in evaluations(truth, run):
+    for name, arguments in evaluations(truth, run, handheld):
         report = run / f"{name}_score.json"
         problem = program.call("evaluate", name, *arguments, "--json", report)
         if problem:
@@ -198,11 +200,12 @@ def main(argv=None):
     everything, tables = {}, []
     for world in arguments.worlds:
         results = {name: [] for name in variants}
+        handheld = "robot" not in json.loads(world.read_text())
         for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds):
             truth = sequence(program, world, seed, out / "sequences")
             for name, settings in variants.items():
                 run = out / "runs" / world.stem / name / f"seed_{seed}"
-                figures, problems = measure(program, truth, run, arguments.set + settings, arguments.threads)
+                figures, problems = measure(program, truth, run, handheld, arguments.set + settings, arguments.threads)
                 results[name].append(figures)
                 print(f"{world.stem}, {name}, seed {seed}: {len(figures)} figures", *problems, sep="\n  ", file=sys.stderr, flush=True)
         everything[world.stem] = results

@@ -36,7 +36,8 @@ elif a[0] == "run":
     out.mkdir(parents=True)
     (out / "summary.json").write_text(json.dumps({{"peak_memory_mb": 100}}))
     (out / "detections.jsonl").write_text("")
-    (out / "trajectory.tum").write_text(str(seed / 10 * (2 if "lidar.enabled=false" in a else 1)))
+    for name in ("trajectory.tum", "trajectory_camera.tum"):
+        (out / name).write_text(str(seed / 10 * (2 if "lidar.enabled=false" in a else 1)))
 elif a[:2] == ["evaluate", "trajectory"]:
     pathlib.Path(a[-1]).write_text(json.dumps({{"ate_rmse_m": float(pathlib.Path(a[3]).read_text()), "coverage": None}}))
 """
@@ -52,7 +53,7 @@ class Seeds(unittest.TestCase):
         self.program.write_text(FAKE.format(python=sys.executable, log=str(self.log)))
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
         self.world = self.folder / "lab.json"
-        self.world.write_text("{}")
+        self.world.write_text('{"robot": {}}')
 
     def run_seeds(self, *arguments):
         out, err = io.StringIO(), io.StringIO()
@@ -80,7 +81,7 @@ class Seeds(unittest.TestCase):
         self.assertEqual(sum("--set x.b=1 --set x.c=2" in line for line in self.calls("run")), 2)
         self.run_seeds("--seeds", "3")
         self.assertEqual(len(self.calls("simulate")), 3)
-        self.world.write_text('{"changed": 1}')
+        self.world.write_text('{"robot": {"changed": 1}}')
         self.run_seeds("--seeds", "1")
         self.assertEqual(len(self.calls("simulate")), 4)
 
@@ -91,6 +92,11 @@ class Seeds(unittest.TestCase):
         self.assertIn("| 3: 0.200 (0.150 .. 0.300) [0.100 .. 0.400] |", out)
         self.assertIn("no luck", err)
         self.assertEqual(sum("x.always=1" in line for line in self.calls("run")), 8)
+
+    def test_without_robot_the_camera_is_compared(self):
+        self.world.write_text('{"handheld": {}}')
+        self.run_seeds("--seeds", "1")
+        self.assertRegex(self.calls("evaluate trajectory")[0], r"groundtruth\.txt \S+/trajectory_camera\.tum --json")
 
     def test_parts(self):
         self.assertEqual(seeds.parse_variant("n=a.b=1,c.d=x,y"), ("n", ["a.b=1", "c.d=x,y"]))
