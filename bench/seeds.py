@@ -9,6 +9,7 @@ A table of ablations is one command, for instance
 
     bench/seeds.py worlds/lab.json --variants no_lidar=lidar.enabled=false no_loops=tracking.loop_closing=false,lidar.loop_closing=false
 
+Worlds with simulated detections need --set detection.class=RecordedDetector, others --set detection.models=NETWORK.onnx.
 The variant `default` (nothing but --set) always comes first. Simulated sequences are kept in DIR/sequences and used again
 by every variant and every later call, until the world file or the simulator changes. DIR/figures.json keeps each seed's figures.
 """
@@ -133,7 +134,7 @@ def evaluations(truth, run, handheld):
 
 
 def measure(program, truth, run, handheld, settings, threads):
-    """The figures of one run by report and key, and what failed."""
+    """The figures of one run by report and key; what failed, and why the run did without something."""
     shutil.rmtree(run, ignore_errors=True)
     rawlog = next(truth.glob("*.rawlog"), None)
     if rawlog is None:
@@ -145,7 +146,7 @@ def measure(program, truth, run, handheld, settings, threads):
         return {}, [problem]
     summary = json.loads((run / "summary.json").read_text())
     reports = {"run": {"seconds": time.monotonic() - started, "peak_memory_mb": summary.get("peak_memory_mb")}}
-    problems = []
+    problems = [f"{count} x {reason}" for reason, count in summary.get("reasons", {}).items()]
     for name, arguments in evaluations(truth, run, handheld):
         report = run / f"{name}_score.json"
         problem = program.call("evaluate", name, *arguments, "--json", report)

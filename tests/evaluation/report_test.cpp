@@ -49,6 +49,21 @@ TEST(Report, WhatCannotBeComputedIsNull) {
   EXPECT_TRUE(o.at("recall").is_null());
   EXPECT_TRUE(o.at("iou3d_mean").is_null());
   EXPECT_EQ(o.at("correct"), 0);
+  const json d = json::parse(toJson(DetectionErrors{}));
+  for (const auto* name : {"precision", "recall", "f1", "ap"}) EXPECT_TRUE(d.at(name).is_null()) << name;
+  EXPECT_TRUE(d.at("mean").at("ap").is_null());
+  const json m = json::parse(toJson(MapErrors{}));
+  for (const auto* name : {"precision", "recall", "f1", "agreement", "wall_distance_mean_m",
+                           "wall_distance_median_m", "wall_distance_p95_m", "wall_distance_reverse_p95_m"})
+    EXPECT_TRUE(m.at(name).is_null()) << name;
+  const json a = json::parse(toJson(evaluateObjects({}, {}), AssociationErrors{}));
+  EXPECT_TRUE(a.at("association_accuracy").is_null());
+  EXPECT_TRUE(a.at("association_ece").is_null());
+  EXPECT_TRUE(a.at("association_reliability").at(9).at("correct_share").is_null());
+  EXPECT_EQ(a.at("association_reliability").at(9).at("to"), 1.0);
+  EXPECT_TRUE(a.at("recall").is_null()) << "the landmarks' figures are in the same object";
+  EXPECT_THAT(toTable(AssociationErrors{}) + toTable(MapErrors{}) + toTable(DetectionErrors{}),
+              HasSubstr(" - "));
 }
 
 TEST(Report, ObjectFiguresAndVerdicts) {

@@ -34,7 +34,7 @@ elif a[0] == "run":
         print("first line\\nno luck", file=sys.stderr)
         sys.exit(1)
     out.mkdir(parents=True)
-    (out / "summary.json").write_text(json.dumps({{"peak_memory_mb": 100}}))
+    (out / "summary.json").write_text(json.dumps({{"peak_memory_mb": 100, "reasons": {{"no network": 7}}}}))
     (out / "detections.jsonl").write_text("")
     for name in ("trajectory.tum", "trajectory_camera.tum"):
         (out / name).write_text(str(seed / 10 * (2 if "lidar.enabled=false" in a else 1)))
@@ -65,11 +65,12 @@ class Seeds(unittest.TestCase):
         return [line for line in self.log.read_text().splitlines() if line.startswith(command)]
 
     def test_median_and_spread_of_each_variant(self):
-        code, out, _ = self.run_seeds("--seeds", "5", "--variants", "no_lidar=lidar.enabled=false")
+        code, out, err = self.run_seeds("--seeds", "5", "--variants", "no_lidar=lidar.enabled=false")
         self.assertEqual(code, 0)
         self.assertIn("| figure | default | no_lidar |", out)
         self.assertIn("| ATE, m | 0.300 (0.200 .. 0.400) [0.100 .. 0.500] | 0.600 (0.400 .. 0.800) [0.200 .. 1.000] |", out)
         self.assertNotIn("share of the time", out, "null is no figure")
+        self.assertIn("7 x no network", err)
         self.assertEqual((self.folder / "out/table.md").read_text().strip(), out.strip())
         figures = json.loads((self.folder / "out/figures.json").read_text())
         self.assertEqual([f["trajectory.ate_rmse_m"] for f in figures["lab"]["default"]], [0.1, 0.2, 0.3, 0.4, 0.5])
