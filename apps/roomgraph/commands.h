@@ -6,14 +6,15 @@
 
 namespace roomgraph {
 
-// Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback reports
-// failure by throwing roomgraph::Error, whose exit code main() returns.
+// Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback
+// reports failure by throwing roomgraph::Error, whose exit code main() returns.
 void addImportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 
 void addRunCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
+void addConfigReferenceCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 
 }  // namespace roomgraph

@@ -9,11 +9,15 @@
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/evaluation/association_error.h"
+#include "roomgraph/evaluation/detection_error.h"
+#include "roomgraph/evaluation/map_error.h"
 #include "roomgraph/evaluation/object_error.h"
 #include "roomgraph/evaluation/relations.h"
 #include "roomgraph/evaluation/report.h"
 #include "roomgraph/evaluation/trajectory_error.h"
 #include "roomgraph/evaluation/trajectory_file.h"
+#include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
 namespace {
@@ -26,13 +30,35 @@ TrajectoryFile readAndWarn(const std::string& file) {
   return read;
 }
 
-template <class Errors>
-void report(const Errors& errors, const std::string& json_file) {
-  std::cout << toTable(errors);
+template <class... Errors>
+void report(const std::string& json_file, const Errors&... errors) {
+  (std::cout << ... << toTable(errors));
   if (json_file.empty()) return;
   std::ofstream out(json_file);
-  out << toJson(errors);
+  out << toJson(errors...);
   if (!out.flush()) throw RunError(json_file + ": cannot be written");
+}
+
+struct PathArguments {
+  std::string truth, estimate;
+};
+
+// Options that bring a map into the world of the truth by the trajectories of both.
+void addPaths(CLI::App& command, PathArguments& paths) {
+  auto* truth = command.add_option("--truth-trajectory", paths.truth, "Align by trajectories: truth");
+  auto* estimate = command.add_option("--trajectory", paths.estimate, "Align by trajectories: the map's");
+  truth->needs(estimate);
+  estimate->needs(truth);
+}
+
+Pose2 truthFromMap(const PathArguments& paths) {
+  if (paths.estimate.empty()) return {};
+  TrajectoryOptions association;
+  association.interpolate_truth = true;
+  const auto pairs =
+      associate(readAndWarn(paths.truth).trajectory, readAndWarn(paths.estimate).trajectory, association);
+  if (pairs.empty()) throw RunError(paths.estimate + " has no pose within the time of " + paths.truth);
+  return alignPlanar(pairs);
 }
 
 void addTrajectory(CLI::App& parent) {
@@ -66,7 +92,7 @@ void addTrajectory(CLI::App& parent) {
     a->options.align = !a->unaligned;
     const auto truth = readAndWarn(a->truth), estimate = readAndWarn(a->estimate);
     const auto errors = evaluateTrajectory(truth.trajectory, estimate.trajectory, a->options);
-    report(errors, a->json);
+    report(a->json, errors);
     if (errors.pairs == 0)
       throw RunError("no stamp of " + a->estimate + " is within " +
                      std::to_string(a->options.max_difference_s) + " s of one in " + a->truth);
@@ -88,15 +114,17 @@ void addRelations(CLI::App& parent) {
   command->callback([a] {
     const auto relations = readRelations(a->relations);
     const auto errors = evaluateRelations(relations, readAndWarn(a->estimate).trajectory, a->options);
-    report(errors, a->json);
+    report(a->json, errors);
     if (errors.used == 0)
       throw RunError(a->estimate + " has poses for none of the relations in " + a->relations);
   });
 }
 
 struct ObjectArguments {
-  std::string truth, landmarks, json, boxes, truth_trajectory, trajectory, database;
+  std::string truth, landmarks, json, boxes, associations, database;
+  PathArguments paths;
   ObjectOptions options;
+  AssociationOptions association;
   VisibilityRule rule;
 };
 
@@ -104,15 +132,14 @@ void runObjects(ObjectArguments& a) {
   const auto truth = readObjects(a.truth), landmarks = readObjects(a.landmarks);
   if (!a.database.empty()) a.options.classes = classRules(ObjectDatabase::fromFile(a.database));
   if (!a.boxes.empty()) a.options.seen = readSeenObjects(a.boxes, a.rule);
-  if (!a.trajectory.empty()) {
-    TrajectoryOptions association;
-    association.interpolate_truth = true;
-    const auto pairs = associate(readAndWarn(a.truth_trajectory).trajectory,
-                                 readAndWarn(a.trajectory).trajectory, association);
-    if (pairs.empty()) throw RunError(a.trajectory + " has no pose within the time of " + a.truth_trajectory);
-    a.options.truth_from_map = alignPlanar(pairs);
+  a.options.truth_from_map = truthFromMap(a.paths);
+  const auto errors = evaluateObjects(truth, landmarks, a.options);
+  if (a.associations.empty()) {
+    report(a.json, errors);
+  } else {
+    report(a.json, errors,
+           evaluateAssociations(readTrueFrames(a.boxes), readAssociations(a.associations), a.association));
   }
-  report(evaluateObjects(truth, landmarks, a.options), a.json);
 }
 
 void addObjects(CLI::App& parent) {
@@ -142,15 +169,85 @@ void addObjects(CLI::App& parent) {
   command->add_option("--max-depth", a->rule.max_depth_m, "... and nearer, m")
       ->needs(boxes)
       ->capture_default_str();
-  auto* truth_path =
-      command->add_option("--truth-trajectory", a->truth_trajectory, "Align by trajectories: truth");
-  auto* path = command->add_option("--trajectory", a->trajectory, "Align by trajectories: the map's");
-  truth_path->needs(path);
-  path->needs(truth_path);
+  command
+      ->add_option("--associations", a->associations,
+                   "associations.jsonl: also judges each decision of the data association")
+      ->needs(boxes);
+  command->add_option("--min-iou", a->association.min_iou, "Of a measurement and the true box it belongs to")
+      ->needs("--associations")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  addPaths(*command, a->paths);
   command->footer(
       "Example:\n  roomgraph evaluate objects lab_a/objects.json OUT/landmarks.json \\\n"
-      "      --truth-boxes lab_a/boxes.jsonl --json objects_score.json");
+      "      --truth-boxes lab_a/boxes.jsonl --associations OUT/associations.jsonl --json "
+      "objects_score.json");
   command->callback([a] { runObjects(*a); });
+}
+
+void addDetections(CLI::App& parent) {
+  struct Arguments {
+    std::string truth, detections, json;
+    DetectionOptions options;
+  };
+  auto* command = parent.add_subcommand("detections", "Detected against true boxes: precision, recall, AP");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("truth", a->truth, "True boxes: boxes.jsonl")->required();
+  command->add_option("detections", a->detections, "Detected boxes: detections.jsonl")->required();
+  command->add_option("--json", a->json, "Write the figures here, too");
+  command->add_option("--iou", a->options.min_iou, "Least IoU of a detection and the true box it finds")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  command->add_option("--min-score", a->options.min_score, "Weaker detections are not looked at")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--min-visible", a->options.min_visible,
+                   "True boxes that count: with a larger visible share ...")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--min-height-px", a->options.min_height_px, "... and higher, px")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--max-difference", a->options.max_difference_s, "Largest difference of paired stamps, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->footer(
+      "Example:\n  roomgraph evaluate detections lab_a/boxes.jsonl OUT/detections.jsonl --iou 0.5");
+  command->callback([a] {
+    const auto errors =
+        evaluateDetections(readTrueFrames(a->truth), readDetections(a->detections), a->options);
+    report(a->json, errors);
+    if (errors.frames == 0) throw RunError(a->detections + " has no frame in common with " + a->truth);
+  });
+}
+
+void addMap(CLI::App& parent) {
+  struct Arguments {
+    std::string truth, map, json;
+    PathArguments paths;
+    MapOptions options;
+  };
+  auto* command = parent.add_subcommand("map", "Occupancy map: agreement, distance of the walls");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("truth", a->truth, "True map: map_truth.yaml")->required();
+  command->add_option("map", a->map, "Estimated map: map.yaml")->required();
+  command->add_option("--json", a->json, "Write the figures here, too");
+  command
+      ->add_option("--tolerance", a->options.tolerance_cells,
+                   "How far an occupied cell may be from one of the other map, cells")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  addPaths(*command, a->paths);
+  command->footer(
+      "Example:\n  roomgraph evaluate map lab_a/map_truth.yaml OUT/map.yaml --json map_score.json");
+  command->callback([a] {
+    a->options.truth_from_map = truthFromMap(a->paths);
+    const auto errors = evaluateMap(loadOccupancyRos(a->truth), loadOccupancyRos(a->map), a->options);
+    report(a->json, errors);
+    if (errors.known_in_both == 0) throw RunError(a->map + " knows no place that " + a->truth + " knows");
+  });
 }
 
 }  // namespace
@@ -162,10 +259,14 @@ void addEvaluateCommand(CLI::App& app) {
       "Examples:\n"
       "  roomgraph evaluate trajectory groundtruth.txt OUT/trajectory_camera.tum\n"
       "  roomgraph evaluate relations intel.relations OUT/trajectory.tum --json relations.json\n"
-      "  roomgraph evaluate objects objects.json OUT/landmarks.json --truth-boxes boxes.jsonl");
+      "  roomgraph evaluate objects objects.json OUT/landmarks.json --truth-boxes boxes.jsonl\n"
+      "  roomgraph evaluate detections boxes.jsonl OUT/detections.jsonl\n"
+      "  roomgraph evaluate map map_truth.yaml OUT/map.yaml");
   addTrajectory(*command);
   addRelations(*command);
   addObjects(*command);
+  addDetections(*command);
+  addMap(*command);
 }
 
 }  // namespace roomgraph

@@ -1,10 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <iostream>
+#include <sstream>
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/suggest.h"
 #include "roomgraph/observations/register_classes.h"
+
+namespace roomgraph {
+namespace {
+
+// Messages of libraries may have line breaks; whoever reads our errors line by line must not lose a part.
+std::string oneLine(const std::string& text) {
+  std::istringstream in(text);
+  std::string out;
+  for (std::string word; in >> word;) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+int fail(const std::string& message, int exit_code) {
+  std::cerr << "roomgraph: " << oneLine(message) << "\n";
+  return exit_code;
+}
+
+std::string problemOf(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
+  const auto unknown = app.remaining(true);
+  if (unknown.empty()) return error.what();
+  if (&command != &app || unknown.front().starts_with("-"))
+    return "unknown argument '" + unknown.front() + "'";
+  std::vector<std::string> known;
+  for (const auto* listed : app.get_subcommands({}))
+    if (!listed->get_group().empty()) known.push_back(listed->get_name());
+  return "unknown command '" + unknown.front() + "'" + didYouMean(unknown.front(), known) +
+         "; known: " + join(known);
+}
+
+// One line: what is wrong, and the usage of the command that was meant.
+int failUsage(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = &app;
+  std::string name = app.get_name();
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    name += " " + command->get_name();
+  }
+  return fail(problemOf(app, *command, error) + ". " + CLI::Formatter().make_usage(command, name) +
+                  " (more: " + name + " --help)",
+              2);
+}
+
+}  // namespace
+}  // namespace roomgraph
 
 int main(int argc, char** argv) {
   CLI::App app{"Object-level semantic SLAM on MRPT rawlogs (RGB-D, 2D lidar, odometry).", "roomgraph"};
@@ -14,22 +60,20 @@ int main(int argc, char** argv) {
   roomgraph::observations::registerClasses();
   roomgraph::addImportCommand(app);
   roomgraph::addInfoCommand(app);
-
   roomgraph::addRunCommand(app);
   roomgraph::addEvaluateCommand(app);
   roomgraph::addSnapshotCommand(app);
+  roomgraph::addConfigReferenceCommand(app);
   roomgraph::addSimulateCommand(app);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return error.get_exit_code() == 0 ? app.exit(error) : roomgraph::failUsage(app, error);
   } catch (const roomgraph::Error& error) {
-    std::cerr << "roomgraph: " << error.what() << "\n";
-    return error.exit_code;
+    return roomgraph::fail(error.what(), error.exit_code);
   } catch (const std::exception& error) {
-    std::cerr << "roomgraph: internal error: " << error.what() << "\n";
-    return 1;
+    return roomgraph::fail(std::string("internal error: ") + error.what(), 1);
   }
   return 0;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include <tbb/global_control.h>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
-#include <tbb/global_control.h>
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
@@ -34,9 +36,19 @@ struct Replay {
   bool stopped = false;
 };
 
+std::string rateText(int records, double span_s, std::chrono::steady_clock::time_point started) {
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  char text[96];
+  std::snprintf(text, sizeof text, "%.1f s replayed, %.0f records/s, %.1f x real time", span_s, records / elapsed,
+                span_s / elapsed);
+  return text;
+}
+
 Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sorter, SemanticSlam& slam) {
   Replay done;
-  Progress progress(options.quiet ? nullptr : &std::cerr, "replay", "%", 100);
+  Progress progress(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
+  const auto started = std::chrono::steady_clock::now();
+  int records = 0;
   std::optional<double> start;
   bool ended = false;
   while (!interrupted) {
@@ -56,7 +68,7 @@ Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sor
     if (options.until_s > 0 && t - *start > options.until_s) break;
     slam.process(*record);
     done.last_t = t;
-    progress.update(100 * reader.progress());
+    progress.update(reader.progress(), rateText(++records, t - *start, started));
   }
   progress.finish();
   done.stopped = interrupted != 0;
@@ -64,16 +76,18 @@ Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sor
   return done;
 }
 
-void printSummary(const RunOptions& options, const Replay& replayed, const SlamResult& result, double seconds) {
+void printSummary(const RunOptions& options, const Replay& replayed, const SlamResult& result,
+                  double seconds) {
   const auto& counts = result.counts;
   const double span = replayed.last_t - replayed.first_t;
-  std::cout << counts.frames << " frames (" << counts.frames_lost << " not tracked), " << counts.scans << " scans ("
-            << counts.scans_unmatched << " not matched), " << counts.odometry << " odometry readings; "
-            << counts.key_poses << " key poses, " << counts.loop_closures << " loop closures, "
-            << result.map.landmarks.size() << " objects\n";
+  std::cout << counts.frames << " frames (" << counts.frames_lost << " not tracked), " << counts.scans
+            << " scans (" << counts.scans_unmatched << " not matched), " << counts.odometry
+            << " odometry readings; " << counts.key_poses << " key poses, " << counts.loop_closures
+            << " loop closures, " << result.map.landmarks.size() << " objects\n";
   std::cout << span << " s of data in " << seconds << " s\n";
   for (const auto& [reason, count] : counts.reasons) std::cout << "  " << count << " x " << reason << "\n";
-  for (const auto& [reason, count] : replayed.read.skipped) std::cout << "  skipped " << count << " x " << reason << "\n";
+  for (const auto& [reason, count] : replayed.read.skipped)
+    std::cout << "  skipped " << count << " x " << reason << "\n";
   if (!replayed.read.warning.empty()) std::cerr << "roomgraph: warning: " << replayed.read.warning << "\n";
   if (replayed.stopped) std::cerr << "roomgraph: interrupted; the results cover what was replayed\n";
   std::cout << "results in " << options.output << "\n";
@@ -88,8 +102,8 @@ void run(const RunOptions& options) {
   for (const auto& assignment : options.overrides) config.override(assignment);
   auto stages = makeStages(config, config_file.parent_path());
   const ObjectDatabase database = stages->database;
-  RawlogReader reader(options.input,
-                      {stages->tracking.enabled || stages->detection.enabled, stages->lidar.enabled, stages->odometry.enabled});
+  RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
+                                      stages->lidar.enabled, stages->odometry.enabled});
   RecordSorter sorter(stages->general.lookahead_s);
   SemanticSlam slam(std::move(stages));
   auto output = std::make_shared<RunOutput>(options.output);
@@ -103,9 +117,12 @@ void run(const RunOptions& options) {
   result.map.origin = std::filesystem::path(options.input).filename().string();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   output->writeResult(slam, result, replayed.read,
-                      {{"input", options.input}, {"version", ROOMGRAPH_VERSION}, {"interrupted", replayed.stopped ? "yes" : "no"}});
+                      {{"input", options.input},
+                       {"version", ROOMGRAPH_VERSION},
+                       {"interrupted", replayed.stopped ? "yes" : "no"}});
   if (result.world_from_robot.empty())
-    throw InputError(options.input + ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
+    throw InputError(options.input +
+                     ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
   if (!options.no_snapshot)
     renderSnapshot(result.map, database, {.title = result.map.origin}, output->folder() / "snapshot.png");
   printSummary(options, replayed, result, seconds);
@@ -120,9 +137,13 @@ void addRunCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "folder for the results")->required();
   command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
   command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
-  command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")->check(CLI::NonNegativeNumber);
-  command->add_option("--from", options->from_s, "start this many seconds after the first record")->check(CLI::NonNegativeNumber);
-  command->add_option("--until", options->until_s, "stop this many seconds after the first record; 0: the end")->check(CLI::NonNegativeNumber);
+  command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--from", options->from_s, "start this many seconds after the first record")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--until", options->until_s, "stop this many seconds after the first record; 0: the end")
+      ->check(CLI::NonNegativeNumber);
   command->add_flag("--quiet", options->quiet, "no progress");
   command->add_flag("--no-snapshot", options->no_snapshot, "do not render snapshot.png");
   command->footer(

@@ -7,8 +7,8 @@
 
 namespace roomgraph {
 
-/// config.ini or objects.ini as shipped: beside the installed program (share/roomgraph), or in the source tree when run
-/// from the build folder. Throws ConfigError naming the places searched.
+/// config.ini or objects.ini as shipped: beside the installed program (share/roomgraph), or in the source
+/// tree when run from the build folder. Throws ConfigError naming the places searched.
 std::filesystem::path sharedFile(const std::string& name);
 
 }  // namespace roomgraph

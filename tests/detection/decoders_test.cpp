@@ -122,6 +122,8 @@ TEST(Decoders, SuppressionIsPerClass) {
   EXPECT_EQ(suppressPerClass(boxes, 0.5), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(suppressPerClass(boxes, 0.9), (std::vector<int>{1, 2, 0, 3}));
   EXPECT_TRUE(suppressPerClass({}, 0.5).empty());
+  EXPECT_EQ(suppressTwins(boxes, {1, 2, 3}, 0.75), (std::vector<int>{1, 3}));
+  EXPECT_EQ(suppressTwins(boxes, {1, 2, 3}, 1), (std::vector<int>{1, 2, 3}));
 }
 
 TEST(Decoders, CocoLabels) {

@@ -35,6 +35,13 @@ TEST(Statistics, HandComputed) {
   EXPECT_DOUBLE_EQ(s.squared_std, std::sqrt((6.5 * 6.5 + 3.5 * 3.5 + 1.5 * 1.5 + 8.5 * 8.5) / 4));
   EXPECT_DOUBLE_EQ(summarize({5, 1, 2}).median, 2);
   EXPECT_EQ(summarize({}).count, 0);
+  std::vector<double> hundred;
+  for (int i = 100; i > 0; --i) hundred.push_back(i);
+  EXPECT_EQ(summarize(hundred).p95, 95);
+  hundred.push_back(101);
+  EXPECT_EQ(summarize(hundred).p95, 96) << "95 of 101 are less than 95 %";
+  EXPECT_EQ(summarize({7}).p95, 7);
+  EXPECT_EQ(summarize({3, 1, 4, 2}).p95, 4);
 }
 
 TEST(TrajectoryError, MovedTrajectoryHasNoError) {

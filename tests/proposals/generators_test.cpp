@@ -129,7 +129,6 @@ TEST(Cuboid, PartlyOutsideTheImage) {
   const auto found = cuboidHypotheses(evidence);
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 4u);
-  for(auto&f:found) printf("DBG %.2f %.2f yaw %.2f q %.2f iou %.2f wdh %.2f %.2f %.2f back %.2f\n",f.x,f.y,f.yaw,f.quality,f.box_iou,f.shape.width,f.shape.depth,f.shape.height,backRestAgreement(f,evidence.mask.points));
   EXPECT_LT(std::hypot(found[0].x - 2.2, found[0].y - 1.2), 0.3);
   EXPECT_LT(yawError(found[0].yaw, -2.6), 0.2);
 }

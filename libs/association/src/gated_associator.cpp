@@ -21,8 +21,9 @@ struct Candidate {
 
 // Unnormalised posterior of one measurement over the landmarks of its class in gate, and "new" (invalid id).
 std::vector<std::pair<LandmarkId, double>> likelihoods(const WorldMeasurement& seen,
-                                                       const std::vector<Landmark>& landmarks, double gate_sigma,
-                                                       double max_distance_ratio, double new_density) {
+                                                       const std::vector<Landmark>& landmarks,
+                                                       double gate_sigma, double max_distance_ratio,
+                                                       double new_density) {
   std::vector<std::pair<LandmarkId, double>> out;
   const auto& proposal = seen.measurement.proposal;
   for (const auto& landmark : landmarks) {
@@ -35,7 +36,8 @@ std::vector<std::pair<LandmarkId, double>> likelihoods(const WorldMeasurement& s
         seen.covariance.topLeftCorner<2, 2>() + landmark.covariance.topLeftCorner<2, 2>();
     const double squared = apart.dot(joint.inverse() * apart);
     if (squared > gate_sigma * gate_sigma) continue;
-    out.emplace_back(landmark.id, std::exp(-squared / 2) / (2 * std::numbers::pi * std::sqrt(joint.determinant())));
+    out.emplace_back(landmark.id,
+                     std::exp(-squared / 2) / (2 * std::numbers::pi * std::sqrt(joint.determinant())));
   }
   out.emplace_back(LandmarkId{}, new_density);
   return out;
@@ -52,10 +54,14 @@ void normalize(std::vector<std::pair<LandmarkId, double>>& posterior) {
 void GatedAssociator::declareParameters(ParameterVisitor& v) {
   v.add("gate_sigma", gate_sigma_, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
   v.add("max_distance_ratio", max_distance_ratio_,
-        {.doc = "largest centre distance of one object's measurements, relative to its width", .min = 0.1, .max = 5});
+        {.doc = "largest centre distance of one object's measurements, relative to its width",
+         .min = 0.1,
+         .max = 5});
   v.add("new_density_per_m2", new_density_per_m2_,
-        {.doc = "floor likelihood of a new landmark: expected objects of a class per area", .unit = "1/m^2",
-         .min = 1e-6, .max = 100});
+        {.doc = "floor likelihood of a new landmark: expected objects of a class per area",
+         .unit = "1/m^2",
+         .min = 1e-6,
+         .max = 100});
 }
 
 std::vector<Association> GatedAssociator::associate(const std::vector<WorldMeasurement>& measurements,
@@ -74,7 +80,8 @@ std::vector<Association> GatedAssociator::associate(const std::vector<WorldMeasu
   std::set<LandmarkId> taken;
   std::vector<char> served(measurements.size(), 0);
   for (const auto& candidate : candidates) {
-    if (served[candidate.measurement] || (candidate.landmark.valid() && taken.contains(candidate.landmark))) continue;
+    if (served[candidate.measurement] || (candidate.landmark.valid() && taken.contains(candidate.landmark)))
+      continue;
     served[candidate.measurement] = 1;
     taken.insert(candidate.landmark);
     result[candidate.measurement].landmark = candidate.landmark;

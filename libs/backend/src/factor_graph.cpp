@@ -2,6 +2,8 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/backend/factor_graph.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -16,7 +18,26 @@ ceres::CostFunction* costOf(const Factor& factor) {
   return new ceres::AutoDiffCostFunction<Residual, Count, Blocks...>(new Residual(factor));
 }
 
-ceres::LossFunction* lossOf(double width) { return width > 0 ? new ceres::CauchyLoss(width) : nullptr; }
+ceres::LossFunction* lossOf(double width) {
+  return width > 0 ? new ceres::CauchyLoss(width) : nullptr;
+}
+
+// Weight outside the robust loss: what counts as an outlier does not depend on how much a measurement counts.
+ceres::LossFunction* weighted(ceres::LossFunction* loss, double weight) {
+  return new ceres::ScaledLoss(loss, weight, ceres::TAKE_OWNERSHIP);
+}
+
+// Ceres reports a singular problem on stderr before it says so in its result.
+class QuietCeres {
+ public:
+  QuietCeres() { FLAGS_minloglevel = google::GLOG_FATAL; }
+  ~QuietCeres() { FLAGS_minloglevel = level_; }
+  QuietCeres(const QuietCeres&) = delete;
+  QuietCeres& operator=(const QuietCeres&) = delete;
+
+ private:
+  int level_ = FLAGS_minloglevel;
+};
 
 ceres::Problem::Options problemOptions() {
   ceres::Problem::Options options;
@@ -36,7 +57,8 @@ FactorGraph::Impl::Pose& FactorGraph::Impl::at(NodeId id) {
 
 FactorGraph::Impl::Object& FactorGraph::Impl::at(LandmarkId id) {
   const auto found = objects.find(id);
-  if (found == objects.end()) throw std::out_of_range("factor graph: no landmark " + std::to_string(id.value));
+  if (found == objects.end())
+    throw std::out_of_range("factor graph: no landmark " + std::to_string(id.value));
   return found->second;
 }
 
@@ -48,9 +70,10 @@ FactorGraph& FactorGraph::operator=(FactorGraph&&) noexcept = default;
 void FactorGraph::addPose(NodeId id, const Pose3& world_from_robot, bool fixed) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(world_from_robot.linear()).normalized();
   const Eigen::Vector3d t = world_from_robot.translation();
-  auto [entry, inserted] = impl_->poses.try_emplace(
-      id, Impl::Pose{{t.x(), t.y(), t.z()}, {q.x(), q.y(), q.z(), q.w()}, fixed});
-  if (!inserted) throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " added twice");
+  auto [entry, inserted] =
+      impl_->poses.try_emplace(id, Impl::Pose{{t.x(), t.y(), t.z()}, {q.x(), q.y(), q.z(), q.w()}, fixed});
+  if (!inserted)
+    throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " added twice");
   auto& pose = entry->second;
   impl_->problem->AddParameterBlock(pose.t.data(), 3);
   impl_->problem->AddParameterBlock(pose.q.data(), 4, impl_->quaternion.get());
@@ -64,39 +87,45 @@ void FactorGraph::addLandmark(LandmarkId id, const LandmarkEstimate& initial) {
   const auto& p = initial.position;
   auto [entry, inserted] =
       impl_->objects.try_emplace(id, Impl::Object{{p.x(), p.y(), p.z(), initial.yaw}, false});
-  if (!inserted) throw std::invalid_argument("factor graph: landmark " + std::to_string(id.value) + " added twice");
+  if (!inserted)
+    throw std::invalid_argument("factor graph: landmark " + std::to_string(id.value) + " added twice");
   impl_->problem->AddParameterBlock(entry->second.value.data(), 4);
 }
 
 void FactorGraph::add(const BetweenFactor& factor) {
   auto &a = impl_->at(factor.a), &b = impl_->at(factor.b);
-  impl_->problem->AddResidualBlock(costOf<BetweenResidual, 6, 3, 4, 3, 4>(factor), lossOf(factor.robust_width),
-                                   a.t.data(), a.q.data(), b.t.data(), b.q.data());
+  impl_->problem->AddResidualBlock(costOf<BetweenResidual, 6, 3, 4, 3, 4>(factor),
+                                   lossOf(factor.robust_width), a.t.data(), a.q.data(), b.t.data(),
+                                   b.q.data());
   impl_->between.push_back(factor);
 }
 
 void FactorGraph::add(const PlanarFactor& factor) {
   auto& pose = impl_->at(factor.node);
-  impl_->problem->AddResidualBlock(costOf<PlanarResidual, 3, 3, 4>(factor), nullptr, pose.t.data(), pose.q.data());
+  impl_->problem->AddResidualBlock(costOf<PlanarResidual, 3, 3, 4>(factor), nullptr, pose.t.data(),
+                                   pose.q.data());
 }
 
 void FactorGraph::add(const GroundFactor& factor) {
   auto& pose = impl_->at(factor.node);
-  impl_->problem->AddResidualBlock(costOf<GroundResidual, 3, 3, 4>(factor), lossOf(1), pose.t.data(), pose.q.data());
+  impl_->problem->AddResidualBlock(costOf<GroundResidual, 3, 3, 4>(factor), lossOf(1), pose.t.data(),
+                                   pose.q.data());
 }
 
 void FactorGraph::add(const LandmarkFactor& factor) {
   auto& pose = impl_->at(factor.node);
   auto& object = impl_->at(factor.landmark);
-  impl_->problem->AddResidualBlock(costOf<LandmarkResidual, 4, 3, 4, 4>(factor), lossOf(factor.robust_width),
-                                   pose.t.data(), pose.q.data(), object.value.data());
+  impl_->problem->AddResidualBlock(costOf<LandmarkResidual, 4, 3, 4, 4>(factor),
+                                   weighted(lossOf(factor.robust_width), factor.weight), pose.t.data(),
+                                   pose.q.data(), object.value.data());
   object.seen_yaw |= factor.has_yaw;
   impl_->sightings.push_back(factor);
 }
 
 void FactorGraph::add(const LandmarkGroundFactor& factor) {
   auto& object = impl_->at(factor.landmark);
-  impl_->problem->AddResidualBlock(costOf<LandmarkGroundResidual, 1, 4>(factor), nullptr, object.value.data());
+  impl_->problem->AddResidualBlock(costOf<LandmarkGroundResidual, 1, 4>(factor), nullptr,
+                                   object.value.data());
 }
 
 SolveReport FactorGraph::optimize(int max_iterations) {
@@ -114,6 +143,7 @@ SolveReport FactorGraph::optimize(int max_iterations) {
   options.function_tolerance = 1e-8;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
+  const QuietCeres quiet;
   ceres::Solve(options, impl_->problem.get(), &summary);
   for (auto& [id, object] : impl_->objects) impl_->problem->SetManifold(object.value.data(), nullptr);
   return {summary.IsSolutionUsable(), summary.initial_cost, summary.final_cost,
@@ -133,14 +163,21 @@ LandmarkEstimate FactorGraph::landmark(LandmarkId id) const {
   return {{value[0], value[1], value[2]}, wrapAngle(value[3])};
 }
 
-bool FactorGraph::hasLandmark(LandmarkId id) const { return impl_->objects.contains(id); }
-std::size_t FactorGraph::poses() const { return impl_->poses.size(); }
-std::size_t FactorGraph::landmarks() const { return impl_->objects.size(); }
+bool FactorGraph::hasLandmark(LandmarkId id) const {
+  return impl_->objects.contains(id);
+}
+std::size_t FactorGraph::poses() const {
+  return impl_->poses.size();
+}
+std::size_t FactorGraph::landmarks() const {
+  return impl_->objects.size();
+}
 std::size_t FactorGraph::factors() const {
   return static_cast<std::size_t>(impl_->problem->NumResidualBlocks());
 }
 
 std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovariances() const {
+  const QuietCeres quiet;
   std::vector<const double*> blocks;
   std::vector<std::unique_ptr<ceres::SubsetManifold>> held;
   for (auto& [id, object] : impl_->objects) {

@@ -12,7 +12,8 @@ namespace {
 void writeTransform(std::ostream& out, const Pose3& pose) {
   const Eigen::Quaterniond q(pose.linear());
   const Eigen::Vector3d t = pose.translation();
-  out << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
+  out << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' '
+      << q.w();
 }
 
 void writeUpper(std::ostream& out, const Matrix6d& information) {
@@ -21,7 +22,8 @@ void writeUpper(std::ostream& out, const Matrix6d& information) {
   out << '\n';
 }
 
-// A landmark's measurement fixes x, y, z and perhaps yaw; roll and pitch get a token weight to keep readers happy.
+// A landmark's measurement fixes x, y, z and perhaps yaw; roll and pitch get a token weight to keep readers
+// happy.
 Matrix6d informationOf(const LandmarkFactor& factor) {
   Matrix6d information = 1e-3 * Matrix6d::Identity();
   const Eigen::Matrix4d full = factor.weight * factor.covariance.inverse();

@@ -13,8 +13,8 @@
 
 namespace roomgraph {
 
-/// Storage behind FactorGraph. The maps are ordered, so residuals and blocks always come in the same order; their
-/// nodes never move, so Ceres may keep pointers into them.
+/// Storage behind FactorGraph. The maps are ordered, so residuals and blocks always come in the same order;
+/// their nodes never move, so Ceres may keep pointers into them.
 struct FactorGraph::Impl {
   struct Pose {
     std::array<double, 3> t;
@@ -34,7 +34,8 @@ struct FactorGraph::Impl {
   std::map<LandmarkId, Object> objects;
   std::vector<BetweenFactor> between;
   std::vector<LandmarkFactor> sightings;
-  std::unique_ptr<ceres::EigenQuaternionManifold> quaternion = std::make_unique<ceres::EigenQuaternionManifold>();
+  std::unique_ptr<ceres::EigenQuaternionManifold> quaternion =
+      std::make_unique<ceres::EigenQuaternionManifold>();
   std::unique_ptr<ceres::Problem> problem;
 };
 

@@ -10,7 +10,8 @@
 
 namespace roomgraph {
 
-// Pure residual functions, templated for automatic differentiation. Poses are (translation, quaternion x y z w).
+// Pure residual functions, templated for automatic differentiation. Poses are (translation, quaternion x y z
+// w).
 
 template <class T>
 using Vec3 = Eigen::Matrix<T, 3, 1>;
@@ -31,7 +32,8 @@ T angleDifference(const T& a, const T& b) {
 
 struct BetweenResidual {
   explicit BetweenResidual(const BetweenFactor& f)
-      : translation(f.a_from_b.translation()), rotation(f.a_from_b.linear()),
+      : translation(f.a_from_b.translation()),
+        rotation(f.a_from_b.linear()),
         whitening(sqrtInformation<6>(f.covariance)) {}
 
   template <class T>
@@ -72,7 +74,9 @@ struct PlanarResidual {
 
 struct GroundResidual {
   explicit GroundResidual(const GroundFactor& f)
-      : normal(f.normal_in_robot.normalized()), offset(f.offset_m), sigma_normal(f.sigma_normal_rad),
+      : normal(f.normal_in_robot.normalized()),
+        offset(f.offset_m),
+        sigma_normal(f.sigma_normal_rad),
         sigma_offset(f.sigma_offset_m) {}
 
   template <class T>
@@ -97,7 +101,7 @@ struct LandmarkResidual {
       factor.covariance.col(3).setZero();
       factor.covariance(3, 3) = 1;
     }
-    whitening = std::sqrt(f.weight) * sqrtInformation<4>(factor.covariance);
+    whitening = sqrtInformation<4>(factor.covariance);
     if (!f.has_yaw) whitening.row(3).setZero();
   }
 

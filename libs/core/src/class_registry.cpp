@@ -35,8 +35,9 @@ std::shared_ptr<mrpt::rtti::CObject> createByName(const std::string& name,
     if (matches && id->ptrCreateObject) return id->createObject();
   }
   const auto known = implementationsOf(interface);
-  throw ConfigError(asked_by + ": no class '" + name + "' that is a " + withoutNamespace(interface->className) +
-                    didYouMean(name, known) + "; known: " + join(known));
+  throw ConfigError(asked_by + ": no class '" + name + "' that is a " +
+                    withoutNamespace(interface->className) + didYouMean(name, known) +
+                    "; known: " + join(known));
 }
 
 void loadPlugin(const std::string& file) {

@@ -16,7 +16,9 @@ class Reader : public ParameterVisitor {
       : entries_(entries), section_(section) {}
   void add(std::string_view key, bool& value, const ParameterInfo& info) override { parse(key, value, info); }
   void add(std::string_view key, int& value, const ParameterInfo& info) override { parse(key, value, info); }
-  void add(std::string_view key, double& value, const ParameterInfo& info) override { parse(key, value, info); }
+  void add(std::string_view key, double& value, const ParameterInfo& info) override {
+    parse(key, value, info);
+  }
   void add(std::string_view key, std::string& value, const ParameterInfo& info) override {
     parse(key, value, info);
   }
@@ -61,7 +63,9 @@ class Writer : public ParameterVisitor {
 
 }  // namespace
 
-Config Config::fromFile(const std::filesystem::path& file) { return Config(parseIniFile(file)); }
+Config Config::fromFile(const std::filesystem::path& file) {
+  return Config(parseIniFile(file));
+}
 
 Config Config::fromText(const std::string& text, const std::string& name) {
   return Config(parseIni(text, name));
@@ -74,7 +78,8 @@ void Config::override(const std::string& assignment) {
     throw ConfigError("--set " + assignment + ": expected section.key=value");
   IniEntry entry{assignment.substr(0, dot), assignment.substr(dot + 1, equals - dot - 1),
                  assignment.substr(equals + 1), "--set"};
-  std::erase_if(entries_, [&](const IniEntry& e) { return e.section == entry.section && e.key == entry.key; });
+  std::erase_if(entries_,
+                [&](const IniEntry& e) { return e.section == entry.section && e.key == entry.key; });
   entries_.push_back(std::move(entry));
 }
 
@@ -83,7 +88,8 @@ void Config::read(const std::string& section, Configurable& target) const {
   target.declareParameters(reader);
 }
 
-std::string Config::text(const std::string& section, const std::string& key, const std::string& fallback) const {
+std::string Config::text(const std::string& section, const std::string& key,
+                         const std::string& fallback) const {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const IniEntry& entry) {
     return entry.section == section && entry.key == key;
   });

@@ -13,8 +13,12 @@ namespace {
 class Collector : public ParameterVisitor {
  public:
   Collector(std::vector<ConfigSchema::Key>& keys, const std::string& owner) : keys_(keys), owner_(owner) {}
-  void add(std::string_view key, bool& value, const ParameterInfo& info) override { put(key, "bool", value, info); }
-  void add(std::string_view key, int& value, const ParameterInfo& info) override { put(key, "int", value, info); }
+  void add(std::string_view key, bool& value, const ParameterInfo& info) override {
+    put(key, "bool", value, info);
+  }
+  void add(std::string_view key, int& value, const ParameterInfo& info) override {
+    put(key, "int", value, info);
+  }
   void add(std::string_view key, double& value, const ParameterInfo& info) override {
     put(key, "number", value, info);
   }
@@ -28,8 +32,8 @@ class Collector : public ParameterVisitor {
  private:
   template <class T>
   void put(std::string_view key, const std::string& type, const T& value, const ParameterInfo& info) {
-    keys_.push_back({std::string(key), type, formatParameter(value), std::string(info.doc), std::string(info.unit),
-                     describeAllowed(type, info), owner_});
+    keys_.push_back({std::string(key), type, formatParameter(value), std::string(info.doc),
+                     std::string(info.unit), describeAllowed(type, info), owner_});
   }
   std::vector<ConfigSchema::Key>& keys_;
   const std::string& owner_;
@@ -50,7 +54,9 @@ void ConfigSchema::add(const std::string& name, Configurable& source, const std:
   source.declareParameters(collector);
 }
 
-void ConfigSchema::describe(const std::string& name, const std::string& doc) { section(name).doc = doc; }
+void ConfigSchema::describe(const std::string& name, const std::string& doc) {
+  section(name).doc = doc;
+}
 
 void ConfigSchema::check(const Config& config) const {
   for (const auto& entry : config.entries()) {
@@ -61,7 +67,8 @@ void ConfigSchema::check(const Config& config) const {
       throw ConfigError(entry.place + ": unknown section [" + entry.section + "]" +
                         didYouMean(entry.section, names) + "; known sections: " + join(names));
     std::vector<std::string> keys;
-    for (const auto& key : sections_[static_cast<std::size_t>(found - names.begin())].keys) keys.push_back(key.key);
+    for (const auto& key : sections_[static_cast<std::size_t>(found - names.begin())].keys)
+      keys.push_back(key.key);
     if (std::find(keys.begin(), keys.end(), entry.key) == keys.end())
       throw ConfigError(entry.place + ": [" + entry.section + "] has no key '" + entry.key + "' (value '" +
                         entry.value + "')" + didYouMean(entry.key, keys) + "; known keys: " + join(keys));
@@ -72,10 +79,11 @@ std::string ConfigSchema::markdown() const {
   std::string page;
   for (const auto& s : sections_) {
     page += "## [" + s.name + "]\n" + (s.doc.empty() ? "" : s.doc + "\n");
-    page += "\n| key | default | allowed | unit | meaning | read by |\n| --- | --- | --- | --- | --- | --- |\n";
+    page +=
+        "\n| key | default | allowed | unit | meaning | read by |\n| --- | --- | --- | --- | --- | --- |\n";
     for (const auto& key : s.keys)
-      page += "| `" + key.key + "` | " + (key.default_text.empty() ? "" : "`" + key.default_text + "`") + " | " +
-              key.allowed + " | " + key.unit + " | " + key.doc + " | " +
+      page += "| `" + key.key + "` | " + (key.default_text.empty() ? "" : "`" + key.default_text + "`") +
+              " | " + key.allowed + " | " + key.unit + " | " + key.doc + " | " +
               (key.owner.empty() ? "" : "`" + key.owner + "`") + " |\n";
     page += "\n";
   }

@@ -37,10 +37,18 @@ void checkChoice(const std::string& text, const ParameterInfo& info) {
 
 }  // namespace
 
-std::string formatParameter(bool value) { return value ? "true" : "false"; }
-std::string formatParameter(int value) { return std::to_string(value); }
-std::string formatParameter(const std::string& value) { return value; }
-std::string formatParameter(const std::vector<std::string>& value) { return join(value); }
+std::string formatParameter(bool value) {
+  return value ? "true" : "false";
+}
+std::string formatParameter(int value) {
+  return std::to_string(value);
+}
+std::string formatParameter(const std::string& value) {
+  return value;
+}
+std::string formatParameter(const std::vector<std::string>& value) {
+  return join(value);
+}
 
 std::string formatParameter(double value) {
   char buffer[64];

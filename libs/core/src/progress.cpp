@@ -24,7 +24,10 @@ std::string Progress::line(double done, const std::string& note) const {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const double rate = elapsed > 0 ? done / elapsed : 0;
   char text[160];
-  if (total_ > 0 && rate > 0) {
+  if (total_ > 0 && rate > 0 && unit_.empty()) {
+    std::snprintf(text, sizeof text, "%s %3.0f %%  %.0f s left", label_.c_str(), 100 * done / total_,
+                  std::ceil(std::max(0.0, (total_ - done) / rate)));
+  } else if (total_ > 0 && rate > 0) {
     const double left = std::max(0.0, (total_ - done) / rate);
     std::snprintf(text, sizeof text, "%s %3.0f %%  %.0f/%.0f %s  %.1f %s/s  %.0f s left", label_.c_str(),
                   100 * done / total_, done, total_, unit_.c_str(), rate, unit_.c_str(), std::ceil(left));

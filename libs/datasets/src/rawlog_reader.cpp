@@ -36,6 +36,7 @@ struct RawlogReader::Impl {
   void giveTimeToOdometry(double t);
   std::optional<Record> convert(const CObservation::Ptr& observation);
   std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
+  std::string groupedReason(const std::string& reason);
 
   RecordSource source;
   ReadOptions options;
@@ -46,6 +47,7 @@ struct RawlogReader::Impl {
   // Observations are converted when they are asked for: a sensory frame may hold many images.
   std::deque<std::variant<CObservation::Ptr, OdometryReading>> waiting;
   std::int64_t frame_count = 0;
+  std::string missing_image;  ///< reason of the first frame whose image is missing
 };
 
 void RawlogReader::Impl::takeActions(const CActionCollection& actions) {
@@ -86,10 +88,17 @@ void RawlogReader::Impl::take(const mrpt::serialization::CSerializable::Ptr& obj
   }
 }
 
+// The missing images of a folder are one problem, named by the first of them.
+std::string RawlogReader::Impl::groupedReason(const std::string& reason) {
+  if (!reason.starts_with("image missing")) return reason;
+  if (missing_image.empty()) missing_image = reason;
+  return missing_image;
+}
+
 std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& observation) {
   auto frame = toFrame(observation, image_folder);
   if (!frame) {
-    ++statistics.skipped[frame.reason()];
+    ++statistics.skipped[groupedReason(frame.reason())];
     return std::nullopt;
   }
   frame->id = FrameId{frame_count++};

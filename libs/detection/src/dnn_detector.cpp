@@ -54,6 +54,11 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
   v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0.01, .max = 1});
   v.add("nms_threshold", nms_threshold_,
         {.doc = "of two boxes of a class with a larger IoU only the better is kept", .min = 0, .max = 1});
+  v.add("twin_threshold", twin_threshold_,
+        {.doc = "of two boxes of different classes with a larger IoU only the better is kept; 1: both, and "
+                "their geometry decides",
+         .min = 0,
+         .max = 1});
   v.add("every_nth_frame", every_nth_frame_,
         {.doc = "1: every frame; 4: every fourth", .min = 1, .max = 1000});
 }
@@ -92,7 +97,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
     }
   }
   std::vector<Detection> detections;
-  for (const int i : suppressPerClass(boxes, nms_threshold_))
+  for (const int i : suppressTwins(boxes, suppressPerClass(boxes, nms_threshold_), twin_threshold_))
     detections.push_back({boxes[i].box,
                           database_->models()[boxes[i].class_index].class_name,
                           labels[i],

@@ -28,4 +28,17 @@ std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_i
   return kept;
 }
 
+std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vector<int>& kept,
+                               double max_iou) {
+  std::vector<int> out;
+  for (const int i : kept) {
+    const bool twin = std::any_of(out.begin(), out.end(), [&](int better) {
+      return boxes[better].class_index != boxes[i].class_index &&
+             iou(boxes[better].box, boxes[i].box) > max_iou;
+    });
+    if (!twin) out.push_back(i);
+  }
+  return out;
+}
+
 }  // namespace roomgraph

@@ -104,18 +104,14 @@ class Comparison {
     }
   }
 
-  bool forgiven(const EvaluatedObject& truth, const EvaluatedObject& landmark) const {
-    const auto kind = options_.forgiven_kinds.find(landmark.class_name);
-    return truth.class_name == kOther && kind != options_.forgiven_kinds.end() &&
-           truth.kind.find(kind->second) != std::string::npos;
-  }
-
   // An unmatched landmark: says what the nearest true object within the gate makes of it.
   void explain(const EvaluatedObject& landmark, LandmarkVerdict& verdict) const {
     double nearest = options_.gate_m;
     for (const auto& object : truth_) {
       const bool same_class = object.class_name == landmark.class_name && landmark.class_name != kPerson;
-      if (!same_class && !forgiven(object, landmark)) continue;
+      const bool forgiven =
+          isForgiven(options_.forgiven_kinds, landmark.class_name, object.class_name, object.kind);
+      if (!same_class && !forgiven) continue;
       const double distance = groundDistance(object, landmark);
       if (distance > nearest) continue;
       nearest = distance;

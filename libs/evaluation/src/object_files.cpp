@@ -4,20 +4,14 @@
 
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "json_lines.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
 namespace {
 
 using nlohmann::json;
-
-std::ifstream open(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
-  return in;
-}
 
 EvaluatedObject toObject(const json& record) {
   EvaluatedObject out;
@@ -38,17 +32,17 @@ EvaluatedObject toObject(const json& record) {
 }
 
 bool isGoodView(const json& object, const VisibilityRule& rule) {
-  const auto box = object.at("bbox").get<std::vector<double>>();
-  if (box.size() != 4) throw std::invalid_argument("bbox must have 4 numbers");
   const json& depth = object.at("z_med");
-  return object.at("visible").get<double>() > rule.min_visible && box[3] - box[1] > rule.min_height_px &&
-         depth.is_number() && depth.get<double>() < rule.max_depth_m;
+  return object.at("visible").get<double>() > rule.min_visible &&
+         boxFrom(object.at("bbox")).height() > rule.min_height_px && depth.is_number() &&
+         depth.get<double>() < rule.max_depth_m;
 }
 
 }  // namespace
 
 std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file) {
-  auto in = open(file);
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
   std::vector<EvaluatedObject> objects;
   std::string place = file.string();
   try {
@@ -66,21 +60,12 @@ std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file) {
 }
 
 std::set<int> readSeenObjects(const std::filesystem::path& boxes_jsonl, const VisibilityRule& rule) {
-  auto in = open(boxes_jsonl);
   std::map<int, int> good_frames;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    try {
-      const json frame = json::parse(line);
-      for (const auto& object : frame.at("objects"))
-        if (isGoodView(object, rule)) ++good_frames[object.at("id").get<int>()];
-    } catch (const std::exception& error) {
-      throw InputError(boxes_jsonl.string() + ":" + std::to_string(number) + ": " + error.what());
-    }
-  }
-  if (number == 0) throw InputError(boxes_jsonl.string() + ": is empty");
+  const int lines = forEachJsonLine(boxes_jsonl, [&](const json& frame) {
+    for (const auto& object : frame.at("objects"))
+      if (isGoodView(object, rule)) ++good_frames[object.at("id").get<int>()];
+  });
+  if (lines == 0) throw InputError(boxes_jsonl.string() + ": is empty");
   std::set<int> seen;
   for (const auto& [id, frames] : good_frames)
     if (frames >= rule.min_frames) seen.insert(id);

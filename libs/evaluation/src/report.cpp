@@ -3,17 +3,11 @@
 #include "roomgraph/evaluation/report.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "text_format.h"
 
 namespace roomgraph {
 namespace {
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
 
 std::string statisticsRow(const char* name, const char* unit, const ErrorStatistics& s) {
   if (s.count == 0) return format("%-22s %-4s %10s\n", name, unit, "none");
@@ -27,9 +21,6 @@ std::string statisticsHead() {
 }
 
 std::string figuresRow(const std::string& name, const ObjectFigures& f) {
-  const auto cell = [](double value, bool any, const char* pattern) {
-    return any ? format(pattern, value) : "-";
-  };
   const bool hit = f.correct > 0;
   return format("%-14s %7d %7d %7d %7d %7d %8s %8s %8s %9s %9s %8s %8s %8s\n", name.c_str(), f.correct,
                 f.false_alarms, f.duplicates, f.missed, f.uncounted,

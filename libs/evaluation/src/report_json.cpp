@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include <nlohmann/json.hpp>
-
 #include "roomgraph/evaluation/report.h"
+#include "text_format.h"
 
 namespace roomgraph {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json orNull(double value, bool defined) {
-  return defined ? ordered_json(value) : ordered_json(nullptr);
-}
 
 void put(ordered_json& out, const std::string& prefix, const std::string& unit, const ErrorStatistics& s) {
   const bool any = s.count > 0;
@@ -51,6 +46,49 @@ ordered_json figures(const ObjectFigures& f) {
   return out;
 }
 
+ordered_json objectsJson(const ObjectErrors& e) {
+  ordered_json out = figures(e.all);
+  out["per_class"] = ordered_json::object();
+  for (const auto& [name, f] : e.per_class) out["per_class"][name] = figures(f);
+  out["landmarks"] = ordered_json::array();
+  for (const auto& v : e.verdicts) {
+    const bool matched = v.truth >= 0;
+    out["landmarks"].push_back({{"id", v.landmark},
+                                {"class", v.class_name},
+                                {"verdict", toString(v.verdict)},
+                                {"truth", matched ? ordered_json(v.truth) : ordered_json(nullptr)},
+                                {"distance_m", orNull(v.distance_m, matched)},
+                                {"yaw_error_deg", orNull(v.yaw_error_deg, v.yaw_error_deg >= 0)},
+                                {"iou3d", orNull(v.iou3d, v.verdict == Verdict::kCorrect)}});
+  }
+  out["missed_objects"] = e.missed;
+  return out;
+}
+
+void putAssociations(ordered_json& out, const AssociationErrors& e) {
+  out["association_accuracy"] = orNull(e.accuracy, e.attributed > 0);
+  out["association_ece"] = orNull(e.ece, e.with_probability > 0);
+  out["identity_switches"] = e.identity_switches;
+  out["associations_attributed"] = e.attributed;
+  out["associations_unattributed"] = e.unattributed;
+  out["associations_correct"] = e.correct;
+  out["associations_needless_new"] = e.needless_new;
+  out["associations_wrong_landmark"] = e.wrong_landmark;
+  out["associations_objects"] = e.objects;
+  out["associations_landmarks"] = e.object_of_landmark.size();
+  out["association_reliability"] = ordered_json::array();
+  for (std::size_t i = 0; i < e.reliability.size(); ++i) {
+    const auto& bin = e.reliability[i];
+    const double width = 1.0 / static_cast<double>(e.reliability.size());
+    out["association_reliability"].push_back(
+        {{"from", static_cast<double>(i) * width},
+         {"to", static_cast<double>(i + 1) * width},
+         {"count", bin.count},
+         {"mean_probability", orNull(bin.mean_probability, bin.count > 0)},
+         {"correct_share", orNull(bin.correct_share, bin.count > 0)}});
+  }
+}
+
 }  // namespace
 
 std::string toJson(const TrajectoryErrors& e) {
@@ -77,21 +115,12 @@ std::string toJson(const RelationErrors& e) {
 }
 
 std::string toJson(const ObjectErrors& e) {
-  ordered_json out = figures(e.all);
-  out["per_class"] = ordered_json::object();
-  for (const auto& [name, f] : e.per_class) out["per_class"][name] = figures(f);
-  out["landmarks"] = ordered_json::array();
-  for (const auto& v : e.verdicts) {
-    const bool matched = v.truth >= 0;
-    out["landmarks"].push_back({{"id", v.landmark},
-                                {"class", v.class_name},
-                                {"verdict", toString(v.verdict)},
-                                {"truth", matched ? ordered_json(v.truth) : ordered_json(nullptr)},
-                                {"distance_m", orNull(v.distance_m, matched)},
-                                {"yaw_error_deg", orNull(v.yaw_error_deg, v.yaw_error_deg >= 0)},
-                                {"iou3d", orNull(v.iou3d, v.verdict == Verdict::kCorrect)}});
-  }
-  out["missed_objects"] = e.missed;
+  return objectsJson(e).dump(2) + "\n";
+}
+
+std::string toJson(const ObjectErrors& objects, const AssociationErrors& associations) {
+  ordered_json out = objectsJson(objects);
+  putAssociations(out, associations);
   return out.dump(2) + "\n";
 }
 

@@ -27,6 +27,7 @@ ErrorStatistics summarize(std::vector<double> errors) {
   out.squared_std = std::sqrt(squared_variance);
   const std::size_t half = errors.size() / 2;
   out.median = errors.size() % 2 == 1 ? errors[half] : (errors[half - 1] + errors[half]) / 2;
+  out.p95 = errors[(errors.size() * 95 + 99) / 100 - 1];
   out.max = errors.back();
   return out;
 }

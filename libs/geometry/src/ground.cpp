@@ -5,13 +5,15 @@
 namespace roomgraph {
 
 Plane groundInCamera(const Pose3& world_from_camera) {
-  return {world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ(), world_from_camera.translation().z()};
+  return {world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ(),
+          world_from_camera.translation().z()};
 }
 
 Pose3 cameraFromGround(const Plane& ground) {
   const Eigen::Vector3d up = ground.normal.normalized();
   Eigen::Vector3d forward = Eigen::Vector3d::UnitZ() - up.z() * up;
-  // Looking straight down or up: any horizontal direction will do; the image's up direction is the natural one.
+  // Looking straight down or up: any horizontal direction will do; the image's up direction is the natural
+  // one.
   if (forward.norm() < 1e-6) forward = -Eigen::Vector3d::UnitY() + up.y() * up;
   forward.normalize();
   Pose3 pose = Pose3::Identity();

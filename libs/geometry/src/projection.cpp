@@ -60,8 +60,8 @@ std::optional<Box2> projectCircle(const Eigen::Vector3d& center, const Eigen::Ve
   // Wholly in front: the nearest point of the circle is radius * |n x z| closer than its centre.
   const double reach = radius * normal.head<2>().norm();
   if (center.z() - reach <= 1e-6) return std::nullopt;
-  // Dual of the circle in 3D is c cᵀ - r² (I - n nᵀ); its image K Q* Kᵀ is the dual of the projected conic, whose
-  // tangent lines u = const and v = const bound it.
+  // Dual of the circle in 3D is c cᵀ - r² (I - n nᵀ); its image K Q* Kᵀ is the dual of the projected conic,
+  // whose tangent lines u = const and v = const bound it.
   const Eigen::Matrix3d dual = center * center.transpose() -
                                radius * radius * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
   const Eigen::Matrix3d image = camera.matrix() * dual * camera.matrix().transpose();

@@ -11,9 +11,12 @@ namespace roomgraph {
 
 std::string toString(ShapeKind kind) {
   switch (kind) {
-    case ShapeKind::kCylinder: return "cylinder";
-    case ShapeKind::kCuboid: return "cuboid";
-    case ShapeKind::kPlanar: return "planar";
+    case ShapeKind::kCylinder:
+      return "cylinder";
+    case ShapeKind::kCuboid:
+      return "cuboid";
+    case ShapeKind::kPlanar:
+      return "planar";
   }
   throw std::invalid_argument("unknown shape kind");
 }

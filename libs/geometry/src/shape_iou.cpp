@@ -8,9 +8,12 @@
 namespace roomgraph {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
-std::vector<Eigen::Vector2d> footprintInWorld(ObjectShape shape, const Pose3& world_from_object, double thickness) {
+std::vector<Eigen::Vector2d> footprintInWorld(ObjectShape shape, const Pose3& world_from_object,
+                                              double thickness) {
   if (shape.kind != ShapeKind::kCylinder) {
     shape.width = std::max(shape.width, thickness);
     shape.depth = std::max(shape.depth, thickness);
@@ -25,7 +28,8 @@ std::vector<Eigen::Vector2d> footprintInWorld(ObjectShape shape, const Pose3& wo
 
 double polygonArea(const std::vector<Eigen::Vector2d>& polygon) {
   double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return twice / 2;
 }
 

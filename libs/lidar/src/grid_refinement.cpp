@@ -27,6 +27,28 @@ void addPrior(const Pose2& pose, const PosePrior& prior, GridCost& cost) {
   cost.curvature.topLeftCorner<2, 2>() += prior.extra_weight_per_m2;
 }
 
+// Of the points within a radius that grows with the range, as the returns get sparser.
+Eigen::Matrix2d normalProjection(const Eigen::Vector2d& at, const Points2& points) {
+  const double radius = std::max(0.3, 0.08 * at.norm());
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  int count = 0;
+  for (const Eigen::Vector2d& p : points) {
+    const Eigen::Vector2d offset = p - at;
+    if (offset.squaredNorm() > radius * radius) continue;
+    mean += offset;
+    square += offset * offset.transpose();
+    ++count;
+  }
+  if (count < 4) return Eigen::Matrix2d::Zero();  // alone: its direction says nothing
+  mean /= count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(
+      Eigen::Matrix2d(square / count - mean * mean.transpose()));
+  const Eigen::Vector2d normal = spread.eigenvectors().col(0), along = spread.eigenvectors().col(1);
+  const double roundness = spread.eigenvalues()[0] / std::max(1e-12, spread.eigenvalues()[1]);
+  return normal * normal.transpose() + roundness * along * along.transpose();
+}
+
 void countAgreement(const ProbabilityGrid& grid, const Points2& points, GridRefinement& out) {
   for (const Eigen::Vector2d& p : transformed(out.grid_from_scan, points)) {
     // The brightest cell around: a return one cell beside its surface agrees with it.
@@ -69,6 +91,20 @@ GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose
   return cost;
 }
 
+Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& pose,
+                                 const Eigen::Matrix3d& grid_curvature) {
+  const Points2 turned = transformed({0, 0, pose.yaw}, points);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector2d& p : turned) {
+    Eigen::Matrix<double, 2, 3> jacobian;
+    jacobian << 1, 0, -p.y(), 0, 1, p.x();
+    sum += jacobian.transpose() * normalProjection(p, turned) * jacobian;
+  }
+  const double size = sum(0, 0) + sum(1, 1);
+  if (size <= 0) return grid_curvature;
+  return sum * ((grid_curvature(0, 0) + grid_curvature(1, 1)) / size);
+}
+
 Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& curvature, double most_per_m2,
                                     double enough_per_m2) {
   const Eigen::Vector2d mixed = curvature.topRightCorner<2, 1>();
@@ -104,7 +140,7 @@ GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, 
   GridRefinement out;
   out.grid_from_scan = pose;
   const GridCost data = gridCost(grid, points, pose, PosePrior{});
-  out.curvature = data.curvature * static_cast<double>(points.size());
+  out.curvature = surfaceCurvature(points, pose, data.curvature) * static_cast<double>(points.size());
   out.residual_variance = data.residual;
   countAgreement(grid, points, out);
   return out;

@@ -142,9 +142,11 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& p
   const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
-  if (has_prior)
-    prior.extra_weight_per_m2 = weakDirectionWeight(gridCost(submap.grid, points, start_pose, {}).curvature,
+  if (has_prior) {
+    const GridCost cost = gridCost(submap.grid, points, start_pose, {});
+    prior.extra_weight_per_m2 = weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature),
                                                     weak_prior_per_m2_, weak_below_per_m2_);
+  }
   return refineOnGrid(submap.grid, points, start_pose, prior);
 }
 

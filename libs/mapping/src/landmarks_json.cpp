@@ -4,8 +4,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {

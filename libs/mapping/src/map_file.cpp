@@ -6,8 +6,8 @@
 #include <mrpt/io/zip.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/observations/register_classes.h"
 

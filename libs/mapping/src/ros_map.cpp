@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/mapping/atomic_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {

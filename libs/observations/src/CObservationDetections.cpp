@@ -10,7 +10,9 @@ namespace roomgraph {
 
 IMPLEMENTS_SERIALIZABLE(CObservationDetections, mrpt::obs::CObservation, roomgraph)
 
-std::uint8_t CObservationDetections::serializeGetVersion() const { return 0; }
+std::uint8_t CObservationDetections::serializeGetVersion() const {
+  return 0;
+}
 
 void CObservationDetections::serializeTo(mrpt::serialization::CArchive& out) const {
   out << timestamp << sensorLabel << sensor_pose_ << image_label << image_width << image_height << model
@@ -31,12 +33,13 @@ void CObservationDetections::serializeFrom(mrpt::serialization::CArchive& in, st
 
 void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
   CObservation::getDescriptionAsText(out);
-  out << "Detections of " << model << (model_hash.empty() ? "" : " (" + model_hash + ")") << " on '" << image_label
-      << "' " << image_width << "x" << image_height << ", score >= " << score_threshold << ", NMS "
-      << nms_threshold << ": " << items.size() << " boxes\n";
+  out << "Detections of " << model << (model_hash.empty() ? "" : " (" + model_hash + ")") << " on '"
+      << image_label << "' " << image_width << "x" << image_height << ", score >= " << score_threshold
+      << ", NMS " << nms_threshold << ": " << items.size() << " boxes\n";
   for (const auto& item : items)
-    out << "  " << item.label << " " << item.score << " [" << item.u_min << ", " << item.v_min << ", " << item.u_max
-        << ", " << item.v_max << "]" << (item.track < 0 ? "" : " track " + std::to_string(item.track)) << "\n";
+    out << "  " << item.label << " " << item.score << " [" << item.u_min << ", " << item.v_min << ", "
+        << item.u_max << ", " << item.v_max << "]"
+        << (item.track < 0 ? "" : " track " + std::to_string(item.track)) << "\n";
 }
 
 }  // namespace roomgraph

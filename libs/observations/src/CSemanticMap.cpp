@@ -52,7 +52,9 @@ Landmark readLandmark(CArchive& in) {
 
 IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::serialization::CSerializable, roomgraph)
 
-std::uint8_t CSemanticMap::serializeGetVersion() const { return 0; }
+std::uint8_t CSemanticMap::serializeGetVersion() const {
+  return 0;
+}
 
 void CSemanticMap::serializeTo(CArchive& out) const {
   out << origin << planar << static_cast<bool>(occupancy);

@@ -23,16 +23,22 @@ void ObjectModel::declareParameters(ParameterVisitor& v) {
   v.add("width_m", width_m, {.doc = "nominal lateral size", .unit = "m", .min = 0.01, .max = 20});
   v.add("depth_m", depth_m, {.doc = "nominal size front to back", .unit = "m", .min = 0.01, .max = 20});
   v.add("height_m", height_m, {.doc = "nominal height", .unit = "m", .min = 0.01, .max = 20});
-  v.add("width_sigma_m", width_sigma_m, {.doc = "standard deviation of the width", .unit = "m", .min = 0, .max = 10});
-  v.add("depth_sigma_m", depth_sigma_m, {.doc = "standard deviation of the depth", .unit = "m", .min = 0, .max = 10});
-  v.add("height_sigma_m", height_sigma_m, {.doc = "standard deviation of the height", .unit = "m", .min = 0, .max = 10});
-  v.add("symmetry", symmetry, {.doc = "yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg", .min = 0, .max = 4});
+  v.add("width_sigma_m", width_sigma_m,
+        {.doc = "standard deviation of the width", .unit = "m", .min = 0, .max = 10});
+  v.add("depth_sigma_m", depth_sigma_m,
+        {.doc = "standard deviation of the depth", .unit = "m", .min = 0, .max = 10});
+  v.add("height_sigma_m", height_sigma_m,
+        {.doc = "standard deviation of the height", .unit = "m", .min = 0, .max = 10});
+  v.add("symmetry", symmetry,
+        {.doc = "yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg", .min = 0, .max = 4});
   v.add("rests_on_ground", rests_on_ground, {.doc = "the object stands on the floor"});
   v.add("landmark", landmark, {.doc = "false: seen and masked out, never mapped"});
   v.add("color", color, {.doc = "colour in pictures, #rrggbb"});
 }
 
-ObjectShape ObjectModel::nominal() const { return {shapeKindFromString(shape), width_m, depth_m, height_m}; }
+ObjectShape ObjectModel::nominal() const {
+  return {shapeKindFromString(shape), width_m, depth_m, height_m};
+}
 
 ObjectDatabase ObjectDatabase::fromFile(const std::filesystem::path& file) {
   return fromConfig(Config::fromFile(file));

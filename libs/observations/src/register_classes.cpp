@@ -17,4 +17,6 @@ void registerClasses() {
 
 }  // namespace roomgraph::observations
 
-MRPT_INITIALIZER(registerRoomgraphObservations) { roomgraph::observations::registerClasses(); }
+MRPT_INITIALIZER(registerRoomgraphObservations) {
+  roomgraph::observations::registerClasses();
+}

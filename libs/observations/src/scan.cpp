@@ -48,8 +48,9 @@ mrpt::obs::CObservation2DRangeScan::Ptr toMrpt(const Scan& scan) {
   observation->maxRange = static_cast<float>(scan.max_range_m);
   observation->sensorPose = toMrpt(scan.robot_from_lidar);
   observation->rightToLeft = scan.angle_step_rad >= 0;
-  observation->aperture = static_cast<float>(std::abs(scan.angle_step_rad) *
-                                             static_cast<double>(scan.ranges_m.empty() ? 0 : scan.ranges_m.size() - 1));
+  observation->aperture =
+      static_cast<float>(std::abs(scan.angle_step_rad) *
+                         static_cast<double>(scan.ranges_m.empty() ? 0 : scan.ranges_m.size() - 1));
   observation->resizeScan(scan.ranges_m.size());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     observation->setScanRange(i, scan.ranges_m[i]);

@@ -5,7 +5,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPriorHorizon_s = 0.15;  // a source may be extrapolated this far to predict another's movement
+constexpr double kPriorHorizon_s =
+    0.15;  // a source may be extrapolated this far to predict another's movement
 
 Matrix6d planarCovariance(const Eigen::Matrix3d& of_x_y_yaw) {
   Matrix6d out = Matrix6d::Zero();

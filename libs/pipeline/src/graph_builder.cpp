@@ -31,7 +31,8 @@ void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const 
   graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
 }
 
-// A handheld camera's world is level only as far as the seen floor says: tilt and height of the first pose are free.
+// A handheld camera's world is level only as far as the seen floor says: tilt and height of the first pose
+// are free.
 void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
   Pose3 anchor = toPose3(planarPart(first.world_from_robot));
   graph.addPose(kAnchor, anchor, true);
@@ -41,12 +42,13 @@ void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
                           Matrix6d(sigma.cwiseAbs2().asDiagonal()), 0});
 }
 
-void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses& poses, NodeId first, double width) {
+void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses& poses, NodeId first,
+                double width) {
   const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
   if (a.id == b.id || a.id < first || b.id < first) return;
-  BetweenFactor factor{a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b *
-                                       poses.offset(b, closure.t_b).inverse(),
-                       closure.covariance, width};
+  BetweenFactor factor{
+      a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
+      closure.covariance, width};
   if (closure.planar) {
     for (int i : {2, 3, 4}) {
       factor.covariance.row(i).setZero();
@@ -79,7 +81,8 @@ void addObjects(FactorGraph& graph, const Measurements& measurements, const std:
 }  // namespace
 
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const std::vector<Landmark>& landmarks, const BackendOptions& options, std::size_t first) {
+                       const std::vector<Landmark>& landmarks, const BackendOptions& options,
+                       std::size_t first) {
   FactorGraph graph;
   const auto& nodes = poses.nodes();
   const bool loose = !measurements.planar && first == 0 && !measurements.grounds.empty();

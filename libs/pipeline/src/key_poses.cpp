@@ -11,8 +11,8 @@ constexpr double kHorizon_s = 0.25;  // beyond this no source is extrapolated
 }
 
 const KeyPose& KeyPoses::nearest(double t) const {
-  const auto after =
-      std::lower_bound(nodes_.begin(), nodes_.end(), t, [](const KeyPose& node, double time) { return node.t < time; });
+  const auto after = std::lower_bound(nodes_.begin(), nodes_.end(), t,
+                                      [](const KeyPose& node, double time) { return node.t < time; });
   if (after == nodes_.begin()) return nodes_.front();
   if (after == nodes_.end()) return nodes_.back();
   return after->t - t < t - std::prev(after)->t ? *after : *std::prev(after);
@@ -30,8 +30,8 @@ Pose3 KeyPoses::offset(const KeyPose& node, double t) const {
 }
 
 Pose3 KeyPoses::at(double t) const {
-  const auto after =
-      std::lower_bound(nodes_.begin(), nodes_.end(), t, [](const KeyPose& node, double time) { return node.t < time; });
+  const auto after = std::lower_bound(nodes_.begin(), nodes_.end(), t,
+                                      [](const KeyPose& node, double time) { return node.t < time; });
   if (after == nodes_.begin()) return nodes_.front().world_from_robot * offset(nodes_.front(), t);
   if (after == nodes_.end()) return nodes_.back().world_from_robot * offset(nodes_.back(), t);
   const KeyPose &a = *std::prev(after), &b = *after;

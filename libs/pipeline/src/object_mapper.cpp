@@ -10,8 +10,10 @@
 namespace roomgraph {
 namespace {
 
-// Proposal covariances are in the ground frame under the camera (x ahead, y left, z up): turn them by its heading.
-WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& world_from_camera, double pose_sigma_m) {
+// Proposal covariances are in the ground frame under the camera (x ahead, y left, z up): turn them by its
+// heading.
+WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& world_from_camera,
+                         double pose_sigma_m) {
   WorldMeasurement out{measurement, world_from_camera * measurement.proposal.camera_from_object, {}};
   const Pose3 world_from_ground = world_from_camera * cameraFromGround(groundInCamera(world_from_camera));
   const double heading = planarPart(world_from_ground).yaw;
@@ -24,7 +26,8 @@ WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& worl
 
 LandmarkFactor sightingOf(const ObjectDecision& decision, const PosedFrame& posed) {
   const auto& proposal = decision.seen.measurement.proposal;
-  const Pose3 node_from_object = posed.node_from_robot * posed.frame.robot_from_camera * proposal.camera_from_object;
+  const Pose3 node_from_object =
+      posed.node_from_robot * posed.frame.robot_from_camera * proposal.camera_from_object;
   LandmarkFactor factor;
   factor.node = posed.node.id;
   factor.landmark = decision.landmark;
@@ -41,12 +44,13 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, const PosedFrame& pose
 
 }  // namespace
 
-std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements, const PosedFrame& posed,
-                                       double pose_sigma_m, Associator& associator, LandmarkMap& landmarks,
-                                       std::vector<LandmarkFactor>& sightings) {
+std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements,
+                                       const PosedFrame& posed, double pose_sigma_m, Associator& associator,
+                                       LandmarkMap& landmarks, std::vector<LandmarkFactor>& sightings) {
   const Pose3 world_from_camera = posed.world_from_robot * posed.frame.robot_from_camera;
   std::vector<WorldMeasurement> seen;
-  for (const auto& measurement : measurements) seen.push_back(toWorld(measurement, world_from_camera, pose_sigma_m));
+  for (const auto& measurement : measurements)
+    seen.push_back(toWorld(measurement, world_from_camera, pose_sigma_m));
   std::vector<ObjectDecision> decisions;
   for (const auto& association : associator.associate(seen, landmarks.landmarks())) {
     ObjectDecision decision{seen[association.measurement], association, {}};
@@ -58,13 +62,14 @@ std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& mea
   return decisions;
 }
 
-void missUnseen(const std::vector<ObjectDecision>& decisions, const PosedFrame& posed, LandmarkMap& landmarks) {
+void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                const PosedFrame& posed, LandmarkMap& landmarks) {
   std::set<LandmarkId> seen;
   for (const auto& decision : decisions) seen.insert(decision.landmark);
   const Pose3 world_from_camera = posed.world_from_robot * posed.frame.robot_from_camera;
   std::vector<LandmarkId> missed;
   for (const auto& landmark : landmarks.landmarks())
-    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, posed.frame, world_from_camera))
+    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, posed.frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks.miss(id);
 }

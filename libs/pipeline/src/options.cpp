@@ -5,7 +5,8 @@
 namespace roomgraph {
 
 void GeneralOptions::declareParameters(ParameterVisitor& v) {
-  v.add("plugins", plugins, {.doc = "shared libraries with further stages, loaded before the stages are made"});
+  v.add("plugins", plugins,
+        {.doc = "shared libraries with further stages, loaded before the stages are made"});
   v.add("objects_file", objects_file, {.doc = "object database; relative to the config file"});
   v.add("lookahead_s", lookahead_s,
         {.doc = "records are put in order of time within this span", .unit = "s", .min = 0, .max = 10});
@@ -14,9 +15,11 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
 void MotionNoise::declare(ParameterVisitor& v) {
   v.add("noise_floor_m", floor_m, {.doc = "translation noise at rest", .unit = "m", .min = 1e-5, .max = 1});
   v.add("noise_per_m", per_m, {.doc = "translation noise per distance", .min = 0, .max = 1});
-  v.add("noise_floor_rad", floor_rad, {.doc = "rotation noise at rest", .unit = "rad", .min = 1e-5, .max = 1});
+  v.add("noise_floor_rad", floor_rad,
+        {.doc = "rotation noise at rest", .unit = "rad", .min = 1e-5, .max = 1});
   v.add("noise_per_rad", per_rad, {.doc = "rotation noise per angle turned", .min = 0, .max = 1});
-  v.add("noise_rad_per_m", rad_per_m, {.doc = "rotation noise per distance", .unit = "rad/m", .min = 0, .max = 1});
+  v.add("noise_rad_per_m", rad_per_m,
+        {.doc = "rotation noise per distance", .unit = "rad/m", .min = 0, .max = 1});
 }
 
 void TrackingOptions::declareParameters(ParameterVisitor& v) {
@@ -30,7 +33,6 @@ void LidarOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "use 2D scans"});
   v.add("class", stage, {.doc = "implementation of ScanMatcher"});
   v.add("loop_closing", loop_closing, {.doc = "use loop closures found in scans"});
-  v.add("loop_closer", loop_closer, {.doc = "implementation of ScanLoopCloser"});
   noise.declare(v);
 }
 
@@ -49,21 +51,52 @@ void StageChoice::declareParameters(ParameterVisitor& v) {
 }
 
 void BackendOptions::declareParameters(ParameterVisitor& v) {
-  v.add("node_distance_m", node_distance_m, {.doc = "movement that makes a new pose of the graph", .unit = "m", .min = 0.01, .max = 10});
-  v.add("node_angle_rad", node_angle_rad, {.doc = "turn that makes a new pose of the graph", .unit = "rad", .min = 0.01, .max = 3.2});
-  v.add("node_interval_s", node_interval_s, {.doc = "time that makes a new pose of the graph", .unit = "s", .min = 0.1, .max = 1000});
-  v.add("window_nodes", window_nodes, {.doc = "latest poses optimised with every new one", .min = 2, .max = 100});
-  v.add("optimize_every_nodes", optimize_every_nodes, {.doc = "new poses between two optimisations of the whole graph", .min = 1, .max = 100000});
-  v.add("urgent_closure_m", urgent_closure_m, {.doc = "a loop closure this far off the estimate is optimised soon", .unit = "m", .min = 0, .max = 100});
-  v.add("urgent_closure_rad", urgent_closure_rad, {.doc = "a loop closure this far off the estimate is optimised soon", .unit = "rad", .min = 0, .max = 3.2});
+  v.add("node_distance_m", node_distance_m,
+        {.doc = "movement that makes a new pose of the graph", .unit = "m", .min = 0.01, .max = 10});
+  v.add("node_angle_rad", node_angle_rad,
+        {.doc = "turn that makes a new pose of the graph", .unit = "rad", .min = 0.01, .max = 3.2});
+  v.add("node_interval_s", node_interval_s,
+        {.doc = "time that makes a new pose of the graph", .unit = "s", .min = 0.1, .max = 1000});
+  v.add("window_nodes", window_nodes,
+        {.doc = "latest poses optimised with every new one", .min = 2, .max = 100});
+  v.add("optimize_every_nodes", optimize_every_nodes,
+        {.doc = "new poses between two optimisations of the whole graph", .min = 1, .max = 100000});
+  v.add("urgent_closure_m", urgent_closure_m,
+        {.doc = "a loop closure this far off the estimate is optimised soon",
+         .unit = "m",
+         .min = 0,
+         .max = 100});
+  v.add("urgent_closure_rad", urgent_closure_rad,
+        {.doc = "a loop closure this far off the estimate is optimised soon",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
   v.add("max_iterations", max_iterations, {.doc = "of one optimisation", .min = 1, .max = 1000});
-  v.add("closure_robust_width", closure_robust_width, {.doc = "Cauchy width for loop closures, in standard deviations; 0: least squares", .min = 0, .max = 100});
-  v.add("landmark_robust_width", landmark_robust_width, {.doc = "Cauchy width for object sightings, in standard deviations; 0: least squares", .min = 0, .max = 100});
-  v.add("planar_sigma_z_m", planar_sigma_z_m, {.doc = "height of a ground robot above the floor", .unit = "m", .min = 1e-5, .max = 10});
-  v.add("planar_sigma_tilt_rad", planar_sigma_tilt_rad, {.doc = "roll and pitch of a ground robot", .unit = "rad", .min = 1e-5, .max = 3});
-  v.add("pose_sigma_m", pose_sigma_m, {.doc = "uncertainty of the current pose when objects are associated", .unit = "m", .min = 0, .max = 10});
+  v.add("closure_robust_width", closure_robust_width,
+        {.doc = "Cauchy width for loop closures, in standard deviations; 0: least squares",
+         .min = 0,
+         .max = 100});
+  v.add("landmark_robust_width", landmark_robust_width,
+        {.doc = "Cauchy width for object sightings, in standard deviations; 0: least squares",
+         .min = 0,
+         .max = 100});
+  v.add("planar_sigma_z_m", planar_sigma_z_m,
+        {.doc = "height of a ground robot above the floor", .unit = "m", .min = 1e-5, .max = 10});
+  v.add("planar_sigma_tilt_rad", planar_sigma_tilt_rad,
+        {.doc = "roll and pitch of a ground robot", .unit = "rad", .min = 1e-5, .max = 3});
+  v.add("ground_sigma_rad", ground_sigma_rad,
+        {.doc = "normal of the floor as a handheld camera sees it", .unit = "rad", .min = 1e-4, .max = 3});
+  v.add("ground_sigma_m", ground_sigma_m,
+        {.doc = "distance of the floor as a handheld camera sees it", .unit = "m", .min = 1e-4, .max = 10});
+  v.add("pose_sigma_m", pose_sigma_m,
+        {.doc = "uncertainty of the current pose when objects are associated",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
   v.add("landmark_information_share", landmark_information_share,
-        {.doc = "share of a sighting's information that counts: sightings in a row share their errors", .min = 1e-4, .max = 1});
+        {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
+         .min = 1e-4,
+         .max = 1});
 }
 
 }  // namespace roomgraph

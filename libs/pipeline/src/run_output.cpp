@@ -15,7 +15,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json boxJson(const Box2& box) { return {box.u_min, box.v_min, box.u_max, box.v_max}; }
+ordered_json boxJson(const Box2& box) {
+  return {box.u_min, box.v_min, box.u_max, box.v_max};
+}
 
 void writeStamped(std::ostream& out, double t, const Pose3& pose) {
   const Eigen::Quaterniond q(pose.linear());
@@ -40,7 +42,8 @@ ordered_json associationsJson(const StepReport& report) {
     const Eigen::Vector3d place = decision.seen.world_from_object.translation();
     ordered_json posterior = ordered_json::array();
     for (const auto& [id, probability] : decision.association.posterior)
-      posterior.push_back({{"landmark", id.valid() ? ordered_json(id.value) : ordered_json("new")}, {"p", probability}});
+      posterior.push_back(
+          {{"landmark", id.valid() ? ordered_json(id.value) : ordered_json("new")}, {"p", probability}});
     line["measurements"].push_back({{"class", measurement.proposal.class_name},
                                     {"bbox", boxJson(measurement.detection.box)},
                                     {"landmark", decision.landmark.value},
@@ -66,10 +69,14 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   ordered_json summary;
   for (const auto& [key, value] : facts) summary[key] = value;
   const auto& counts = result.counts;
-  summary["counts"] = {{"frames", counts.frames},           {"frames_lost", counts.frames_lost},
-                       {"scans", counts.scans},             {"scans_unmatched", counts.scans_unmatched},
-                       {"odometry", counts.odometry},       {"recorded_detections", counts.detections},
-                       {"key_poses", counts.key_poses},     {"loop_closures", counts.loop_closures},
+  summary["counts"] = {{"frames", counts.frames},
+                       {"frames_lost", counts.frames_lost},
+                       {"scans", counts.scans},
+                       {"scans_unmatched", counts.scans_unmatched},
+                       {"odometry", counts.odometry},
+                       {"recorded_detections", counts.detections},
+                       {"key_poses", counts.key_poses},
+                       {"loop_closures", counts.loop_closures},
                        {"landmarks", result.map.landmarks.size()}};
   summary["reasons"] = counts.reasons;
   summary["records_used"] = read.used;

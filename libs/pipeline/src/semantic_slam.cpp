@@ -19,7 +19,9 @@ constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
 constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 
 // A sensor on a robot has a place on it; a handheld camera has none.
-bool isMounted(const Frame& frame) { return frame.robot_from_camera.translation().z() > 0.1; }
+bool isMounted(const Frame& frame) {
+  return frame.robot_from_camera.translation().z() > 0.1;
+}
 
 }  // namespace
 
@@ -31,7 +33,9 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
-SemanticSlam::~SemanticSlam() { timer_->clear(true); }
+SemanticSlam::~SemanticSlam() {
+  timer_->clear(true);
+}
 
 void SemanticSlam::process(const Record& record) {
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
@@ -45,11 +49,11 @@ StepReport SemanticSlam::step(const Frame& frame) {
   robot_from_camera_ = frame.robot_from_camera;
   estimator_.measurements().planar |= isMounted(frame);
 
-  const auto detections = detect(frame, report);   // sec. 1.1
-  track(frame, report);                            // sec. 4, factor 1
-  localize(frame.t);                               // sec. 4, M-step
-  propose(frame, detections);                      // sec. 1.2 to 1.D
-  mapObjects(frame, report);                       // sec. 3, and sec. 4, E-step
+  const auto detections = detect(frame, report);  // sec. 1.1
+  track(frame, report);                           // sec. 4, factor 1
+  localize(frame.t);                              // sec. 4, M-step
+  propose(frame, detections);                     // sec. 1.2 to 1.D
+  mapObjects(frame, report);                      // sec. 3, and sec. 4, E-step
 
   robot_times_.push_back(frame.t);
   camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
@@ -86,7 +90,13 @@ StepReport SemanticSlam::step(const OdometryReading& reading) {
   if (!stages_->odometry.enabled) return {};
   estimator_.measurements().planar = true;
   ++counts_.odometry;
-  if (!front_ends_.add(reading)) ++counts_.reasons["odometry: stamp does not come after the previous one"];
+  if (!front_ends_.add(reading)) {
+    ++counts_.reasons["odometry: stamp does not come after the previous one"];
+    return {.t = reading.t};
+  }
+  odometry_times_.push_back(reading.t);
+  // Frames and scans say when a pose is wanted; without any, the readings do.
+  if (robot_times_.empty()) localize(reading.t);
   return {.t = reading.t};
 }
 
@@ -158,7 +168,8 @@ void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& det
   stages_->mapper.add(frame, seen_.ground->plane);
 }
 
-// A handheld camera's world is levelled when the floor is seen for the first time; later sightings become factors.
+// A handheld camera's world is levelled when the floor is seen for the first time; later sightings become
+// factors.
 void SemanticSlam::level(const Frame& frame) {
   if (estimator_.measurements().planar || !seen_.ground->from_depth) return;
   const Plane& plane = seen_.ground->plane;
@@ -171,7 +182,10 @@ void SemanticSlam::level(const Frame& frame) {
   }
   const KeyPose& node = estimator_.poses().nodes().back();
   if (node.t != frame.t) return;
-  GroundFactor factor{.node = node.id, .normal_in_robot = frame.robot_from_camera.linear() * plane.normal};
+  GroundFactor factor{.node = node.id,
+                      .normal_in_robot = frame.robot_from_camera.linear() * plane.normal,
+                      .sigma_normal_rad = stages_->backend.ground_sigma_rad,
+                      .sigma_offset_m = stages_->backend.ground_sigma_m};
   factor.offset_m = plane.offset - factor.normal_in_robot.dot(frame.robot_from_camera.translation());
   estimator_.measurements().grounds.push_back(factor);
 }
@@ -187,9 +201,10 @@ void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   const KeyPoses& poses = estimator_.poses();
   const KeyPose& node = poses.nearest(frame.t);
   const PosedFrame posed{frame, poses.at(frame.t), node, poses.offset(node, frame.t)};
-  report.decisions = roomgraph::mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
-                                           stages_->landmarks, estimator_.measurements().sightings);
-  missUnseen(report.decisions, posed, stages_->landmarks);
+  report.decisions =
+      roomgraph::mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
+                            stages_->landmarks, estimator_.measurements().sightings);
+  missUnseen(report.decisions, report.detections, posed, stages_->landmarks);
 }
 
 // Returns inside the wedge of a person's box, at the person's depth (sec. 5).
@@ -234,7 +249,7 @@ SlamResult SemanticSlam::collect() {
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
   Trajectory dense;
-  for (const double t : robot_times_)
+  for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
   result.world_from_robot = result.map.world_from_robot = dense.poses();
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});

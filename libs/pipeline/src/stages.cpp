@@ -2,6 +2,8 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/stages.h"
 
+#include <map>
+
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/detection/register_classes.h"
@@ -14,10 +16,23 @@
 namespace roomgraph {
 namespace {
 
+// The class of a stage when the config names none.
+const std::map<std::string, std::string> kDefaultClass = {{"scan_loop_closing", "SubmapLoopCloser"},
+                                                          {"proposals", "GeometricProposalGenerator"},
+                                                          {"selection", "UnarySelector"},
+                                                          {"association", "GatedAssociator"}};
+
 template <class Interface>
 void addImplementations(ConfigSchema& schema, const std::string& section) {
   for (const auto& name : implementationsOf(&Interface::GetRuntimeClassIdStatic()))
     schema.add(section, *createStage<Interface>(name, section), name);
+}
+
+template <class Interface>
+void addChosen(ConfigSchema& schema, const std::string& section) {
+  StageChoice choice{kDefaultClass.at(section)};
+  schema.add(section, choice);
+  addImplementations<Interface>(schema, section);
 }
 
 // Collects the effective config while objects are read.
@@ -32,10 +47,18 @@ class Loader {
   }
 
   template <class Interface>
-  std::shared_ptr<Interface> make(const std::string& section, const std::string& name, const std::string& key = "class") {
-    auto stage = createStage<Interface>(name, "[" + section + "] " + key);
+  std::shared_ptr<Interface> make(const std::string& section, const std::string& name) {
+    auto stage = createStage<Interface>(name, "[" + section + "] class");
     read(section, *stage);
     return stage;
+  }
+
+  /// A section that holds nothing but the choice of a class, and the parameters of that class.
+  template <class Interface>
+  std::shared_ptr<Interface> makeChosen(const std::string& section) {
+    StageChoice choice{kDefaultClass.at(section)};
+    read(section, choice);
+    return make<Interface>(section, choice.stage);
   }
 
   std::string text() const {
@@ -62,7 +85,7 @@ void makeFrontEnds(Stages& stages, Loader& loader) {
   loader.read("lidar", stages.lidar);
   if (stages.lidar.enabled) stages.scan_matcher = loader.make<ScanMatcher>("lidar", stages.lidar.stage);
   if (stages.lidar.enabled && stages.lidar.loop_closing)
-    stages.scan_loop_closer = loader.make<ScanLoopCloser>("lidar", stages.lidar.loop_closer, "loop_closer");
+    stages.scan_loop_closer = loader.makeChosen<ScanLoopCloser>("scan_loop_closing");
 }
 
 void makeObjectStages(Stages& stages, Loader& loader) {
@@ -71,22 +94,18 @@ void makeObjectStages(Stages& stages, Loader& loader) {
     stages.detector = loader.make<Detector>("detection", stages.detection.detector);
     stages.detector->setDatabase(stages.database);
   }
-  StageChoice proposals{"GeometricProposalGenerator"}, selection{"UnarySelector"}, association{"GatedAssociator"};
-  loader.read("proposals", proposals);
-  stages.proposal_generator = loader.make<ProposalGenerator>("proposals", proposals.stage);
+  stages.proposal_generator = loader.makeChosen<ProposalGenerator>("proposals");
   stages.proposal_generator->setDatabase(stages.database);
-  loader.read("selection", selection);
-  stages.proposal_selector = loader.make<ProposalSelector>("selection", selection.stage);
-  loader.read("association", association);
-  stages.associator = loader.make<Associator>("association", association.stage);
+  stages.proposal_selector = loader.makeChosen<ProposalSelector>("selection");
+  stages.associator = loader.makeChosen<Associator>("association");
   loader.read("landmarks", stages.landmarks);
 }
 
 void prepareAll(Stages& stages) {
-  for (Stage* stage : std::initializer_list<Stage*>{
-           stages.rgbd_odometry.get(), stages.scan_matcher.get(), stages.scan_loop_closer.get(),
-           stages.detector.get(), stages.proposal_generator.get(), stages.proposal_selector.get(),
-           stages.associator.get()})
+  for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
+                                                    stages.scan_loop_closer.get(), stages.detector.get(),
+                                                    stages.proposal_generator.get(),
+                                                    stages.proposal_selector.get(), stages.associator.get()})
     if (stage) stage->prepare();
 }
 
@@ -137,16 +156,12 @@ ConfigSchema configSchema() {
   addImplementations<RgbdOdometry>(schema, "tracking");
   schema.add("lidar", lidar);
   addImplementations<ScanMatcher>(schema, "lidar");
-  addImplementations<ScanLoopCloser>(schema, "lidar");
+  addChosen<ScanLoopCloser>(schema, "scan_loop_closing");
   schema.add("detection", detection);
   addImplementations<Detector>(schema, "detection");
-  StageChoice proposals{"GeometricProposalGenerator"}, selection{"UnarySelector"}, association{"GatedAssociator"};
-  schema.add("proposals", proposals);
-  addImplementations<ProposalGenerator>(schema, "proposals");
-  schema.add("selection", selection);
-  addImplementations<ProposalSelector>(schema, "selection");
-  schema.add("association", association);
-  addImplementations<Associator>(schema, "association");
+  addChosen<ProposalGenerator>(schema, "proposals");
+  addChosen<ProposalSelector>(schema, "selection");
+  addChosen<Associator>(schema, "association");
   schema.add("landmarks", landmarks);
   schema.add("backend", backend);
   schema.add("mapping", mapper);

@@ -12,15 +12,21 @@ namespace roomgraph {
 namespace {
 
 // One axis of the model: the observed extent when it is as long as usual; otherwise the usual size, grown
-// away from the camera from the side that is seen.
+// from the side that is seen: `grow` is the sign of the direction.
 struct AxisFit {
   double center = 0, size = 0;
 };
 
-AxisFit fitAxis(double center, double observed, double usual, double sigma, bool camera_on_positive_side) {
+AxisFit fitAxis(double center, double observed, double usual, double sigma, double grow) {
   if (observed >= usual - sigma) return {center, std::min(observed, usual + 2 * sigma)};
-  const double grown = (usual - observed) / 2;
-  return {center + (camera_on_positive_side ? -grown : grown), usual};
+  return {center + grow * (usual - observed) / 2, usual};
+}
+
+// Unseen parts lie out of the image, when the box is cut on one side and the axis runs sideways; else behind.
+double growDirection(const Eigen::Vector2d& axis, const Eigen::Vector2d& center, const BoxEvidence& e) {
+  const double leftwards = (center.x() * axis.y() - center.y() * axis.x()) / std::max(center.norm(), 0.1);
+  if (e.cut_left != e.cut_right && std::abs(leftwards) > 0.5) return (leftwards > 0) == e.cut_left ? 1 : -1;
+  return axis.dot(center) > 0 ? 1 : -1;
 }
 
 // `quarter` turns of the rectangle's first axis give the front direction.
@@ -31,9 +37,8 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
   const double along = quarter % 2 ? r.size_second : r.size_first,
                across = quarter % 2 ? r.size_first : r.size_second;
   const double x = front.dot(r.center), y = left.dot(r.center);
-  // The camera is at the origin: on the positive side of an axis when the centre's coordinate is negative.
-  const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, x < 0);
-  const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, y < 0);
+  const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, growDirection(front, r.center, e));
+  const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, growDirection(left, r.center, e));
   const Eigen::Vector2d center = front * depth.center + left * width.center;
   PlacedShape placed;
   placed.shape = m.nominal();

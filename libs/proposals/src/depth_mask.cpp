@@ -118,20 +118,44 @@ double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
   return std::sqrt(share) * (0.2 + fill) * std::exp(-2 * (offset / n).squaredNorm()) / (1 + 0.15 * range / n);
 }
 
-// Parts apart from the main cluster that lie within the usual size around its middle.
-void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::size_t skip,
-                 const ObjectModel& model) {
+Eigen::Vector2d middleOf(const DepthMask& mask) {
   std::vector<double> x, y;
-  for (const auto& p : main.points) {
+  for (const auto& p : mask.points) {
     x.push_back(p.in_ground.x());
     y.push_back(p.in_ground.y());
   }
-  const Eigen::Vector2d middle((quantile(x, 0.05) + quantile(x, 0.95)) / 2,
-                               (quantile(y, 0.05) + quantile(y, 0.95)) / 2);
+  return {(quantile(x, 0.05) + quantile(x, 0.95)) / 2, (quantile(y, 0.05) + quantile(y, 0.95)) / 2};
+}
+
+// A part of a large box-shaped object: a back rest, parted from the seat by a surface seen at a grazing
+// angle.
+bool isPart(const DepthMask& part, const Eigen::Vector2d& middle, std::size_t main_size,
+            const ObjectModel& model) {
+  if (model.nominal().kind != ShapeKind::kCuboid ||
+      part.points.size() < 0.05 * static_cast<double>(main_size))
+    return false;
+  std::vector<double> heights;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& p : part.points) {
+    heights.push_back(p.in_ground.z());
+    mean += p.in_ground.head<2>() / static_cast<double>(part.points.size());
+  }
+  return quantile(heights, 0.9) < model.height_m + model.height_sigma_m &&
+         (mean - middle).norm() < (model.width_m + model.depth_m) / 4 + 0.1;
+}
+
+// Parts apart from the main cluster that lie within the usual size around its middle.
+void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::size_t skip,
+                 const ObjectModel& model) {
+  const Eigen::Vector2d middle = middleOf(main);
+  const std::size_t main_size = main.points.size();
   const double reach = std::min(model.width_m, model.depth_m) / 2 + 0.05;
-  for (std::size_t k = 0; k < others.size(); ++k)
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    if (k == skip) continue;
+    const bool whole = isPart(others[k], middle, main_size, model);
     for (const auto& p : others[k].points)
-      if (k != skip && (p.in_ground.head<2>() - middle).norm() < reach) main.points.push_back(p);
+      if (whole || (p.in_ground.head<2>() - middle).norm() < reach) main.points.push_back(p);
+  }
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace {
 constexpr int kPoints = 80;           // of the mask, used in the fit
 constexpr double kPointsWeight = 16;  // all of them together count like so many independent points
 
+constexpr int kFixed = 9;  // residuals: box sides, sizes, near side, yaw
+
 // Large residuals level off (Geman-McClure): wrong mask points and box sides cut by an occluder.
 double saturated(double r, double scale) {
   return r / std::sqrt(1 + r * r / (scale * scale));
@@ -42,7 +44,7 @@ class FitProblem {
   }
 
   int inputs() const { return round() ? 4 : 6; }
-  int values() const { return 4 + 3 + 1 + static_cast<int>(points_.size()); }
+  int values() const { return kFixed + static_cast<int>(points_.size()); }
 
   Eigen::VectorXd vectorOf(const PlacedShape& p) const {
     Eigen::VectorXd x(inputs());
@@ -72,12 +74,14 @@ class FitProblem {
     residuals[4] = (p.shape.width - m.width_m) / std::max(m.width_sigma_m, 0.01);
     residuals[5] = (p.shape.depth - m.depth_m) / std::max(m.depth_sigma_m, 0.01);
     residuals[6] = (p.shape.height - m.height_m) / std::max(m.height_sigma_m, 0.01);
-    residuals[7] = points_.empty() ? 0 : saturated((nearestRange(p) - near_range_) / (2 * sigma_point_), 3);
+    residuals[7] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (2 * sigma_point_), 3) : 0;
+    // The directions of the sides, found in the points, say more about yaw than the box does.
+    residuals[8] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / (points_.empty() ? 0.4 : 0.08);
     const Pose3 object_from_ground = groundFromObject(p).inverse();
     const double weight =
         points_.empty() ? 0 : std::sqrt(kPointsWeight / static_cast<double>(points_.size()));
     for (std::size_t i = 0; i < points_.size(); ++i)
-      residuals[8 + static_cast<Eigen::Index>(i)] =
+      residuals[kFixed + static_cast<Eigen::Index>(i)] =
           weight *
           saturated(distanceOutside(p.shape, object_from_ground * points_[i]).norm() / sigma_point_, 4);
     return 0;
@@ -85,6 +89,11 @@ class FitProblem {
 
  private:
   bool round() const { return initial_.shape.kind == ShapeKind::kCylinder; }
+
+  // What lies outside the image may be nearer than all that is seen.
+  bool nearSideKnown() const {
+    return !points_.empty() && (round() || !(e_.cut_left || e_.cut_right || e_.cut_bottom));
+  }
 
   double nearestRange(const PlacedShape& p) const {
     if (round()) return std::hypot(p.x, p.y) - p.shape.radius();

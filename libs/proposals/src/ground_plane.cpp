@@ -13,7 +13,7 @@ namespace {
 constexpr int kColumns = 80;          // of the grid of sampled points
 constexpr int kCountStride = 3;       // every third of them is enough to compare hypotheses
 constexpr int kNormalReach = 2;       // samples to each side over which the surface's direction is taken
-constexpr double kNormalGate = 0.42;  // rad, surface direction against the plane's
+constexpr double kNormalGate = 0.30;  // rad, surface direction against the plane's
 constexpr double kMinSpread = 0.12;   // m; a strip narrower than this does not fix a plane
 const Eigen::Vector3d kImageUp(0, -1, 0);
 
@@ -131,7 +131,9 @@ Outcome<GroundEstimate> findGround(const Frame& frame, const std::optional<Plane
     return Result::failure(expected ? "no plane near the expected floor"
                                     : "no plane below the camera can be the floor");
   const RefinedPlane refined = refinePlane(*initial, pointsOf(near));
-  if (refined.inliers < search.min_points) return Result::failure("too few floor points");
+  // Nothing speaks for a small plane when nothing is expected.
+  if (refined.inliers < (expected ? 1 : 2) * search.min_points)
+    return Result::failure("too few floor points");
   if (refined.spread_m < kMinSpread) return Result::failure("the visible floor is too narrow");
   if (!plausible(refined.plane, expected, search))
     return Result::failure("the plane disagrees with the expected floor");

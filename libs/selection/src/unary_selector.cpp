@@ -20,8 +20,9 @@ double unaryPotential(const Proposal& proposal, const Detection& detection) {
 void UnarySelector::declareParameters(ParameterVisitor& v) {
   v.add("max_energy", max_energy_,
         {.doc = "a proposal is selected when alpha * U (Eq. 4) is at most this", .min = -1, .max = 0});
-  v.add("temperature", temperature_,
-        {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
+  v.add(
+      "temperature", temperature_,
+      {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
 }
 
 std::vector<ObjectMeasurement> UnarySelector::select(const SelectionInput& input) {
@@ -34,7 +35,8 @@ std::vector<ObjectMeasurement> UnarySelector::select(const SelectionInput& input
     for (const auto& proposal : frame.proposals) {
       if (proposal.detection != static_cast<int>(j)) continue;
       // The generator's own score breaks ties between shapes that fit the box alike.
-      const double energy = detection.score * unaryPotential(proposal, detection) * (0.5 + 0.5 * proposal.score);
+      const double energy =
+          detection.score * unaryPotential(proposal, detection) * (0.5 + 0.5 * proposal.score);
       partition += std::exp(-energy / temperature_);
       if (energy > best_energy) continue;
       best_energy = energy;
@@ -42,9 +44,10 @@ std::vector<ObjectMeasurement> UnarySelector::select(const SelectionInput& input
     }
     if (!best) continue;
     char text[96];
-    std::snprintf(text, sizeof text, "E=%.3f U=%.3f alpha=%.2f", best_energy, unaryPotential(*best, detection),
-                  detection.score);
-    selected.push_back({frame.frame, frame.t, detection, *best, std::exp(-best_energy / temperature_) / partition, text});
+    std::snprintf(text, sizeof text, "E=%.3f U=%.3f alpha=%.2f", best_energy,
+                  unaryPotential(*best, detection), detection.score);
+    selected.push_back(
+        {frame.frame, frame.t, detection, *best, std::exp(-best_energy / temperature_) / partition, text});
   }
   return selected;
 }

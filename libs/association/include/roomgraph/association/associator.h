@@ -23,9 +23,9 @@ struct WorldMeasurement {
 /// Decision for one measurement (method.md sec. 4, E-step).
 struct Association {
   std::size_t measurement = 0;
-  LandmarkId landmark;                                     ///< invalid: a new landmark
-  double probability = 1;                                  ///< of the decision
-  std::vector<std::pair<LandmarkId, double>> posterior;    ///< over the gate and "new" (invalid id); sums to 1
+  LandmarkId landmark;                                   ///< invalid: a new landmark
+  double probability = 1;                                ///< of the decision
+  std::vector<std::pair<LandmarkId, double>> posterior;  ///< over the gate and "new" (invalid id); sums to 1
 };
 
 /// Measurements of one frame + landmarks -> posterior over {landmarks of the class in gate} and {new}.

@@ -6,8 +6,8 @@
 
 namespace roomgraph {
 
-/// Gaussian likelihood of the horizontal distance with the joint covariance (method.md sec. 4, p(b|x,l)) against a
-/// constant floor for "new"; measurements are served in the order of their most probable landmark.
+/// Gaussian likelihood of the horizontal distance with the joint covariance (method.md sec. 4, p(b|x,l))
+/// against a constant floor for "new"; measurements are served in the order of their most probable landmark.
 class GatedAssociator : public Associator {
   DEFINE_MRPT_OBJECT(GatedAssociator, roomgraph)
  public:

@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "roomgraph/association/associator.h"
@@ -9,8 +10,9 @@
 
 namespace roomgraph {
 
-/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place and size,
-/// Bernoulli filter for existence, merging of duplicates. The one owner of landmarks while a run goes on.
+/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place and
+/// size, Bernoulli filter for existence, merging of duplicates. The one owner of landmarks while a run goes
+/// on.
 class LandmarkMap : public Configurable {
  public:
   void declareParameters(ParameterVisitor& visitor) override;
@@ -38,11 +40,14 @@ class LandmarkMap : public Configurable {
 
  private:
   Landmark* get(LandmarkId id);
+  void weigh(Landmark& landmark, double ratio) const;
 
   std::vector<Landmark> landmarks_;
+  std::map<LandmarkId, double> evidence_;  ///< sum of the sightings' scores
   std::int64_t next_id_ = 0;
-  double birth_existence_ = 0.3, detection_probability_ = 0.7, false_alarm_probability_ = 0.15;
-  double confirm_existence_ = 0.9, merge_overlap_ = 0.2;
+  double birth_existence_ = 0.3, detection_probability_ = 0.6, false_alarm_probability_ = 0.15;
+  double score_gain_ = 5, neutral_score_ = 0.3;
+  double confirm_existence_ = 0.9, merge_overlap_ = 0.2, exclusive_overlap_ = 0.3;
   int confirm_observations_ = 6;
 };
 

@@ -2,7 +2,6 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
-
 namespace roomgraph::association {
 
 /// Registers the associators with the class factory; safe to call again.

@@ -21,14 +21,15 @@ struct LandmarkEstimate {
 
 /// What a solve did.
 struct SolveReport {
-  bool usable = false;       ///< the solution may be used (converged, or stopped early at a better point)
+  bool usable = false;  ///< the solution may be used (converged, or stopped early at a better point)
   double initial_cost = 0, final_cost = 0;  ///< half the sum of squared (robust) residuals
   int iterations = 0;
   std::string message;
 };
 
 /// Poses, landmarks and the factors between them; robust non-linear least squares (method.md Eq. 9).
-/// Ids are the caller's; every id used in a factor must have been added before. Throws std::out_of_range otherwise.
+/// Ids are the caller's; every id used in a factor must have been added before. Throws std::out_of_range
+/// otherwise.
 class FactorGraph {
  public:
   FactorGraph();
@@ -44,7 +45,8 @@ class FactorGraph {
   void add(const LandmarkFactor& factor);
   void add(const LandmarkGroundFactor& factor);
 
-  /// Minimises over everything that is not fixed. Deterministic, whatever the number of threads of the machine.
+  /// Minimises over everything that is not fixed. Deterministic, whatever the number of threads of the
+  /// machine.
   SolveReport optimize(int max_iterations = 50);
 
   Pose3 pose(NodeId id) const;
@@ -54,11 +56,12 @@ class FactorGraph {
   std::size_t landmarks() const;
   std::size_t factors() const;
 
-  /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is singular.
+  /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is
+  /// singular.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
 
-  /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses), EDGE_SE3:QUAT
-  /// between them. Throws RunError when the file cannot be written.
+  /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
+  /// EDGE_SE3:QUAT between them. Throws RunError when the file cannot be written.
   void saveG2o(const std::filesystem::path& file) const;
 
  private:

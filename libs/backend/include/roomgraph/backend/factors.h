@@ -9,8 +9,9 @@
 
 namespace roomgraph {
 
-// The measurements that make up the graph (method.md sec. 4). World is the frame of all estimates; `node` poses are
-// world_from_robot. Covariances are in the order (translation, rotation) and in the measurement's own frame.
+// The measurements that make up the graph (method.md sec. 4). World is the frame of all estimates; `node`
+// poses are world_from_robot. Covariances are in the order (translation, rotation) and in the measurement's
+// own frame.
 
 /// Movement between two poses: odometry, visual odometry, scan match, loop closure.
 struct BetweenFactor {
@@ -26,7 +27,8 @@ struct PlanarFactor {
   double sigma_z_m = 0.01, sigma_tilt_rad = 0.01;
 };
 
-/// Ground plane seen from a pose (normal . x + offset = 0 in the robot frame, normal up) against z = 0 in world.
+/// Ground plane seen from a pose (normal . x + offset = 0 in the robot frame, normal up) against z = 0 in
+/// world.
 struct GroundFactor {
   NodeId node;
   Eigen::Vector3d normal_in_robot = Eigen::Vector3d::UnitZ();
@@ -42,7 +44,7 @@ struct LandmarkFactor {
   double yaw_in_robot = 0;
   bool has_yaw = false;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the robot frame
-  double weight = 1;        ///< association probability x initialisation score, scales the information
+  double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 

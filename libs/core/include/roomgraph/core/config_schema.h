@@ -11,8 +11,8 @@
 namespace roomgraph {
 
 /// Every section and key that a configuration may hold, collected from the declarations themselves.
-/// A section may be shared by several classes (all implementations of one stage): then a key is known when any of
-/// them declares it, so that exchanging a class by name needs no other edit.
+/// A section may be shared by several classes (all implementations of one stage): then a key is known when
+/// any of them declares it, so that exchanging a class by name needs no other edit.
 class ConfigSchema {
  public:
   struct Key {

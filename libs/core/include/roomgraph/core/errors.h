@@ -6,7 +6,8 @@
 
 namespace roomgraph {
 
-/// Base of everything the program reports as one clear line; the exit code is part of the command line's contract.
+/// Base of everything the program reports as one clear line; the exit code is part of the command line's
+/// contract.
 struct Error : std::runtime_error {
   Error(const std::string& what, int code) : std::runtime_error(what), exit_code(code) {}
   int exit_code;

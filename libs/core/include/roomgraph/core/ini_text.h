@@ -14,10 +14,10 @@ struct IniEntry {
   std::string place;  ///< "config.ini:12", or "--set" for an override from the command line
 };
 
-/// Splits an INI text. Comments start with # or ; at the line's start or after white space; "key = #e6862a" (text
-/// attached, first in the value) is a value.
-/// MRPT's reader keeps neither line numbers nor duplicates, which a strict config has to report.
-/// Throws ConfigError on a line that is neither a section, an entry nor a comment, and on duplicate keys.
+/// Splits an INI text. Comments start with # or ; at the line's start or after white space; "key = #e6862a"
+/// (text attached, first in the value) is a value. MRPT's reader keeps neither line numbers nor duplicates,
+/// which a strict config has to report. Throws ConfigError on a line that is neither a section, an entry nor
+/// a comment, and on duplicate keys.
 std::vector<IniEntry> parseIni(const std::string& text, const std::string& name);
 std::vector<IniEntry> parseIniFile(const std::filesystem::path& file);
 

@@ -11,15 +11,15 @@ namespace roomgraph {
 
 /// What is declared about a parameter besides its key and its default (the member's initial value).
 struct ParameterInfo {
-  std::string_view doc;                                        ///< one sentence, with the meaning of special values
-  std::string_view unit = "";                                  ///< "m", "rad", "s", "px" …; empty: dimensionless
-  double min = -std::numeric_limits<double>::infinity();       ///< smallest allowed value, inclusive
-  double max = std::numeric_limits<double>::infinity();        ///< largest allowed value, inclusive
-  std::vector<std::string_view> choices = {};                  ///< allowed texts; empty: any
+  std::string_view doc;        ///< one sentence, with the meaning of special values
+  std::string_view unit = "";  ///< "m", "rad", "s", "px" …; empty: dimensionless
+  double min = -std::numeric_limits<double>::infinity();  ///< smallest allowed value, inclusive
+  double max = std::numeric_limits<double>::infinity();   ///< largest allowed value, inclusive
+  std::vector<std::string_view> choices = {};             ///< allowed texts; empty: any
 };
 
-/// Walks over declared parameters. Reading a config, checking it, writing the effective one and generating its
-/// documentation are all visitors of the same single declaration.
+/// Walks over declared parameters. Reading a config, checking it, writing the effective one and generating
+/// its documentation are all visitors of the same single declaration.
 class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
@@ -39,7 +39,8 @@ class Configurable {
   virtual void declareParameters(ParameterVisitor& visitor) { (void)visitor; }
 };
 
-/// Text of a value as it stands in an INI file, and back. parse throws std::invalid_argument with what is allowed.
+/// Text of a value as it stands in an INI file, and back. parse throws std::invalid_argument with what is
+/// allowed.
 std::string formatParameter(bool value);
 std::string formatParameter(int value);
 std::string formatParameter(double value);

@@ -9,11 +9,11 @@
 
 namespace roomgraph {
 
-/// One line of progress on a stream: share done, rate and time left. Rewrites the line on a terminal; prints a
-/// line now and then otherwise. Purely for people: nothing computed depends on it.
+/// One line of progress on a stream: share done, rate and time left. Rewrites the line on a terminal; prints
+/// a line now and then otherwise. Purely for people: nothing computed depends on it.
 class Progress {
  public:
-  /// `total` in units of `unit` (0: unknown); silent when `out` is null.
+  /// `total` in units of `unit` (0: unknown; empty unit: only the share is shown); silent when `out` is null.
   Progress(std::ostream* out, std::string label, std::string unit, double total);
   /// `done` counts like `total`; `note` is appended.
   void update(double done, const std::string& note = "");

@@ -7,7 +7,8 @@
 
 namespace roomgraph {
 
-/// The candidate closest to `word` by edit distance, or empty when none is near enough to be a likely misspelling.
+/// The candidate closest to `word` by edit distance, or empty when none is near enough to be a likely
+/// misspelling.
 std::string closestMatch(const std::string& word, const std::vector<std::string>& candidates);
 
 /// " (did you mean 'x'?)" or "".

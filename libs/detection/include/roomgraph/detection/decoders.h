@@ -42,6 +42,11 @@ std::vector<RawBox> decodeSegmentation(const cv::Mat& logits, cv::Size input, co
 /// Indices of the boxes that survive non-maximum suppression within their own class, best score first.
 std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou);
 
+/// Of `kept` (indices, best first) those that are not nearly the same box as a better one of another class:
+/// one object that got two labels.
+std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vector<int>& kept,
+                               double max_iou);
+
 /// Name of a COCO-80 class index ("person" … "toothbrush"); empty when out of range.
 const char* cocoLabel(int index);
 

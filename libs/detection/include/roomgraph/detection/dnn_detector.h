@@ -29,6 +29,7 @@ class DnnDetector : public Detector {
   int input_size_px_ = 0;
   double score_threshold_ = 0.35;
   double nms_threshold_ = 0.5;
+  double twin_threshold_ = 1;
   int every_nth_frame_ = 1;
 
   const ObjectDatabase* database_ = nullptr;

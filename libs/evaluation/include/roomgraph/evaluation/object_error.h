@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/evaluation/forgiven_kinds.h"
 #include "roomgraph/evaluation/object_files.h"
 #include "roomgraph/evaluation/statistics.h"
 #include "roomgraph/geometry/shape.h"
@@ -27,8 +28,7 @@ struct ObjectOptions {
   std::map<std::string, ClassRule> classes = {{"swivel_chair", {ShapeKind::kCylinder, 0}},
                                               {"sofa", {ShapeKind::kCuboid, 1}},
                                               {"door", {ShapeKind::kPlanar, 2}}};
-  /// A landmark of the class on an `other` object whose kind contains the text is neither right nor wrong.
-  std::map<std::string, std::string> forgiven_kinds = {{"swivel_chair", "chair"}};
+  ForgivenKinds forgiven_kinds = forgivenChairs();
   std::optional<std::set<int>> seen;  ///< ids that count for recall; nothing: all do
   Pose2 truth_from_map;               ///< moves the landmarks before they are compared
 };

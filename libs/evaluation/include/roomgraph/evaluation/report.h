@@ -4,6 +4,9 @@
 
 #include <string>
 
+#include "roomgraph/evaluation/association_error.h"
+#include "roomgraph/evaluation/detection_error.h"
+#include "roomgraph/evaluation/map_error.h"
 #include "roomgraph/evaluation/object_error.h"
 #include "roomgraph/evaluation/relations.h"
 #include "roomgraph/evaluation/trajectory_error.h"
@@ -14,11 +17,17 @@ namespace roomgraph {
 std::string toTable(const TrajectoryErrors& errors);
 std::string toTable(const RelationErrors& errors);
 std::string toTable(const ObjectErrors& errors);
+std::string toTable(const AssociationErrors& errors);
+std::string toTable(const DetectionErrors& errors);
+std::string toTable(const MapErrors& errors);
 
 /// The same figures as one JSON object with stable names. A figure that has nothing to be computed from is
 /// null.
 std::string toJson(const TrajectoryErrors& errors);
 std::string toJson(const RelationErrors& errors);
 std::string toJson(const ObjectErrors& errors);
+std::string toJson(const ObjectErrors& objects, const AssociationErrors& associations);
+std::string toJson(const DetectionErrors& errors);
+std::string toJson(const MapErrors& errors);
 
 }  // namespace roomgraph

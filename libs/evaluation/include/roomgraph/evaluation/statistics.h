@@ -10,6 +10,7 @@ namespace roomgraph {
 struct ErrorStatistics {
   int count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;
+  double p95 = 0;           ///< smallest error that 95 % of all do not exceed
   double std = 0;           ///< of the population (divided by count)
   double squared_mean = 0;  ///< mean of the squares, as Kümmerle et al. report
   double squared_std = 0;   ///< standard deviation of the squares

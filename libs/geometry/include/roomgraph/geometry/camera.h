@@ -10,9 +10,9 @@ namespace roomgraph {
 
 /// Pinhole camera. Optical frame: x right, y down, z forward. Pixel centres have integer coordinates.
 struct PinholeCamera {
-  int width = 0, height = 0;                 ///< px
-  double fx = 0, fy = 0, cx = 0, cy = 0;     ///< px
-  std::array<double, 5> distortion{};        ///< k1 k2 p1 p2 k3 (OpenCV); images are undistorted on loading
+  int width = 0, height = 0;              ///< px
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< px
+  std::array<double, 5> distortion{};     ///< k1 k2 p1 p2 k3 (OpenCV); images are undistorted on loading
 
   bool valid() const { return width > 0 && height > 0 && fx > 0 && fy > 0; }
   /// Pixel of a point with z > 0 (the caller's duty).

@@ -19,12 +19,12 @@ struct Plane {
 /// Ground z = 0 of world, as a plane in the camera frame (normal up, offset = camera height above ground).
 Plane groundInCamera(const Pose3& world_from_camera);
 
-/// Pose of the local ground frame (method.md sec. 0) in the camera: origin on the ground below the camera, z along
-/// the normal, x along the optical axis' horizontal direction.
+/// Pose of the local ground frame (method.md sec. 0) in the camera: origin on the ground below the camera, z
+/// along the normal, x along the optical axis' horizontal direction.
 Pose3 cameraFromGround(const Plane& ground);
 
-/// Where a ray from the camera centre meets the plane (paper Eq. 2); nothing when it is parallel to the plane, meets
-/// it behind the camera, or above the horizon.
+/// Where a ray from the camera centre meets the plane (paper Eq. 2); nothing when it is parallel to the
+/// plane, meets it behind the camera, or above the horizon.
 std::optional<Eigen::Vector3d> intersect(const Eigen::Vector3d& direction, const Plane& plane);
 
 }  // namespace roomgraph

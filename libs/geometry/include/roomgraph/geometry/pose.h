@@ -29,8 +29,8 @@ struct StampedPose {
 
 double wrapAngle(double radians);  ///< into (-pi, pi]
 
-Pose3 toPose3(const Pose2& pose);                        ///< z, roll and pitch are 0
-Pose2 planarPart(const Pose3& pose);                     ///< x, y, and yaw of the x axis' horizontal direction
+Pose3 toPose3(const Pose2& pose);     ///< z, roll and pitch are 0
+Pose2 planarPart(const Pose3& pose);  ///< x, y, and yaw of the x axis' horizontal direction
 Pose3 poseFromYpr(double x, double y, double z, double yaw, double pitch, double roll);
 Pose3 toPose3(const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D toMrpt(const Pose3& pose);
@@ -48,7 +48,8 @@ Pose3 interpolate(const Pose3& a, const Pose3& b, double ratio);
 /// The rotation part made orthonormal again, after long chains of products.
 Pose3 normalized(const Pose3& pose);
 
-/// robot_from_optical for a camera looking along the robot's x axis: body (x forward, z up) from optical axes.
+/// robot_from_optical for a camera looking along the robot's x axis: body (x forward, z up) from optical
+/// axes.
 Eigen::Matrix3d bodyFromOptical();
 
 }  // namespace roomgraph

@@ -16,8 +16,8 @@ struct PosePrior {
 
 struct GridRefinement {
   Pose2 grid_from_scan;
-  /// Sum over the points of J^T J, J the derivative of 1 - p by (x, y, yaw) of the pose; the prior is not in
-  /// it.
+  /// Of the summed squared residuals by (x, y, yaw) of the pose: directions from the surfaces
+  /// (surfaceCurvature), size from the grid; the prior is not in it.
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
   double residual_variance = 1;  ///< mean of (1 - p)^2
   double explained = 0;          ///< share of the points on a surface of the grid
@@ -33,6 +33,13 @@ struct GridCost {
 };
 GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& grid_from_scan,
                   const PosePrior& prior);
+
+/// Mean over the points of J^T N J, J the derivative of the point by (x, y, yaw) of the pose and N the
+/// projection on the normal of the surface around it (rounder where they form no line, none where they stand
+/// alone). Free of the cells' texture, which a grid's own curvature mistakes for hold along a corridor.
+/// Scaled to the trace in (x, y) of `grid_curvature`.
+Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_scan,
+                                 const Eigen::Matrix3d& grid_curvature);
 
 /// `most_per_m2` along directions the points do not fix at all, nothing where the curvature of their mean
 /// cost by translation (yaw free) reaches `enough_per_m2`: the cells' own texture must not hold a scan back

@@ -15,18 +15,20 @@ namespace roomgraph {
 /// Outcome for one scan.
 struct ScanMatch {
   bool matched = false;
-  std::string reason;                        ///< why not: "too few returns", "no overlap", …
-  Pose2 odom_from_robot;                     ///< pose in the matcher's own, drifting frame
-  int segment = 0;                           ///< counts up after each loss: poses of two segments are unrelated
-  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Identity();  ///< of the movement since the last scan: m, rad
-  double score = 0;                          ///< share of returns explained by the local map, [0, 1]
+  std::string reason;     ///< why not: "too few returns", "no overlap", …
+  Pose2 odom_from_robot;  ///< pose in the matcher's own, drifting frame
+  int segment = 0;        ///< counts up after each loss: poses of two segments are unrelated
+  Eigen::Matrix3d step_covariance =
+      Eigen::Matrix3d::Identity();  ///< of the movement since the last scan: m, rad
+  double score = 0;                 ///< share of returns explained by the local map, [0, 1]
 };
 
 /// Matches each scan against a local map made of the scans before it.
 class ScanMatcher : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(ScanMatcher)
  public:
-  /// `previous_from_current`: movement since the last scan as other sensors saw it; nothing when there are none.
+  /// `previous_from_current`: movement since the last scan as other sensors saw it; nothing when there are
+  /// none.
   virtual ScanMatch match(const Scan& scan, const std::optional<Pose2>& previous_from_current) = 0;
   /// All matched poses, in the matcher's frame (planar poses as Pose3).
   virtual Trajectory trajectory() const = 0;
@@ -38,8 +40,8 @@ class ScanLoopCloser : public Stage {
  public:
   /// Takes every matched scan with its pose in the matcher's frame.
   virtual void add(const Scan& scan, const ScanMatch& match) = 0;
-  /// Searches with what is known now. `world_from_robot`: current best trajectory, used to choose candidates and as
-  /// the initial guess. Returns only closures not returned before (a_from_b of the robot, planar).
+  /// Searches with what is known now. `world_from_robot`: current best trajectory, used to choose candidates
+  /// and as the initial guess. Returns only closures not returned before (a_from_b of the robot, planar).
   virtual std::vector<RelativePose> search(const Trajectory& world_from_robot) = 0;
 };
 

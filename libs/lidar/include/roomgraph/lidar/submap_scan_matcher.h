@@ -40,7 +40,7 @@ class SubmapScanMatcher : public ScanMatcher {
   double free_window_m_ = 0.4, free_window_deg_ = 25;
   double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
   double prior_per_m2_ = 2, prior_per_rad2_ = 1;
-  double weak_prior_per_m2_ = 100, weak_below_per_m2_ = 18;
+  double weak_prior_per_m2_ = 100, weak_below_per_m2_ = 15;
   double min_score_ = 0.1;
   int max_lost_scans_ = 10;
   double covariance_inflation_ = 1;

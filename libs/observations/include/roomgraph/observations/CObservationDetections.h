@@ -9,7 +9,8 @@
 
 namespace roomgraph {
 
-/// Boxes of a 2D object detector for one image, as a record of a rawlog. Refers to the image by time stamp and label.
+/// Boxes of a 2D object detector for one image, as a record of a rawlog. Refers to the image by time stamp
+/// and label.
 class CObservationDetections : public mrpt::obs::CObservation {
   DEFINE_SERIALIZABLE(CObservationDetections, roomgraph)
  public:
@@ -19,10 +20,10 @@ class CObservationDetections : public mrpt::obs::CObservation {
     float u_min = 0, v_min = 0, u_max = 0, v_max = 0;  ///< px
     std::int64_t track = -1;                           ///< id given by the source, -1: none
   };
-  std::string image_label;            ///< sensorLabel of the camera
+  std::string image_label;  ///< sensorLabel of the camera
   std::uint32_t image_width = 0, image_height = 0;
-  std::string model;                  ///< network, or simulator, that made the boxes
-  std::string model_hash;             ///< of the weights file; empty when there is none
+  std::string model;       ///< network, or simulator, that made the boxes
+  std::string model_hash;  ///< of the weights file; empty when there is none
   float score_threshold = 0, nms_threshold = 0;
   std::vector<Item> items;
 

@@ -12,15 +12,16 @@
 
 namespace roomgraph {
 
-/// The 2.5D semantic map (method.md sec. 6): occupancy grid, landmarks and the trajectory that made them, in world.
+/// The 2.5D semantic map (method.md sec. 6): occupancy grid, landmarks and the trajectory that made them, in
+/// world.
 class CSemanticMap : public mrpt::serialization::CSerializable {
   DEFINE_SERIALIZABLE(CSemanticMap, roomgraph)
  public:
   mrpt::maps::COccupancyGridMap2D::Ptr occupancy;  ///< null when nothing measured it
   std::vector<Landmark> landmarks;
   std::vector<StampedPose> world_from_robot;
-  bool planar = true;                              ///< false: a handheld camera moved freely
-  std::string origin;                              ///< the recording it was made from
+  bool planar = true;  ///< false: a handheld camera moved freely
+  std::string origin;  ///< the recording it was made from
 };
 
 }  // namespace roomgraph

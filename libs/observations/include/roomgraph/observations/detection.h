@@ -13,12 +13,13 @@ namespace roomgraph {
 
 /// One object seen by the 2D detector (method.md sec. 1.1).
 struct Detection {
-  Box2 box;                 ///< px, inside the image
-  std::string class_name;   ///< class of the object database ("swivel_chair", "sofa", "door", "person"), not the network's label
-  std::string label;        ///< label as the network or the recording gave it
-  double score = 0;         ///< alpha in [0, 1]
-  cv::Mat mask;             ///< CV_8UC1 over the box (rows x cols = its rounded size), or empty
-  TrackId track;            ///< id from the source when it tracks; may change for the same object
+  Box2 box;                ///< px, inside the image
+  std::string class_name;  ///< class of the object database ("swivel_chair", "sofa", "door", "person"), not
+                           ///< the network's label
+  std::string label;       ///< label as the network or the recording gave it
+  double score = 0;        ///< alpha in [0, 1]
+  cv::Mat mask;            ///< CV_8UC1 over the box (rows x cols = its rounded size), or empty
+  TrackId track;           ///< id from the source when it tracks; may change for the same object
 };
 
 }  // namespace roomgraph

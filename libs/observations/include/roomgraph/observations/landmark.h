@@ -19,13 +19,11 @@ struct Landmark {
   double yaw = 0;                                      ///< direction of the front in world, rad
   bool has_yaw = false;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw)
-  double existence = 0;                                ///< probability in [0, 1]
-  std::map<std::string, double> class_posterior;       ///< sums to 1
+  double existence = 0;                                      ///< probability in [0, 1]
+  std::map<std::string, double> class_posterior;             ///< sums to 1
   int observations = 0;
 
-  Pose3 worldFromObject() const {
-    return poseFromYpr(position.x(), position.y(), position.z(), yaw, 0, 0);
-  }
+  Pose3 worldFromObject() const { return poseFromYpr(position.x(), position.y(), position.z(), yaw, 0, 0); }
 };
 
 }  // namespace roomgraph

@@ -13,14 +13,14 @@ namespace roomgraph {
 
 /// One record of objects.ini (method.md "Object database"): an INI section named after the class.
 struct ObjectModel : Configurable {
-  std::string class_name;                 ///< section name
-  std::vector<std::string> labels;        ///< detector labels it answers to
+  std::string class_name;           ///< section name
+  std::vector<std::string> labels;  ///< detector labels it answers to
   std::string shape = "cuboid";
   double width_m = 1, depth_m = 1, height_m = 1;
   double width_sigma_m = .1, depth_sigma_m = .1, height_sigma_m = .1;
-  int symmetry = 1;                       ///< yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg
+  int symmetry = 1;  ///< yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg
   bool rests_on_ground = true;
-  bool landmark = true;                   ///< false: seen and masked, never mapped (persons)
+  bool landmark = true;  ///< false: seen and masked, never mapped (persons)
   std::string color = "#888888";
 
   void declareParameters(ParameterVisitor& visitor) override;

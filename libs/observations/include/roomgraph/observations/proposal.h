@@ -14,25 +14,26 @@ namespace roomgraph {
 
 /// Ground plane seen in one frame (method.md sec. 1.2).
 struct GroundEstimate {
-  Plane plane;                 ///< camera frame
+  Plane plane;                                           ///< camera frame
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of (normal, offset)
-  bool from_depth = false;     ///< false: predicted from the extrinsics
+  bool from_depth = false;                               ///< false: predicted from the extrinsics
 };
 
 /// One hypothesis of an object's shape and place (method.md sec. 1, end).
 struct Proposal {
-  int detection = -1;          ///< index j of the detection in its frame
-  std::string model;           ///< record of the object database
+  int detection = -1;  ///< index j of the detection in its frame
+  std::string model;   ///< record of the object database
   std::string class_name;
   ObjectShape shape;
   Pose3 camera_from_object = Pose3::Identity();  ///< object frame: bottom centre, x front, z up
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the ground-aligned camera frame: m, rad
-  bool has_yaw = false;        ///< false: yaw is not observable (round, or no direction found)
+  Eigen::Matrix4d covariance =
+      Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the ground-aligned camera frame: m, rad
+  bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
   ProjectedShape projected;
-  double score = 0;            ///< initialisation score in [0, 1] (method.md sec. 1.5)
-  double box_iou = 0;          ///< IoU of the projected shape with the detection's box
-  std::string source;          ///< generator: "depth", "leg line", "vanishing points", …
-  std::string reasons;         ///< what the score is made of, for people
+  double score = 0;     ///< initialisation score in [0, 1] (method.md sec. 1.5)
+  double box_iou = 0;   ///< IoU of the projected shape with the detection's box
+  std::string source;   ///< generator: "depth", "leg line", "vanishing points", …
+  std::string reasons;  ///< what the score is made of, for people
 };
 
 /// Everything that stage 1 says about one frame.
@@ -42,7 +43,7 @@ struct FrameProposals {
   std::vector<Detection> detections;
   std::vector<Proposal> proposals;
   std::optional<GroundEstimate> ground;
-  std::string ground_reason;   ///< why there is no ground plane
+  std::string ground_reason;  ///< why there is no ground plane
 };
 
 /// A selected proposal (method.md sec. 3) on its way to association.
@@ -51,8 +52,8 @@ struct ObjectMeasurement {
   double t = 0;
   Detection detection;
   Proposal proposal;
-  double confidence = 1;       ///< marginal probability of the choice
-  std::string explanation;     ///< energy terms, for people
+  double confidence = 1;    ///< marginal probability of the choice
+  std::string explanation;  ///< energy terms, for people
 };
 
 }  // namespace roomgraph

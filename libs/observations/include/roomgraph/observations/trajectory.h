@@ -15,8 +15,8 @@ struct RelativePose {
   double t_a = 0, t_b = 0;
   Pose3 a_from_b = Pose3::Identity();
   Matrix6d covariance = Matrix6d::Identity();  ///< of (translation, rotation) in frame a: m, rad
-  bool planar = false;                          ///< only x, y, yaw were measured
-  std::string source;                           ///< "tracking", "lidar", …
+  bool planar = false;                         ///< only x, y, yaw were measured
+  std::string source;                          ///< "tracking", "lidar", …
 };
 
 /// Poses of one source in its own frame, ordered by time; interpolates between them on SE(3).

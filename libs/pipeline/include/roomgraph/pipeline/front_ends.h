@@ -12,8 +12,8 @@
 
 namespace roomgraph {
 
-/// Sensor records -> movement of the robot. Owns the trajectories of the three sources, each in its own frame; every
-/// source predicts for the others.
+/// Sensor records -> movement of the robot. Owns the trajectories of the three sources, each in its own
+/// frame; every source predicts for the others.
 class FrontEnds {
  public:
   explicit FrontEnds(const Stages& stages);
@@ -32,7 +32,8 @@ class FrontEnds {
   void refine();
 
  private:
-  std::optional<Pose3> predicted(double t_a, double t_b, const MotionSource& first, const MotionSource& second) const;
+  std::optional<Pose3> predicted(double t_a, double t_b, const MotionSource& first,
+                                 const MotionSource& second) const;
 
   const Stages& stages_;
   Motion motion_;

@@ -12,15 +12,17 @@ namespace roomgraph {
 
 /// Everything measured so far that the factor graph is built from.
 struct Measurements {
-  std::vector<RelativePose> closures;      ///< between robots at two times
+  std::vector<RelativePose> closures;  ///< between robots at two times
   std::vector<LandmarkFactor> sightings;
-  std::vector<GroundFactor> grounds;       ///< handheld camera only
-  bool planar = true;                      ///< a robot on the floor
+  std::vector<GroundFactor> grounds;  ///< handheld camera only
+  bool planar = true;                 ///< a robot on the floor
 };
 
 /// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects
-/// (method.md sec. 4, factors 1, 3, 5, 6). With `first` > 0 only the key poses from there on: the first is held.
+/// (method.md sec. 4, factors 1, 3, 5, 6). With `first` > 0 only the key poses from there on: the first is
+/// held.
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const std::vector<Landmark>& landmarks, const BackendOptions& options, std::size_t first = 0);
+                       const std::vector<Landmark>& landmarks, const BackendOptions& options,
+                       std::size_t first = 0);
 
 }  // namespace roomgraph

@@ -29,8 +29,8 @@ class KeyPoses {
   const KeyPose& nearest(double t) const;
   /// Appends; t must come after the last one.
   NodeId add(double t, const Pose3& world_from_robot);
-  /// Pose at any time: from the key poses before and after, blended. Holds the nearest pose when no source of motion
-  /// covers the time. There must be a key pose.
+  /// Pose at any time: from the key poses before and after, blended. Holds the nearest pose when no source of
+  /// motion covers the time. There must be a key pose.
   Pose3 at(double t) const;
   /// Movement from a key pose to a time near it; holds still when nothing is known.
   Pose3 offset(const KeyPose& node, double t) const;

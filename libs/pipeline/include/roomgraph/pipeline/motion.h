@@ -43,7 +43,8 @@ class MotionSource {
 struct Motion {
   MotionSource odometry, visual, lidar;
 
-  /// Best guess of the movement between two times: scans first, then images, then wheels; nothing when none knows.
+  /// Best guess of the movement between two times: scans first, then images, then wheels; nothing when none
+  /// knows.
   std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
 };
 

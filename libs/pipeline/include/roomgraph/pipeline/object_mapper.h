@@ -14,17 +14,18 @@ namespace roomgraph {
 struct PosedFrame {
   const Frame& frame;
   Pose3 world_from_robot;
-  const KeyPose& node;       ///< key pose that sightings are attached to
-  Pose3 node_from_robot;     ///< movement from it
+  const KeyPose& node;    ///< key pose that sightings are attached to
+  Pose3 node_from_robot;  ///< movement from it
 };
 
-/// Selected measurements -> world -> association -> landmarks; the object part of one step (method.md sec. 4, E-step).
-/// Appends the sightings for the factor graph.
-std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements, const PosedFrame& posed,
-                                       double pose_sigma_m, Associator& associator, LandmarkMap& landmarks,
-                                       std::vector<LandmarkFactor>& sightings);
+/// Selected measurements -> world -> association -> landmarks; the object part of one step (method.md sec. 4,
+/// E-step). Appends the sightings for the factor graph.
+std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements,
+                                       const PosedFrame& posed, double pose_sigma_m, Associator& associator,
+                                       LandmarkMap& landmarks, std::vector<LandmarkFactor>& sightings);
 
-/// Lowers the existence of landmarks in good view that were not among the decisions.
-void missUnseen(const std::vector<ObjectDecision>& decisions, const PosedFrame& posed, LandmarkMap& landmarks);
+/// Lowers the existence of landmarks in good view where nothing was detected.
+void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                const PosedFrame& posed, LandmarkMap& landmarks);
 
 }  // namespace roomgraph

@@ -19,9 +19,9 @@ struct GeneralOptions : Configurable {
 
 /// What a source of motion is trusted with: standard deviations grow with the movement.
 struct MotionNoise {
-  double floor_m = 0.01, per_m = 0.02;          ///< translation
-  double floor_rad = 0.003, per_rad = 0.02;     ///< rotation
-  double rad_per_m = 0.01;                      ///< rotation, by distance driven
+  double floor_m = 0.01, per_m = 0.02;       ///< translation
+  double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
+  double rad_per_m = 0.01;                   ///< rotation, by distance driven
   void declare(ParameterVisitor& v);
 };
 
@@ -36,7 +36,7 @@ struct TrackingOptions : Configurable {
 /// [lidar]
 struct LidarOptions : Configurable {
   bool enabled = true, loop_closing = true;
-  std::string stage = "SubmapScanMatcher", loop_closer = "SubmapLoopCloser";
+  std::string stage = "SubmapScanMatcher";
   MotionNoise noise{0.004, 0.01, 0.002, 0.01, 0.003};
   void declareParameters(ParameterVisitor& v) override;
 };
@@ -48,12 +48,14 @@ struct OdometryOptions : Configurable {
   void declareParameters(ParameterVisitor& v) override;
 };
 
-/// [detection], [proposals], [selection], [association]
+/// [detection]
 struct ObjectOptions : Configurable {
   bool enabled = true;
   std::string detector = "DnnDetector";
   void declareParameters(ParameterVisitor& v) override;
 };
+
+/// [scan_loop_closing], [proposals], [selection], [association]
 struct StageChoice : Configurable {
   explicit StageChoice(std::string name) : stage(std::move(name)) {}
   std::string stage;
@@ -67,8 +69,9 @@ struct BackendOptions : Configurable {
   double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
   double closure_robust_width = 1.0, landmark_robust_width = 1.0;
   double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
+  double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
-  double landmark_information_share = 0.1;
+  double landmark_information_share = 0.01;
   void declareParameters(ParameterVisitor& v) override;
 };
 

@@ -9,8 +9,8 @@
 
 namespace roomgraph {
 
-/// The robot's poses in world, and with them the landmarks: key poses, what was measured between them, and the
-/// optimisations of both (method.md sec. 4, M-step).
+/// The robot's poses in world, and with them the landmarks: key poses, what was measured between them, and
+/// the optimisations of both (method.md sec. 4, M-step).
 class PoseEstimator {
  public:
   PoseEstimator(const BackendOptions& options, const Motion& motion);

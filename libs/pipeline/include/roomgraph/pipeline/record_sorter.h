@@ -9,8 +9,8 @@
 
 namespace roomgraph {
 
-/// Puts records in order of time within a short look-ahead. At equal times wheel odometry and recorded detections come
-/// first, then scans, then frames: what a frame needs is there when it is processed.
+/// Puts records in order of time within a short look-ahead. At equal times wheel odometry and recorded
+/// detections come first, then scans, then frames: what a frame needs is there when it is processed.
 class RecordSorter {
  public:
   explicit RecordSorter(double lookahead_s) : lookahead_s_(lookahead_s) {}

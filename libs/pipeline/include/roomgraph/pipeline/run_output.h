@@ -11,8 +11,8 @@
 
 namespace roomgraph {
 
-/// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end, so a run
-/// that is interrupted leaves valid files.
+/// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end,
+/// so a run that is interrupted leaves valid files.
 class RunOutput : public Sink {
  public:
   /// Makes the folder. Throws RunError when it cannot be written.

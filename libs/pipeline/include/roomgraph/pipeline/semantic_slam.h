@@ -31,7 +31,8 @@ struct RunCounts {
 
 /// The result of a run.
 struct SlamResult {
-  std::vector<StampedPose> world_from_robot;   ///< at every frame and scan
+  std::vector<StampedPose>
+      world_from_robot;  ///< at every frame and scan (with neither: at every odometry reading)
   std::vector<StampedPose> world_from_camera;  ///< at every frame (optical)
   CSemanticMap map;
   RunCounts counts;
@@ -75,15 +76,15 @@ class SemanticSlam {
   std::vector<std::shared_ptr<Sink>> sinks_;
   std::unique_ptr<mrpt::system::CTimeLogger> timer_;
 
-  FrontEnds front_ends_;        ///< trajectories of the sources
-  PoseEstimator estimator_;     ///< key poses, measurements between them, the factor graph
+  FrontEnds front_ends_;     ///< trajectories of the sources
+  PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   RunCounts counts_;
-  FrameProposals seen_;         ///< of the last frame
-  std::vector<Box2> people_;    ///< in the last frame with detections, px
+  FrameProposals seen_;       ///< of the last frame
+  std::vector<Box2> people_;  ///< in the last frame with detections, px
   Pose3 robot_from_camera_ = Pose3::Identity();
-  bool levelled_ = false;       ///< handheld camera: the floor has been seen
+  bool levelled_ = false;  ///< handheld camera: the floor has been seen
   double last_frame_t_, last_scan_t_;
-  std::vector<double> robot_times_;                      ///< of all frames and scans
+  std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };
 

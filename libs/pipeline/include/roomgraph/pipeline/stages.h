@@ -34,20 +34,21 @@ struct Stages {
   ObjectOptions detection;
   BackendOptions backend;
   ObjectDatabase database;
-  std::shared_ptr<RgbdOdometry> rgbd_odometry;        ///< null when switched off
-  std::shared_ptr<ScanMatcher> scan_matcher;          ///< null when switched off
-  std::shared_ptr<ScanLoopCloser> scan_loop_closer;   ///< null when switched off
-  std::shared_ptr<Detector> detector;                 ///< null when switched off
+  std::shared_ptr<RgbdOdometry> rgbd_odometry;       ///< null when switched off
+  std::shared_ptr<ScanMatcher> scan_matcher;         ///< null when switched off
+  std::shared_ptr<ScanLoopCloser> scan_loop_closer;  ///< null when switched off
+  std::shared_ptr<Detector> detector;                ///< null when switched off
   std::shared_ptr<ProposalGenerator> proposal_generator;
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;
   LandmarkMap landmarks;
   OccupancyMapper mapper;
-  std::string effective_config;                       ///< INI text of every parameter as it is used
+  std::string effective_config;  ///< INI text of every parameter as it is used
 };
 
-/// Loads the plug-ins, makes the stages and gives them their parameters. `folder`: where relative files are looked up.
-/// Throws ConfigError (unknown section, key, class, value) or InputError (object database, network file).
+/// Loads the plug-ins, makes the stages and gives them their parameters. `folder`: where relative files are
+/// looked up. Throws ConfigError (unknown section, key, class, value) or InputError (object database, network
+/// file).
 std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& folder);
 
 /// Every section and key that a config may hold, with all registered implementations.

@@ -23,12 +23,12 @@ struct StepReport {
   enum class Kind { kFrame, kScan, kOther };
   Kind kind = Kind::kOther;
   double t = 0;
-  FrameId frame;                                   ///< frames only
-  Pose3 world_from_robot = Pose3::Identity();      ///< as known now, without hindsight
+  FrameId frame;                               ///< frames only
+  Pose3 world_from_robot = Pose3::Identity();  ///< as known now, without hindsight
   bool detector_ran = false;
   std::vector<Detection> detections;
   std::vector<ObjectDecision> decisions;
-  std::string note;                                ///< "lost: too few inliers", …; empty when all is well
+  std::string note;  ///< "lost: too few inliers", …; empty when all is well
 };
 
 /// Whoever watches a run. The pipeline never knows who.

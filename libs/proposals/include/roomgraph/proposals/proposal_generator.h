@@ -18,8 +18,8 @@ class ProposalGenerator : public Stage {
  public:
   /// The object database outlives the generator; called before prepare().
   virtual void setDatabase(const ObjectDatabase& database) = 0;
-  /// `expected_ground`: plane predicted from extrinsics or from the frames before, camera frame; nothing when unknown
-  /// (a handheld camera that has not seen the floor yet).
+  /// `expected_ground`: plane predicted from extrinsics or from the frames before, camera frame; nothing when
+  /// unknown (a handheld camera that has not seen the floor yet).
   virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
                                   const std::optional<Plane>& expected_ground) = 0;
 };

@@ -16,7 +16,8 @@ namespace roomgraph {
 struct SelectionInput {
   const FrameProposals& frame;
   PinholeCamera camera;
-  std::optional<Pose3> previous_from_current;  ///< movement of the camera since the last frame given; nothing if unknown
+  std::optional<Pose3>
+      previous_from_current;  ///< movement of the camera since the last frame given; nothing if unknown
 };
 
 /// Chooses among the proposals of each detection (method.md sec. 3).

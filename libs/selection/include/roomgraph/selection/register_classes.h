@@ -2,7 +2,6 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
-
 namespace roomgraph::selection {
 
 /// Registers the selectors with the class factory; safe to call again.

@@ -24,13 +24,15 @@ struct TrackingPrior {
 /// Outcome for one frame.
 struct TrackingResult {
   bool tracked = false;
-  std::string reason;                             ///< why not: "too few features", "too few inliers", "no depth", …
-  Pose3 odom_from_camera = Pose3::Identity();     ///< pose in the tracker's own, drifting frame
-  int segment = 0;                                ///< counts up after each loss: poses of two segments are unrelated
+  std::string reason;  ///< why not: "too few features", "too few inliers", "no depth", …
+  Pose3 odom_from_camera = Pose3::Identity();  ///< pose in the tracker's own, drifting frame
+  int segment = 0;  ///< counts up after each loss: poses of two segments are unrelated
   int inliers = 0, matches = 0;
   bool keyframe = false;
-  Matrix6d step_covariance = Matrix6d::Identity();  ///< of the movement since the last frame (translation, rotation)
-  /// Pixels of tracked features with their persistent point id: lets later stages count shared features per box.
+  Matrix6d step_covariance =
+      Matrix6d::Identity();  ///< of the movement since the last frame (translation, rotation)
+  /// Pixels of tracked features with their persistent point id: lets later stages count shared features per
+  /// box.
   std::vector<std::pair<Eigen::Vector2d, std::int64_t>> features;
 };
 
@@ -43,7 +45,8 @@ class RgbdOdometry : public Stage {
   /// Best current estimate of every tracked frame (later frames refine earlier ones), in the tracker's frame.
   virtual Trajectory trajectory() const = 0;
 
-  /// Loop closures found since the last call, between cameras at two frame times (a_from_b of the optical frames).
+  /// Loop closures found since the last call, between cameras at two frame times (a_from_b of the optical
+  /// frames).
   virtual std::vector<RelativePose> takeLoopClosures() { return {}; }
 };
 

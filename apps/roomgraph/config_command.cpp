@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <iostream>
+
+#include "commands.h"
+#include "roomgraph/pipeline/stages.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr const char* kHeader =
+    "# Configuration reference\n\n"
+    "Generated from the program's own declarations by `roomgraph config-reference > docs/config.md`; do not "
+    "edit.\n\n"
+    "A configuration is an INI file (`--config FILE`); single keys are overridden with `--set "
+    "section.key=value`. What\n"
+    "is not set keeps its default. An unknown section, an unknown key and a value out of range are "
+    "errors.\n\n";
+constexpr const char* kObjects =
+    "# Object database\n\n"
+    "`objects.ini` (`[pipeline] objects_file`) holds one section per class, named after it. Keys of "
+    "each:\n\n";
+
+}  // namespace
+
+void addConfigReferenceCommand(CLI::App& app) {
+  auto* command = app.add_subcommand("config-reference", "Reference of all configuration keys, in Markdown");
+  command->group("");  // for maintainers: not listed in the help
+  command->callback(
+      [] { std::cout << kHeader << configSchema().markdown() << kObjects << ObjectDatabase::markdown(); });
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# Builds roomgraph and runs all tests.
+set -euo pipefail
+cd "$(dirname "$0")"
+./setup.sh
+exec ctest --test-dir build/release --output-on-failure --timeout 300 -j "$(nproc)"

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "residual_specimens.h"
+
+namespace roomgraph::testing {
+namespace {
+
+std::shared_ptr<ceres::CostFunction> between(const BetweenFactor& f) {
+  return costOf<BetweenResidual, 6, 3, 4, 3, 4>(f);
+}
+std::shared_ptr<ceres::CostFunction> planar(const PlanarFactor& f) {
+  return costOf<PlanarResidual, 3, 3, 4>(f);
+}
+std::shared_ptr<ceres::CostFunction> ground(const GroundFactor& f) {
+  return costOf<GroundResidual, 3, 3, 4>(f);
+}
+std::shared_ptr<ceres::CostFunction> sighting(const LandmarkFactor& f) {
+  return costOf<LandmarkResidual, 4, 3, 4, 4>(f);
+}
+std::shared_ptr<ceres::CostFunction> onFloor(const LandmarkGroundFactor& f) {
+  return costOf<LandmarkGroundResidual, 1, 4>(f);
+}
+
+Specimen betweenAtMeasurement(Random& random) {
+  const Pose3 a = random.pose(3), a_from_b = random.pose(1, 1.5);
+  Specimen s{between({{}, {}, a_from_b, randomCovariance<6>(random)}), blocksOf(a)};
+  append(s.blocks, a * a_from_b);
+  return s;
+}
+
+// a at (1, 2, 0) heading +y; b one metre ahead of it, but measured 1.2 m ahead, and turned by a further 0.2
+// rad about z that the measurement does not have. Sigmas 0.1 m and 0.05 rad; rotation error 2 sin(0.1) rad.
+Specimen betweenByHand() {
+  BetweenFactor f;
+  f.a_from_b = poseFromYpr(1.2, 0, 0, 0, 0, 0);
+  f.covariance = Matrix6d::Identity() * 0.01;
+  f.covariance.bottomRightCorner<3, 3>() *= 0.25;
+  Specimen s{
+      between(f), blocksOf(poseFromYpr(1, 2, 0, M_PI / 2, 0, 0)), {-2, 0, 0, 0, 0, 2 * std::sin(0.1) / 0.05}};
+  append(s.blocks, poseFromYpr(1, 3, 0, M_PI / 2 + 0.2, 0, 0));
+  return s;
+}
+
+Specimen planarAtMeasurement(Random& random) {
+  const Pose2 pose{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-3, 3)};
+  return {planar({{}, 0.02, 0.03}), blocksOf(toPose3(pose))};
+}
+
+// 4 cm too high with a sigma of 2 cm; nose 0.1 rad down: the up axis leans forward by sin(0.1), heading +y.
+Specimen planarByHand() {
+  return {planar({{}, 0.02, 0.05}),
+          blocksOf(poseFromYpr(7, 8, 0.04, M_PI / 2, 0.1, 0)),
+          {2, 0, std::sin(0.1) / 0.05}};
+}
+
+Specimen groundAtMeasurement(Random& random) {
+  const Pose3 pose = random.pose(2, 1);
+  GroundFactor f;
+  f.normal_in_robot = 2 * (pose.linear().transpose() * Eigen::Vector3d::UnitZ());  // any length will do
+  f.offset_m = pose.translation().z();
+  return {ground(f), blocksOf(pose)};
+}
+
+// An upright sensor 1.5 m up says 1.4 m, and sees a floor whose normal leans forward by atan(3/4).
+Specimen groundByHand() {
+  return {ground({{}, {0.6, 0, 0.8}, 1.4, 0.2, 0.05}), blocksOf(poseFromYpr(3, 1, 1.5, 0, 0, 0)), {3, 0, 2}};
+}
+
+LandmarkFactor exactSighting(const Pose3& pose, const std::vector<double>& object) {
+  LandmarkFactor f;
+  f.position_in_robot = pose.inverse() * Eigen::Vector3d(object[0], object[1], object[2]);
+  f.yaw_in_robot = wrapAngle(object[3] - planarPart(pose).yaw);
+  return f;
+}
+
+Specimen sightingAtMeasurement(Random& random) {
+  const Pose3 pose = random.pose(2, 1);
+  const Eigen::Vector3d p = random.vector(3);
+  const std::vector<double> object{p.x(), p.y(), p.z(), random.uniform(-3, 3)};
+  LandmarkFactor f = exactSighting(pose, object);
+  f.has_yaw = random.index(2) == 0;
+  f.covariance = randomCovariance<4>(random);
+  f.weight = random.uniform(0.2, 1);
+  Specimen s{sighting(f), blocksOf(pose)};
+  s.blocks.push_back({object});
+  return s;
+}
+
+// Robot at (1, 1) heading +y. The object at (1, 3, 0) is 2 m ahead of it, measured 1.8 m ahead and 0.1 m to
+// the left; its yaw of -3.0 rad against a measured 1.6 rad: -3 - pi/2 - 1.6 = -6.1708 rad, wrapped + 2 pi.
+// The weight belongs to the loss and leaves the residual alone; sigmas 0.1 m and 0.1 rad.
+Specimen sightingByHand() {
+  LandmarkFactor f;
+  f.position_in_robot = {1.8, 0.1, 0};
+  f.yaw_in_robot = 1.6;
+  f.has_yaw = true;
+  f.covariance = Eigen::Matrix4d::Identity() * 0.01;
+  f.weight = 0.25;
+  Specimen s{
+      sighting(f), blocksOf(poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)), {2, -1, 0, (1.5 * M_PI - 4.6) / 0.1}};
+  s.blocks.push_back({{1, 3, 0, -3}});
+  return s;
+}
+
+Specimen onFloorAtMeasurement(Random& random) {
+  return {onFloor({{}, 0.02}), {{{random.uniform(-3, 3), random.uniform(-3, 3), 0, random.uniform(-3, 3)}}}};
+}
+
+Specimen onFloorByHand() {
+  return {onFloor({{}, 0.02}), {{{1, 2, -0.05, 1}}}, {-2.5}};
+}
+
+}  // namespace
+
+std::vector<ResidualCase> residualCases() {
+  return {{"BetweenResidual", betweenAtMeasurement, betweenByHand},
+          {"PlanarResidual", planarAtMeasurement, planarByHand},
+          {"GroundResidual", groundAtMeasurement, groundByHand},
+          {"LandmarkResidual", sightingAtMeasurement, sightingByHand},
+          {"LandmarkGroundResidual", onFloorAtMeasurement, onFloorByHand}};
+}
+
+}  // namespace roomgraph::testing

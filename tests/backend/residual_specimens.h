@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "random_poses.h"
+#include "residuals.h"
+
+namespace roomgraph::testing {
+
+/// One parameter block; a quaternion (x y z w) moves on its manifold, others in a plain vector space.
+struct Block {
+  std::vector<double> value;
+  bool quaternion = false;
+};
+
+/// A cost function with a state at which something is known about its residuals.
+struct Specimen {
+  std::shared_ptr<ceres::CostFunction> cost;
+  std::vector<Block> blocks;
+  std::vector<double> residuals = {};  ///< expected at `blocks`
+};
+
+/// What must be known about each residual of residuals.h to be tested.
+struct ResidualCase {
+  std::string name;
+  std::function<Specimen(Random&)> at_measurement;  ///< a random measurement with the state it is exact for
+  std::function<Specimen()> by_hand;                ///< a state whose residuals were worked out on paper
+};
+
+template <class Residual, int Count, int... Sizes, class Factor>
+std::shared_ptr<ceres::CostFunction> costOf(const Factor& factor) {
+  return std::make_shared<ceres::AutoDiffCostFunction<Residual, Count, Sizes...>>(new Residual(factor));
+}
+
+inline void append(std::vector<Block>& blocks, const Pose3& pose) {
+  const Eigen::Vector3d t = pose.translation();
+  const Eigen::Quaterniond q(pose.linear());
+  blocks.push_back({{t.x(), t.y(), t.z()}});
+  blocks.push_back({{q.x(), q.y(), q.z(), q.w()}, true});
+}
+
+inline std::vector<Block> blocksOf(const Pose3& pose) {
+  std::vector<Block> blocks;
+  append(blocks, pose);
+  return blocks;
+}
+
+/// A full, well-conditioned covariance.
+template <int N>
+Eigen::Matrix<double, N, N> randomCovariance(Random& random) {
+  Eigen::Matrix<double, N, N> root;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) root(i, j) = random.uniform(-0.3, 0.3);
+  return root * root.transpose() + 0.05 * Eigen::Matrix<double, N, N>::Identity();
+}
+
+std::vector<ResidualCase> residualCases();
+
+}  // namespace roomgraph::testing

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "fake_stages.h"
+
+#include "roomgraph/geometry/projection.h"
+
+namespace fakes {
+
+IMPLEMENTS_MRPT_OBJECT(FakeDetector, roomgraph::Detector, fakes)
+IMPLEMENTS_MRPT_OBJECT(FakeProposals, roomgraph::ProposalGenerator, fakes)
+IMPLEMENTS_MRPT_OBJECT(FakeOdometry, roomgraph::RgbdOdometry, fakes)
+
+using namespace roomgraph;
+
+World& world() {
+  static World instance;
+  return instance;
+}
+
+void registerClasses() {
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeDetector, fakes));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeProposals, fakes));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeOdometry, fakes));
+}
+
+namespace {
+
+Pose3 cameraFromObject(const WorldObject& object, double t) {
+  return world().world_from_camera(t).inverse() * object.world_from_object;
+}
+
+}  // namespace
+
+Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
+  std::vector<Detection> found;
+  for (const auto& object : world().objects) {
+    const Pose3 camera_from_object = cameraFromObject(object, frame.t);
+    if (camera_from_object.translation().z() < 0.8) continue;
+    const auto projected = projectShape(object.shape, camera_from_object, frame.camera);
+    if (!projected) continue;
+    Detection detection;
+    detection.class_name = detection.label = object.class_name;
+    detection.box = projected->visible;
+    detection.score = 0.9;
+    found.push_back(detection);
+  }
+  return found;
+}
+
+FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Detection>& detections,
+                                       const std::optional<Plane>&) {
+  FrameProposals out;
+  out.frame = frame.id;
+  out.t = frame.t;
+  out.detections = detections;
+  GroundEstimate ground;
+  ground.plane = groundInCamera(world().world_from_camera(frame.t));
+  ground.from_depth = true;
+  out.ground = ground;
+  for (std::size_t j = 0; j < detections.size(); ++j)
+    for (const auto& object : world().objects) {
+      if (object.class_name != detections[j].class_name) continue;
+      Proposal proposal;
+      proposal.detection = static_cast<int>(j);
+      proposal.model = proposal.class_name = object.class_name;
+      proposal.shape = object.shape;
+      proposal.camera_from_object = cameraFromObject(object, frame.t);
+      proposal.covariance = 0.02 * 0.02 * Eigen::Matrix4d::Identity();
+      proposal.has_yaw = object.shape.kind != ShapeKind::kCylinder;
+      proposal.projected.full = proposal.projected.visible = detections[j].box;
+      proposal.score = proposal.box_iou = 1;
+      out.proposals.push_back(proposal);
+    }
+  return out;
+}
+
+TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior&) {
+  TrackingResult result;
+  result.tracked = true;
+  // A frame of its own, as a real tracker has.
+  result.odom_from_camera = poseFromYpr(4, 5, 6, 0.3, 0, 0) * world().world_from_camera(frame.t);
+  result.step_covariance = 1e-8 * Matrix6d::Identity();
+  trajectory_.add(frame.t, result.odom_from_camera);
+  return result;
+}
+
+}  // namespace fakes

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "roomgraph/detection/detector.h"
+#include "roomgraph/proposals/proposal_generator.h"
+#include "roomgraph/tracking/rgbd_odometry.h"
+
+// Stages that know the truth, to test what lies between them. Chosen by class name, as any other.
+namespace fakes {
+
+struct WorldObject {
+  std::string class_name;
+  roomgraph::ObjectShape shape;
+  roomgraph::Pose3 world_from_object = roomgraph::Pose3::Identity();
+};
+
+/// What is true in the running test.
+struct World {
+  std::function<roomgraph::Pose3(double)> world_from_camera;
+  std::vector<WorldObject> objects;
+};
+World& world();
+
+void registerClasses();
+
+/// Exact boxes of all objects in view.
+class FakeDetector : public roomgraph::Detector {
+  DEFINE_MRPT_OBJECT(FakeDetector, fakes)
+ public:
+  void setDatabase(const roomgraph::ObjectDatabase&) override {}
+  roomgraph::Outcome<std::vector<roomgraph::Detection>> detect(const roomgraph::Frame& frame) override;
+};
+
+/// Exact shapes and places of the detected objects, and the exact floor.
+class FakeProposals : public roomgraph::ProposalGenerator {
+  DEFINE_MRPT_OBJECT(FakeProposals, fakes)
+ public:
+  void setDatabase(const roomgraph::ObjectDatabase&) override {}
+  roomgraph::FrameProposals generate(const roomgraph::Frame& frame,
+                                     const std::vector<roomgraph::Detection>& detections,
+                                     const std::optional<roomgraph::Plane>& expected_ground) override;
+};
+
+/// The exact movement of the camera.
+class FakeOdometry : public roomgraph::RgbdOdometry {
+  DEFINE_MRPT_OBJECT(FakeOdometry, fakes)
+ public:
+  roomgraph::TrackingResult track(const roomgraph::Frame& frame,
+                                  const roomgraph::TrackingPrior& prior) override;
+  roomgraph::Trajectory trajectory() const override { return trajectory_; }
+
+ private:
+  roomgraph::Trajectory trajectory_;
+};
+
+}  // namespace fakes

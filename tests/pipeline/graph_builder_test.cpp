@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/graph_builder.h"
+
+#include <gtest/gtest.h>
+
+#include "random_poses.h"
+
+namespace roomgraph::testing {
+namespace {
+
+constexpr int kNodes = 40;
+
+// Once round a circle of 1.5 m radius in kNodes seconds.
+Pose3 truthAt(double t) {
+  const double angle = 2 * M_PI * t / kNodes;
+  return poseFromYpr(1.5 * std::sin(angle), 1.5 * (1 - std::cos(angle)), 0, angle, 0, 0);
+}
+
+// A source whose every step of `seconds` is too long by a factor and turned too far by a share.
+MotionSource drifting(double scale, double turn, const MotionNoise& noise, double seconds = 0.5) {
+  MotionSource source(noise, true);
+  Pose3 pose = Pose3::Identity();
+  for (double t = 0; t <= kNodes; t += seconds) {
+    source.add(t, pose, 0, Matrix6d::Zero());
+    Pose2 step = planarPart(truthAt(t).inverse() * truthAt(t + seconds));
+    pose = pose * toPose3(Pose2{scale * step.x, scale * step.y, turn * step.yaw});
+  }
+  return source;
+}
+
+struct Scenario {
+  Motion motion;
+  Measurements measurements;
+  std::vector<Landmark> landmarks;
+  BackendOptions options;
+
+  // Key poses as dead reckoning of the best source would have them.
+  KeyPoses start() const {
+    KeyPoses poses(motion);
+    for (int i = 0; i < kNodes; ++i) poses.add(i, motion.movement(0, i, 0).value_or(Pose3::Identity()));
+    return poses;
+  }
+  double meanError(std::size_t first = 0) const {
+    const KeyPoses poses = start();
+    FactorGraph graph = buildGraph(poses, motion, measurements, landmarks, options, first);
+    EXPECT_TRUE(graph.optimize().usable);
+    double sum = 0;
+    for (int i = static_cast<int>(first); i < kNodes; ++i)
+      sum += (graph.pose(NodeId{i}).translation() - truthAt(i).translation()).norm();
+    return sum / (kNodes - static_cast<double>(first));
+  }
+};
+
+Scenario wheelsOnly() {
+  const MotionSource none(MotionNoise{}, true);
+  return {{drifting(1.05, 1.08, OdometryOptions().noise), none, none}, {}, {}, {}};
+}
+
+RelativePose closure(double t_a, double t_b) {
+  RelativePose out{t_a,  t_b,   truthAt(t_a).inverse() * truthAt(t_b), 1e-4 * Matrix6d::Identity(),
+                   true, "test"};
+  return out;
+}
+
+TEST(GraphBuilder, ScansCorrectTheWheels) {
+  Scenario wheels = wheelsOnly(), both = wheels;
+  both.motion.lidar = drifting(1, 1.002, LidarOptions().noise);
+  const double alone = wheels.meanError();
+  EXPECT_GT(alone, 0.15) << "wheels without drift prove nothing";
+  EXPECT_LT(both.meanError(), 0.03);
+}
+
+TEST(GraphBuilder, ClosureBetweenAnyTwoTimesPullsTheLoopShut) {
+  Scenario open = wheelsOnly(), closed = open;
+  // Times off the key poses: the sources of motion carry the closure there.
+  closed.measurements.closures = {closure(0.3, 38.6), closure(10.4, 38.6), closure(0.3, 20.5)};
+  EXPECT_LT(closed.meanError(), 0.5 * open.meanError());
+}
+
+TEST(GraphBuilder, WrongClosureIsShruggedOff) {
+  Scenario scenario = wheelsOnly();
+  scenario.motion.lidar = drifting(1, 1.002, LidarOptions().noise);
+  RelativePose wrong = closure(2, 20);
+  wrong.a_from_b = Pose3::Identity();
+  scenario.measurements.closures = {wrong};
+  EXPECT_LT(scenario.meanError(), 0.06);
+  scenario.options.closure_robust_width = 0;
+  EXPECT_GT(scenario.meanError(), 0.2) << "a harmless closure proves nothing";
+}
+
+TEST(GraphBuilder, WithoutAnySourceThePosesStayTogether) {
+  const MotionSource none(MotionNoise{}, true);
+  const Scenario scenario{{none, none, none}, {}, {}, {}};
+  FactorGraph graph =
+      buildGraph(scenario.start(), scenario.motion, scenario.measurements, {}, scenario.options);
+  ASSERT_TRUE(graph.optimize().usable);
+  for (int i = 0; i < kNodes; ++i) EXPECT_LT(graph.pose(NodeId{i}).translation().norm(), 1e-6);
+}
+
+TEST(GraphBuilder, CountsOfPosesAndFactors) {
+  Scenario scenario = wheelsOnly();
+  scenario.measurements.closures = {closure(0, 30), closure(2, 5)};
+  const KeyPoses poses = scenario.start();
+  const auto build = [&](std::size_t first) {
+    return buildGraph(poses, scenario.motion, scenario.measurements, scenario.landmarks, scenario.options,
+                      first);
+  };
+  EXPECT_EQ(build(0).poses(), 40u);
+  EXPECT_EQ(build(0).factors(), 39u + 39u + 2u);  // movements, planar, closures
+  EXPECT_EQ(build(34).poses(), 6u);
+  EXPECT_EQ(build(34).factors(), 5u + 5u);  // closures reach back too far
+}
+
+TEST(GraphBuilder, FirstPoseOfAWindowIsHeld) {
+  const Scenario scenario = wheelsOnly();
+  const KeyPoses poses = scenario.start();
+  FactorGraph graph = buildGraph(poses, scenario.motion, {}, {}, scenario.options, 30);
+  ASSERT_TRUE(graph.optimize().usable);
+  EXPECT_TRUE(graph.pose(NodeId{30}).isApprox(poses.nodes()[30].world_from_robot, 1e-9));
+}
+
+TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
+  Scenario scenario = wheelsOnly();
+  const Eigen::Vector3d place(1, 1, 0);
+  for (int id : {0, 1}) {
+    Landmark landmark;
+    landmark.id = LandmarkId{id};
+    landmark.position = place + Eigen::Vector3d(0.4 * id, 0, 0);
+    scenario.landmarks.push_back(landmark);
+  }
+  for (int i : {3, 7}) {
+    LandmarkFactor sighting{NodeId{i}, LandmarkId{1}};
+    sighting.position_in_robot = truthAt(i).inverse() * place;
+    sighting.covariance = 1e-4 * Eigen::Matrix4d::Identity();
+    scenario.measurements.sightings.push_back(sighting);
+  }
+  LandmarkFactor merged_away{NodeId{3}, LandmarkId{77}};  // its landmark is no more: left out
+  scenario.measurements.sightings.push_back(merged_away);
+  const KeyPoses poses = scenario.start();
+  FactorGraph graph =
+      buildGraph(poses, scenario.motion, scenario.measurements, scenario.landmarks, scenario.options);
+  EXPECT_EQ(graph.landmarks(), 1u);
+  EXPECT_TRUE(graph.hasLandmark(LandmarkId{1}));
+  ASSERT_TRUE(graph.optimize().usable);
+  EXPECT_LT((graph.landmark(LandmarkId{1}).position - place).norm(), 0.1);
+}
+
+// A handheld camera whose world is tilted: sightings of the floor level it; place and heading of the start
+// stay.
+TEST(GraphBuilder, FloorLevelsAHandheldCamera) {
+  Scenario scenario = wheelsOnly();
+  scenario.motion.odometry = MotionSource(MotionNoise{}, false);
+  scenario.measurements.planar = false;
+  const Pose3 tilt = poseFromYpr(0, 0, 0, 0, 0.15, -0.1), height = poseFromYpr(0, 0, 1.3, 0, 0, 0);
+  KeyPoses poses(scenario.motion);
+  for (int i = 0; i < 10; ++i) {
+    scenario.motion.visual.add(i, truthAt(i), 0, Matrix6d::Zero());
+    poses.add(i, tilt * truthAt(i));
+    scenario.measurements.grounds.push_back({.node = NodeId{i}, .offset_m = 1.3});
+  }
+  FactorGraph graph = buildGraph(poses, scenario.motion, scenario.measurements, {}, scenario.options);
+  ASSERT_TRUE(graph.optimize(100).usable);
+  for (int i = 0; i < 10; ++i) {
+    const Pose3 error = (height * truthAt(i)).inverse() * graph.pose(NodeId{i});
+    EXPECT_LT(error.translation().norm(), 0.03) << i;
+    EXPECT_LT(rotationAngle(error), 0.02) << i;
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph::testing

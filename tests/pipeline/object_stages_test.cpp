@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gtest/gtest.h>
+
+#include "drive.h"
+#include "fake_stages.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph::testing {
+namespace {
+
+const std::string kFakeObjects = "[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n";
+
+class ObjectStagesTest : public ::testing::Test {
+ protected:
+  ObjectStagesTest() {
+    registerAllClasses();
+    fakes::registerClasses();
+    fakes::world().objects.clear();
+    fakes::world().world_from_camera = [](double t) {
+      return toPose3(Drive::truth(t)) * Drive::robotFromCamera();
+    };
+  }
+  static void place(const std::string& class_name, const ObjectShape& shape, double x, double y, double yaw) {
+    fakes::world().objects.push_back({class_name, shape, poseFromYpr(x, y, 0, yaw, 0, 0)});
+  }
+  static SlamResult drive(SemanticSlam& slam) {
+    Drive world;
+    for (int i = 0; i <= 120; ++i) {
+      slam.process(world.odometry(0.1 * i));
+      slam.process(world.scan(0.1 * i));
+      if (i % 2 == 0) slam.process(Drive::frame(0.1 * i));
+    }
+    return slam.finish();
+  }
+};
+
+TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
+  place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
+  place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);
+  place("person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, -2.0, 1.0, 0);
+  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  const SlamResult result = drive(slam);
+  ASSERT_EQ(result.map.landmarks.size(), 2u) << "the person is no landmark";
+  for (const auto& landmark : result.map.landmarks) {
+    const auto& truth = fakes::world().objects[landmark.class_name == "sofa" ? 0 : 1];
+    EXPECT_EQ(landmark.class_name, truth.class_name);
+    EXPECT_LT((landmark.position - truth.world_from_object.translation()).norm(), 0.05)
+        << landmark.class_name;
+    EXPECT_EQ(landmark.has_yaw, truth.class_name == "sofa");
+    EXPECT_LT(landmark.has_yaw ? std::abs(wrapAngle(landmark.yaw - 2.8)) : 0.0, 0.05);
+    EXPECT_NEAR(landmark.shape.width, truth.shape.width, 1e-6);
+    EXPECT_GT(landmark.existence, 0.99);
+    EXPECT_GT(landmark.observations, 10);
+  }
+  EXPECT_EQ(slam.graph().landmarks(), 2u);
+}
+
+TEST_F(ObjectStagesTest, SightingsReachTheSinks) {
+  struct Watcher : Sink {
+    void onStep(const StepReport& report) override {
+      frames += report.kind == StepReport::Kind::kFrame;
+      detections += report.detections.size();
+      decisions += report.decisions.size();
+    }
+    std::size_t frames = 0, detections = 0, decisions = 0;
+  };
+  place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
+  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  const auto watcher = std::make_shared<Watcher>();
+  slam.addSink(watcher);
+  drive(slam);
+  EXPECT_EQ(watcher->frames, 61u);
+  EXPECT_GT(watcher->detections, 5u);
+  EXPECT_EQ(watcher->decisions, watcher->detections);
+}
+
+// A camera in the hand, tilted, 1.4 m above a floor that its tracker knows nothing of.
+TEST_F(ObjectStagesTest, HandheldCameraIsLevelledByTheFloor) {
+  const Pose3 forward_from_optical = poseFromYpr(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+  fakes::world().world_from_camera = [&](double t) {
+    const Pose2 pose = Drive::truth(t);
+    const Pose3 held =
+        poseFromYpr(pose.x, pose.y, 1.4, pose.yaw, 0.4 + 0.05 * std::sin(t), 0.1 * std::cos(t));
+    return held * forward_from_optical;
+  };
+  place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
+  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n"));
+  for (int i = 0; i <= 120; ++i) {
+    Frame frame = Drive::frame(0.1 * i);
+    frame.robot_from_camera = forward_from_optical;  // nobody says where it is held
+    slam.process(frame);
+  }
+  const SlamResult result = slam.finish();
+  EXPECT_FALSE(result.map.planar);
+  ASSERT_EQ(result.world_from_camera.size(), 121u);
+  const Pose3 moved = fakes::world().world_from_camera(0) * result.world_from_camera[0].pose.inverse();
+  EXPECT_LT((moved.linear().col(2) - Eigen::Vector3d::UnitZ()).norm(), 0.01) << "level";
+  for (const auto& stamped : result.world_from_camera) {
+    const Pose3 error = fakes::world().world_from_camera(stamped.t).inverse() * moved * stamped.pose;
+    EXPECT_NEAR(stamped.pose.translation().z(), 1.4, 0.02) << stamped.t;
+    EXPECT_LT(error.translation().norm(), 0.03) << stamped.t;
+    EXPECT_LT(rotationAngle(error), 0.02) << stamped.t;
+  }
+  ASSERT_EQ(result.map.landmarks.size(), 1u);
+  const Eigen::Vector3d sofa = moved * result.map.landmarks[0].position;
+  EXPECT_LT((sofa - Eigen::Vector3d(3.5, 1.0, 0)).norm(), 0.05);
+}
+
+TEST_F(ObjectStagesTest, UnknownStageIsAnErrorThatListsTheKnown) {
+  try {
+    stagesWith("[detection]\nclass = FakeDetectr\n");
+    FAIL() << "no exception";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("FakeDetector"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph::testing

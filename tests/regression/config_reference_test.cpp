@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "program.h"
+#include "roomgraph/core/config.h"
+#include "roomgraph/pipeline/stages.h"
+#include "temporary_folder.h"
+
+namespace roomgraph::testing {
+namespace {
+
+const std::filesystem::path kSource = ROOMGRAPH_SOURCE_DIR;
+
+TEST(ConfigReference, IsWhatTheProgramDeclares) {
+  TemporaryFolder folder;
+  const CallResult outcome = call(folder.path(), {"config-reference"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out == contentOf(kSource / "docs/config.md"))
+      << "docs/config.md is out of date; run: build/release/bin/roomgraph config-reference > docs/config.md";
+}
+
+TEST(ConfigReference, NamesEveryKeyThatTheProgramKnows) {
+  const std::string page = contentOf(kSource / "docs/config.md");
+  const ConfigSchema schema = configSchema();
+  for (const auto& section : schema.sections())
+    for (const auto& key : section.keys) {
+      EXPECT_NE(page.find(key.key), std::string::npos) << section.name << "." << key.key;
+      EXPECT_FALSE(key.doc.empty()) << section.name << "." << key.key << " is not explained";
+    }
+}
+
+TEST(ShippedConfig, IsAccepted) {
+  const Config config = Config::fromFile(kSource / "config.ini");
+  EXPECT_NO_THROW(configSchema().check(config));
+  const auto stages = makeStages(config, kSource);
+  EXPECT_TRUE(stages->rgbd_odometry && stages->scan_matcher && stages->detector && stages->associator);
+  for (const char* name : {"swivel_chair", "sofa", "door", "person"})
+    EXPECT_TRUE(stages->database.find(name)) << name;
+  EXPECT_FALSE(stages->database.find("person")->landmark);
+}
+
+TEST(ShippedConfig, EffectiveConfigMakesTheSameStages) {
+  const auto stages = makeStages(Config::fromFile(kSource / "config.ini"), kSource);
+  const auto again = makeStages(Config::fromText(stages->effective_config, "effective"), kSource);
+  EXPECT_EQ(again->effective_config, stages->effective_config);
+}
+
+}  // namespace
+}  // namespace roomgraph::testing

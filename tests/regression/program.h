@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace roomgraph::testing {
+
+inline std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What a call of the program left behind.
+struct CallResult {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string out, err;
+};
+
+/// The built executable, started with arguments; its output goes to files in `folder`.
+class Program {
+ public:
+  Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments) : folder_(folder) {
+    std::vector<std::string> words{ROOMGRAPH_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    const auto redirect = [&](int descriptor, const char* name) {
+      posix_spawn_file_actions_addopen(&actions, descriptor, (folder_ / name).c_str(),
+                                       O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    };
+    redirect(1, "stdout.txt");
+    redirect(2, "stderr.txt");
+    const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    EXPECT_EQ(error, 0) << ROOMGRAPH_PROGRAM << " cannot be started";
+  }
+
+  pid_t pid() const { return pid_; }
+  CallResult wait() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder_ / "stdout.txt"),
+            contentOf(folder_ / "stderr.txt")};
+  }
+
+ private:
+  std::filesystem::path folder_;
+  pid_t pid_ = -1;
+};
+
+inline CallResult call(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+  return Program(folder, arguments).wait();
+}
+
+/// The contract of every failure: its exit code, and one line on stderr that begins with the program's name.
+inline void expectOneLine(const CallResult& outcome, int exit_code,
+                          const ::testing::Matcher<const std::string&>& message) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  const auto lines = linesOf(outcome.err);
+  ASSERT_EQ(lines.size(), 1u) << outcome.err;
+  EXPECT_TRUE(lines[0].starts_with("roomgraph: ")) << lines[0];
+  EXPECT_THAT(lines[0], message);
+}
+
+}  // namespace roomgraph::testing

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <signal.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program.h"
+#include "temporary_folder.h"
+#include "tiny_recording.h"
+
+namespace roomgraph::testing {
+namespace {
+
+std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().filename() != "summary.json")  // holds timings
+      files[entry.path().filename().string()] = contentOf(entry.path());
+  return files;
+}
+
+void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto first = filesOf(a), second = filesOf(b);
+  EXPECT_GE(first.size(), 11u);
+  for (const auto& [name, content] : first)
+    EXPECT_TRUE(second.contains(name) && second.at(name) == content) << name << " differs";
+  EXPECT_EQ(first.size(), second.size());
+}
+
+TEST(Repeat, SameInputGivesTheSameBitsWhateverTheThreads) {
+  TemporaryFolder folder;
+  test::writeRawlog(folder.file("tiny.rawlog"), TinyRecording(30).records({}));
+  const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", folder.file("tiny.rawlog").string(), "-o",
+                                       folder.file(output).string(), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CallResult result = call(folder.path(), arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return folder.file(output);
+  };
+  const auto first = run("first", {}), second = run("second", {}), single = run("single", {"--threads", "1"});
+  expectSameFiles(first, second);
+  expectSameFiles(first, single);
+}
+
+// The replay is interrupted as soon as the first live poses are on disk.
+TEST(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
+  constexpr int kSteps = 1500;
+  TemporaryFolder folder;
+  test::writeRawlog(folder.file("long.rawlog"), TinyRecording(kSteps).records({true, false, true}), false);
+  const auto out = folder.path() / "out";
+  Program program(folder.path(), {"run", folder.file("long.rawlog").string(), "-o", out.string(), "--quiet"});
+  for (int i = 0; i < 3000; ++i) {
+    std::error_code none_yet;
+    if (std::filesystem::file_size(out / "live.tum", none_yet) > 0 && !none_yet) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_EQ(kill(program.pid(), SIGINT), 0);
+  const CallResult result = program.wait();
+  expectOneLine(result, 0, ::testing::HasSubstr("interrupted"));
+  const auto poses = linesOf(contentOf(out / "trajectory.tum"));
+  EXPECT_GT(poses.size(), 10u);
+  EXPECT_LT(poses.size(), static_cast<std::size_t>(kSteps)) << "it was not interrupted";
+  EXPECT_EQ(linesOf(contentOf(out / "live.tum")).size(), poses.size());
+  const auto summary = nlohmann::json::parse(contentOf(out / "summary.json"));
+  EXPECT_EQ(summary["interrupted"], "yes");
+  EXPECT_EQ(summary["counts"]["scans"], poses.size());
+  EXPECT_TRUE(contentOf(out / "snapshot.png").starts_with("\x89PNG"));
+}
+
+}  // namespace
+}  // namespace roomgraph::testing

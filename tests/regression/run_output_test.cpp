@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "temporary_folder.h"
+#include "tiny_recording.h"
+
+namespace roomgraph::testing {
+namespace {
+
+using nlohmann::json;
+
+struct TumPose {
+  double t = 0;
+  Eigen::Vector3d place;
+  Eigen::Quaterniond turn;
+};
+
+std::vector<TumPose> tumOf(const std::filesystem::path& file) {
+  std::vector<TumPose> poses;
+  for (const auto& line : linesOf(contentOf(file))) {
+    std::istringstream in(line);
+    TumPose p;
+    in >> p.t >> p.place.x() >> p.place.y() >> p.place.z() >> p.turn.x() >> p.turn.y() >> p.turn.z() >>
+        p.turn.w();
+    EXPECT_TRUE(in && (in >> std::ws).eof()) << file << ": " << line;
+    EXPECT_NEAR(p.turn.norm(), 1, 1e-6) << line;
+    EXPECT_TRUE(poses.empty() || p.t > poses.back().t) << "not in order of time: " << line;
+    poses.push_back(p);
+  }
+  return poses;
+}
+
+class RunOutputTest : public ::testing::Test {
+ protected:
+  std::filesystem::path record(const std::vector<test::Object>& records) {
+    test::writeRawlog(folder.file("tiny.rawlog"), records);
+    return folder.file("tiny.rawlog");
+  }
+  CallResult run(const std::vector<std::string>& settings = {}) {
+    std::vector<std::string> arguments{"run", folder.file("tiny.rawlog").string(), "-o", out.string(),
+                                       "--quiet"};
+    for (const auto& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    return call(folder.path(), arguments);
+  }
+  // Poses agree with the truth in the world of the robot's first pose.
+  void expectTruth(double tolerance_m, double tolerance_rad) {
+    for (const auto& pose : tumOf(out / "trajectory.tum")) {
+      const Pose2 truth = recording.truth((pose.t - TinyRecording::kStart_s) / TinyRecording::kStep_s);
+      EXPECT_LT((pose.place - Eigen::Vector3d(truth.x, truth.y, 0)).norm(), tolerance_m) << "at " << pose.t;
+      EXPECT_LT(pose.turn.angularDistance(Eigen::Quaterniond(toPose3(truth).linear())), tolerance_rad);
+    }
+  }
+  void expectMap() {
+    const std::string pgm = contentOf(out / "map.pgm"), yaml = contentOf(out / "map.yaml");
+    std::istringstream in(pgm);
+    std::string magic;
+    std::size_t width = 0, height = 0, top = 0;
+    in >> magic >> width >> height >> top;
+    EXPECT_EQ(magic, "P5");
+    EXPECT_EQ(pgm.size(), static_cast<std::size_t>(in.tellg()) + 1 + width * height);
+    for (const char* key :
+         {"image: map.pgm", "resolution:", "origin:", "negate:", "occupied_thresh:", "free_thresh:"})
+      EXPECT_THAT(yaml, ::testing::HasSubstr(key));
+  }
+  void expectGraph() {
+    int vertices = 0, edges = 0;
+    for (const auto& line : linesOf(contentOf(out / "graph.g2o"))) {
+      vertices += line.starts_with("VERTEX_SE3:QUAT ");
+      edges += line.starts_with("EDGE_SE3:QUAT ");
+    }
+    EXPECT_GT(vertices, 3);
+    EXPECT_GE(edges, vertices - 1);
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path out = folder.path() / "out";
+  TinyRecording recording;
+};
+
+TEST_F(RunOutputTest, EveryFileIsThereAndSound) {
+  record(recording.records({}));
+  const CallResult result = run();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(tumOf(out / "trajectory.tum").size(), 24u);  // scans and frames share their stamps
+  EXPECT_EQ(tumOf(out / "trajectory_camera.tum").size(), 12u);
+  EXPECT_GE(linesOf(contentOf(out / "live.tum")).size(), 24u);
+  expectTruth(0.02, 0.01);
+  EXPECT_TRUE(json::parse(contentOf(out / "landmarks.json")).at("landmarks").is_array());
+  for (const char* name : {"detections.jsonl", "associations.jsonl"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+    for (const auto& line : linesOf(contentOf(out / name))) EXPECT_TRUE(json::accept(line)) << line;
+  }
+  const json summary = json::parse(contentOf(out / "summary.json"));
+  EXPECT_EQ(summary["counts"]["scans"], 24);
+  EXPECT_EQ(summary["counts"]["frames"], 12);
+  EXPECT_EQ(summary["counts"]["frames_lost"], 0);
+  EXPECT_GT(summary["peak_memory_mb"].get<double>(), 1);
+  EXPECT_FALSE(summary["timings"].empty());
+  EXPECT_FALSE(summary["version"].get<std::string>().empty());
+  expectMap();
+  expectGraph();
+  EXPECT_TRUE(contentOf(out / "snapshot.png").starts_with("\x89PNG\r\n"));
+}
+
+TEST_F(RunOutputTest, MapCanBeDrawnAgain) {
+  record(recording.records({true, false, true}));
+  ASSERT_EQ(run().exit_code, 0);
+  const auto picture = folder.file("again.png");
+  const CallResult result =
+      call(folder.path(), {"snapshot", (out / "map.rgmap").string(), "-o", picture.string()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(contentOf(picture).starts_with("\x89PNG\r\n"));
+}
+
+TEST_F(RunOutputTest, EffectiveConfigRepeatsTheRun) {
+  record(recording.records({true, false, true}));
+  ASSERT_EQ(run({"backend.node_distance_m=0.1"}).exit_code, 0);
+  const std::string config = contentOf(out / "config.ini"), poses = contentOf(out / "trajectory.tum");
+  EXPECT_THAT(config, ::testing::HasSubstr("node_distance_m = 0.1\n"));
+  std::filesystem::copy(std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "objects.ini",
+                        folder.file("objects.ini"));
+  folder.write("again.ini", config);
+  const CallResult again =
+      call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", out.string(), "--quiet",
+                           "--config", folder.file("again.ini").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(contentOf(out / "trajectory.tum"), poses);
+}
+
+TEST_F(RunOutputTest, AnySubsetOfTheSensorsWillDo) {
+  record(recording.records({}));
+  struct Case {
+    std::vector<std::string> off;
+    std::size_t poses;
+    double tolerance_m;
+  };
+  const std::vector<Case> cases = {{{"lidar", "odometry"}, 12, 0.05},
+                                   {{"tracking", "detection"}, 24, 0.02},
+                                   {{"tracking", "detection", "odometry"}, 24, 0.02},
+                                   {{"lidar"}, 12, 0.05},
+                                   {{"lidar", "tracking"}, 12, 0.06},  // wheels only: 3 % of 0.9 m
+                                   {{"lidar", "tracking", "detection"}, 24, 0.06}};
+  for (const auto& [off, poses, tolerance_m] : cases) {
+    std::vector<std::string> settings;
+    for (const auto& source : off) settings.push_back(source + ".enabled=false");
+    SCOPED_TRACE("without " + ::testing::PrintToString(off));
+    const CallResult result = run(settings);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(tumOf(out / "trajectory.tum").size(), poses);
+    expectTruth(tolerance_m, 0.03);
+  }
+}
+
+TEST_F(RunOutputTest, ActionsAndSensoryFramesToo) {
+  record(recording.actionRecords());
+  const CallResult result = run();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(tumOf(out / "trajectory.tum").size(), 24u);
+  EXPECT_GT(json::parse(contentOf(out / "summary.json"))["counts"]["odometry"].get<int>(), 20);
+  expectTruth(0.02, 0.01);
+}
+
+TEST_F(RunOutputTest, SpanOfTimeIsKept) {
+  record(recording.records({true, false, true}));
+  ASSERT_EQ(call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", out.string(), "--quiet",
+                                 "--from", "0.55", "--until", "1.05"})
+                .exit_code,
+            0);
+  const auto poses = tumOf(out / "trajectory.tum");
+  ASSERT_EQ(poses.size(), 5u);
+  EXPECT_NEAR(poses.front().t, TinyRecording::kStart_s + 0.6, 1e-3);
+  EXPECT_NEAR(poses.back().t, TinyRecording::kStart_s + 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace roomgraph::testing
