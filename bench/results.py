@@ -94,7 +94,8 @@ def handheld(bench, name, label, *overrides):
     truth = bench.data / "rgbd" / name / "groundtruth.txt"
     check, report = bench.evaluate(folder, "trajectory", "trajectory", truth, folder / "trajectory_camera.tum")
     counts = summary["counts"]
-    figures = (f"{ate(report)}, RPE {report['rpe_trans_rmse_m']:.3f} m/s; {report['pairs']} of {counts['frames']} frames "
+    posed = len((folder / "trajectory_camera.tum").read_text().splitlines())
+    figures = (f"{ate(report)}, RPE {report['rpe_trans_rmse_m']:.3f} m/s; {posed} of {counts['frames']} frames "
                f"have a pose, {counts['frames_lost']} not tracked; {cost(summary)}")
     return folder, row(label, figures, [make, command, check])
 
