@@ -13,7 +13,7 @@ namespace roomgraph {
 struct GeneralOptions : Configurable {
   std::vector<std::string> plugins;
   std::string objects_file = "objects.ini";
-  double lookahead_s = 0.15;
+  double lookahead_s = 0.5;
   void declareParameters(ParameterVisitor& v) override;
 };
 
