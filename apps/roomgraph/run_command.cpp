@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 
 #include "commands.h"
@@ -39,8 +40,8 @@ struct Replay {
 std::string rateText(int records, double span_s, std::chrono::steady_clock::time_point started) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   char text[96];
-  std::snprintf(text, sizeof text, "%.1f s replayed, %.0f records/s, %.1f x real time", span_s, records / elapsed,
-                span_s / elapsed);
+  std::snprintf(text, sizeof text, "%.1f s replayed, %.0f records/s, %.1f x real time", span_s,
+                records / elapsed, span_s / elapsed);
   return text;
 }
 
@@ -95,7 +96,10 @@ void printSummary(const RunOptions& options, const Replay& replayed, const SlamR
 
 void run(const RunOptions& options) {
   std::optional<tbb::global_control> limit;
-  if (options.threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+  if (options.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+    cv::setNumThreads(options.threads);
+  }
   const std::filesystem::path config_file =
       options.config.empty() ? sharedFile("config.ini") : std::filesystem::path(options.config);
   Config config = Config::fromFile(config_file);
