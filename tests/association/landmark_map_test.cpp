@@ -201,16 +201,5 @@ TEST(LandmarkMap, CorrectionSetsWhatTheGraphFound) {
   EXPECT_EQ(map.find(id)->covariance(2, 2), 0.5);
 }
 
-TEST(LandmarkMap, MovesWithTheWorldFrame) {
-  LandmarkMap map;
-  WorldMeasurement seen = sightingAt(1, 0, 0.2);
-  seen.covariance.diagonal() << 0.04, 0.01, 0.02, 0.03;
-  const LandmarkId id = born(map, seen);
-  map.transform(poseFromYpr(0, 0, 0.5, M_PI / 2, 0, 0));
-  EXPECT_LT((map.find(id)->position - Eigen::Vector3d(0, 1, 0.5)).norm(), 1e-12);
-  EXPECT_NEAR(map.find(id)->yaw, 0.2 + M_PI / 2, 1e-12);
-  EXPECT_LT((map.find(id)->covariance.diagonal() - Eigen::Vector4d(0.01, 0.04, 0.02, 0.03)).norm(), 1e-12);
-}
-
 }  // namespace
 }  // namespace roomgraph::testing

@@ -36,7 +36,7 @@ const Box2 kBox{100, 100, 130, 140};  // diagonal 50 px
 std::vector<ObjectMeasurement> select(const FrameProposals& frame, const std::string& config = "") {
   UnarySelector selector;
   Config::fromText("[selection]\n" + config).read("selection", selector);
-  return selector.select({frame, {}, std::nullopt});
+  return selector.select(frame);
 }
 
 TEST(UnaryPotential, IsTheOverlapLessTheDistanceOfTheCentres) {

@@ -151,17 +151,6 @@ void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double
   landmark->covariance = covariance;
 }
 
-void LandmarkMap::transform(const Pose3& new_from_old) {
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() = new_from_old.linear();
-  for (auto& landmark : landmarks_) {
-    const Pose3 moved = new_from_old * landmark.worldFromObject();
-    landmark.position = moved.translation();
-    landmark.yaw = planarPart(moved).yaw;
-    landmark.covariance = (turn * landmark.covariance * turn.transpose()).eval();
-  }
-}
-
 std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
   std::vector<std::pair<LandmarkId, LandmarkId>> merged;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {

@@ -194,7 +194,7 @@ void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   if (!report.detector_ran || !seen_.ground) return;
   const Timing timing(*timer_, "selection and association");
   std::vector<ObjectMeasurement> objects;
-  for (const auto& measurement : stages_->proposal_selector->select({seen_, frame.camera, std::nullopt})) {
+  for (const auto& measurement : stages_->proposal_selector->select(seen_)) {
     const auto* model = stages_->database.find(measurement.proposal.class_name);
     if (model && model->landmark) objects.push_back(measurement);
   }

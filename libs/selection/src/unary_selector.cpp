@@ -25,9 +25,8 @@ void UnarySelector::declareParameters(ParameterVisitor& v) {
       {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
 }
 
-std::vector<ObjectMeasurement> UnarySelector::select(const SelectionInput& input) {
+std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame) {
   std::vector<ObjectMeasurement> selected;
-  const auto& frame = input.frame;
   for (std::size_t j = 0; j < frame.detections.size(); ++j) {
     const auto& detection = frame.detections[j];
     const Proposal* best = nullptr;

@@ -29,9 +29,6 @@ class LandmarkMap : public Configurable {
   /// Sets place, yaw and covariance after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
 
-  /// Moves everything rigidly (the world frame was levelled).
-  void transform(const Pose3& new_from_old);
-
   /// Joins landmarks of one class that overlap; returns (removed, kept) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> mergeDuplicates();
 
