@@ -50,11 +50,11 @@ TEST(FeatureOdometry, FollowsAKnownMotion) {
     EXPECT_LT(distance(truth.front().inverse() * truth.back(), result.odom_from_camera), 0.02) << i;
     EXPECT_GT(result.step_covariance.llt().matrixL().determinant(), 0);
     int known = 0;
-    for (const auto& [pixel, id] : result.features) known += seen_before.contains(id);
+    for (const auto& feature : result.features) known += seen_before.contains(feature.point);
     if (i > 1) {
       EXPECT_GT(known, 50) << "point ids do not persist";
     }
-    for (const auto& [pixel, id] : result.features) seen_before.insert(id);
+    for (const auto& feature : result.features) seen_before.insert(feature.point);
   }
   const auto trajectory = odometry.trajectory();
   ASSERT_EQ(trajectory.size(), truth.size());

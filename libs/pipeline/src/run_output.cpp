@@ -53,7 +53,10 @@ ordered_json associationsJson(const StepReport& report) {
                                     {"world", {place.x(), place.y(), place.z()}},
                                     {"source", measurement.proposal.source},
                                     {"score", measurement.proposal.score},
-                                    {"energy", measurement.explanation}});
+                                    {"energy",
+                                     {{"unary", measurement.energy.unary},
+                                      {"pairwise", measurement.energy.pairwise},
+                                      {"high_order", measurement.energy.high_order}}}});
   }
   return line;
 }

@@ -137,6 +137,7 @@ void SemanticSlam::track(const Frame& frame, StepReport& report) {
   if (!stages_->rgbd_odometry) return;
   const Timing timing(*timer_, "RGB-D odometry");
   const TrackingResult result = front_ends_.track(frame, people_);
+  features_ = result.features;
   if (result.tracked) return;
   ++counts_.frames_lost;
   ++counts_.reasons["tracking: " + result.reason];
@@ -193,8 +194,10 @@ void SemanticSlam::level(const Frame& frame) {
 void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   if (!report.detector_ran || !seen_.ground) return;
   const Timing timing(*timer_, "selection and association");
+  const FrameContext context{frame.camera, estimator_.poses().at(frame.t) * frame.robot_from_camera,
+                             features_};
   std::vector<ObjectMeasurement> objects;
-  for (const auto& measurement : stages_->proposal_selector->select(seen_)) {
+  for (const auto& measurement : stages_->proposal_selector->select(seen_, context)) {
     const auto* model = stages_->database.find(measurement.proposal.class_name);
     if (model && model->landmark) objects.push_back(measurement);
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace roomgraph {
 
@@ -25,7 +24,7 @@ void UnarySelector::declareParameters(ParameterVisitor& v) {
       {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
 }
 
-std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame) {
+std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame, const FrameContext&) {
   std::vector<ObjectMeasurement> selected;
   for (std::size_t j = 0; j < frame.detections.size(); ++j) {
     const auto& detection = frame.detections[j];
@@ -42,11 +41,10 @@ std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame
       best = &proposal;
     }
     if (!best) continue;
-    char text[96];
-    std::snprintf(text, sizeof text, "E=%.3f U=%.3f alpha=%.2f", best_energy,
-                  unaryPotential(*best, detection), detection.score);
-    selected.push_back(
-        {frame.frame, frame.t, detection, *best, std::exp(-best_energy / temperature_) / partition, text});
+    ObjectMeasurement measurement{frame.frame, frame.t, detection, *best};
+    measurement.confidence = std::exp(-best_energy / temperature_) / partition;
+    measurement.energy.unary = best_energy;
+    selected.push_back(std::move(measurement));
   }
   return selected;
 }

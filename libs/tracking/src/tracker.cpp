@@ -149,7 +149,7 @@ void Tracker::report(const Features& features, const std::vector<std::int64_t>& 
   result.segment = segment_;
   result.odom_from_camera = lastPose();
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i] >= 0) result.features.emplace_back(features.pixel(i), points[i]);
+    if (points[i] >= 0) result.features.push_back({features.pixel(i), points[i], features.depth[i]});
 }
 
 bool Tracker::needsKeyframe(const View& view) const {

@@ -35,6 +35,12 @@ class Associator : public Stage {
   /// One association per measurement, in order; no landmark is given to two measurements.
   virtual std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,
                                              const std::vector<Landmark>& landmarks) = 0;
+  /// Tells what became of a measurement: the id of its landmark, also of one that was just made for it.
+  virtual void assigned(const WorldMeasurement& measurement, LandmarkId landmark) {
+    (void)measurement, (void)landmark;
+  }
+  /// Tells that two landmarks turned out to be one object.
+  virtual void merged(LandmarkId removed, LandmarkId kept) { (void)removed, (void)kept; }
 };
 
 }  // namespace roomgraph

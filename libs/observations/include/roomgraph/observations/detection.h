@@ -20,6 +20,7 @@ struct Detection {
   double score = 0;        ///< alpha in [0, 1]
   cv::Mat mask;            ///< CV_8UC1 over the box (rows x cols = its rounded size), or empty
   TrackId track;           ///< id from the source when it tracks; may change for the same object
+  bool carried = false;    ///< the detector did not run on this frame: features moved the box here
 };
 
 }  // namespace roomgraph

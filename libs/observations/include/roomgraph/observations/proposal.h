@@ -36,6 +36,18 @@ struct Proposal {
   std::string reasons;  ///< what the score is made of, for people
 };
 
+/// Straight edge in an image, px.
+struct Segment2 {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
+};
+
+/// How the proposals of one detection came about, for people (debug pictures).
+struct ProposalTrace {
+  std::vector<Eigen::Vector2d> mask_pixels;  ///< depth samples taken for the object
+  std::vector<Segment2> segments;            ///< edges in the box that were used
+  std::vector<Proposal> rejected;            ///< hypotheses that were dropped; `reasons` says why
+};
+
 /// Everything that stage 1 says about one frame.
 struct FrameProposals {
   FrameId frame;
@@ -43,7 +55,15 @@ struct FrameProposals {
   std::vector<Detection> detections;
   std::vector<Proposal> proposals;
   std::optional<GroundEstimate> ground;
-  std::string ground_reason;  ///< why there is no ground plane
+  std::string ground_reason;          ///< why there is no ground plane
+  std::vector<ProposalTrace> traces;  ///< one per detection when asked for, else empty
+};
+
+/// Energy of one selected proposal (paper Eq. 3), as it entered the sum.
+struct EnergyTerms {
+  double unary = 0;       ///< alpha U
+  double pairwise = 0;    ///< s (1 - beta) P, with the object's proposal in the frame before
+  double high_order = 0;  ///< (1 - beta*) H
 };
 
 /// A selected proposal (method.md sec. 3) on its way to association.
@@ -52,8 +72,11 @@ struct ObjectMeasurement {
   double t = 0;
   Detection detection;
   Proposal proposal;
-  double confidence = 1;    ///< marginal probability of the choice
-  std::string explanation;  ///< energy terms, for people
+  double confidence = 1;  ///< marginal probability of the choice
+  EnergyTerms energy;
+  TrackId track;    ///< the object as the semantic codes' index maps (gamma) link it over the last frames
+  double beta = 1;  ///< likeness of the frame's semantic code to the previous one's (Eq. 5)
+  std::vector<std::int64_t> features;  ///< points of tracked features that lie on the object
 };
 
 }  // namespace roomgraph

@@ -79,8 +79,9 @@ class SemanticSlam {
   FrontEnds front_ends_;     ///< trajectories of the sources
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   RunCounts counts_;
-  FrameProposals seen_;       ///< of the last frame
-  std::vector<Box2> people_;  ///< in the last frame with detections, px
+  FrameProposals seen_;                 ///< of the last frame
+  std::vector<FeatureTrack> features_;  ///< tracked in the last frame
+  std::vector<Box2> people_;            ///< in the last frame with detections, px
   Pose3 robot_from_camera_ = Pose3::Identity();
   bool levelled_ = false;  ///< handheld camera: the floor has been seen
   double last_frame_t_, last_scan_t_;

@@ -22,6 +22,8 @@ class ProposalGenerator : public Stage {
   /// unknown (a handheld camera that has not seen the floor yet).
   virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
                                   const std::optional<Plane>& expected_ground) = 0;
+  /// Whether generate() fills in FrameProposals::traces.
+  virtual void keepTraces(bool keep) { (void)keep; }
 };
 
 }  // namespace roomgraph

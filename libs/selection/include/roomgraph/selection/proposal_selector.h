@@ -5,16 +5,26 @@
 #include <vector>
 
 #include "roomgraph/core/stage.h"
+#include "roomgraph/geometry/camera.h"
+#include "roomgraph/observations/feature_track.h"
 #include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
+
+/// How a frame was taken, beside what was detected in it.
+struct FrameContext {
+  PinholeCamera camera;
+  Pose3 world_from_camera = Pose3::Identity();  ///< best estimate at this time
+  std::vector<FeatureTrack> features;           ///< tracked features; empty when tracking is off or lost
+};
 
 /// Chooses among the proposals of each detection (method.md sec. 3).
 class ProposalSelector : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(ProposalSelector)
  public:
-  /// At most one measurement per detection.
-  virtual std::vector<ObjectMeasurement> select(const FrameProposals& frame) = 0;
+  /// At most one measurement per detection. Frames come in order of time; implementations may remember those
+  /// of a window.
+  virtual std::vector<ObjectMeasurement> select(const FrameProposals& frame, const FrameContext& context) = 0;
 };
 
 }  // namespace roomgraph

@@ -17,7 +17,7 @@ class UnarySelector : public ProposalSelector {
   DEFINE_MRPT_OBJECT(UnarySelector, roomgraph)
  public:
   void declareParameters(ParameterVisitor& visitor) override;
-  std::vector<ObjectMeasurement> select(const FrameProposals& frame) override;
+  std::vector<ObjectMeasurement> select(const FrameProposals& frame, const FrameContext& context) override;
 
  private:
   double max_energy_ = -0.15;

@@ -8,6 +8,7 @@
 
 #include "roomgraph/core/stage.h"
 #include "roomgraph/geometry/box.h"
+#include "roomgraph/observations/feature_track.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/trajectory.h"
 
@@ -30,10 +31,8 @@ struct TrackingResult {
   int inliers = 0, matches = 0;
   bool keyframe = false;
   Matrix6d step_covariance =
-      Matrix6d::Identity();  ///< of the movement since the last frame (translation, rotation)
-  /// Pixels of tracked features with their persistent point id: lets later stages count shared features per
-  /// box.
-  std::vector<std::pair<Eigen::Vector2d, std::int64_t>> features;
+      Matrix6d::Identity();            ///< of the movement since the last frame (translation, rotation)
+  std::vector<FeatureTrack> features;  ///< the tracked ones: lets later stages count shared features per box
 };
 
 /// RGB-D visual odometry: frame in, pose in the tracker's own frame out.
