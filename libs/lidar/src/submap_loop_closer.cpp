@@ -25,24 +25,7 @@ Pose2 movement(const WayPoint& a, const WayPoint& b) {
 }  // namespace
 
 void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
-  v.add("min_range_m", min_range_m_, {.doc = "Nearer returns are ignored.", .unit = "m", .min = 0});
-  v.add("max_range_m", max_range_m_, {.doc = "Farther returns are ignored.", .unit = "m", .min = 0.5});
-  v.add("cell_m", cell_m_, {.doc = "Cell size of the submaps.", .unit = "m", .min = 0.01, .max = 0.5});
-  v.add("scans_per_submap", scans_per_submap_, {.doc = "Kept scans in one submap.", .min = 2, .max = 1000});
-  v.add("hit_probability", hit_probability_,
-        {.doc = "Occupancy evidence of one return.", .min = 0.501, .max = 0.99});
-  v.add("miss_probability", miss_probability_,
-        {.doc = "Occupancy evidence of a beam that passes.", .min = 0.01, .max = 0.499});
-  v.add("keep_distance_m", keep_distance_m_,
-        {.doc = "Movement after which a scan is kept.", .unit = "m", .min = 0});
-  v.add("keep_angle_deg", keep_angle_deg_,
-        {.doc = "Turn after which a scan is kept.", .unit = "deg", .min = 0});
-  v.add("keep_time_s", keep_time_s_,
-        {.doc = "Time after which a scan is kept anyway.", .unit = "s", .min = 0});
-  v.add("thinning_m", thinning_m_,
-        {.doc = "One return per square of this side is matched.", .unit = "m", .min = 0.001});
-  v.add("max_points", max_points_, {.doc = "Most returns matched; thinned further beyond.", .min = 10});
-  v.add("min_points", min_points_, {.doc = "Scans with fewer returns are not searched.", .min = 3});
+  submap_settings_.declare(v);
   v.add("min_way_m", min_way_m_,
         {.doc = "Way since a submap's last scan before it is searched.", .unit = "m", .min = 0});
   v.add("near_m", near_m_,
@@ -86,8 +69,7 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
 }
 
 void SubmapLoopCloser::prepare() {
-  active_ = std::make_unique<ActiveSubmaps>(cell_m_, scans_per_submap_,
-                                            GridUpdate{hit_probability_, miss_probability_});
+  active_ = submap_settings_.emptySubmaps();
   submaps_.clear();
   scans_.clear();
   way_.clear();
@@ -101,7 +83,7 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   if (!match.matched) return;
   const WayPoint* last = way_.empty() ? nullptr : &way_.back();
   const bool connected = last && last->segment == match.segment;
-  const MotionFilter filter{keep_distance_m_, keep_angle_deg_ * kRadPerDeg, keep_time_s_};
+  const MotionFilter filter = submap_settings_.filter();
   if (connected && !filter.moved(scans_.back().t, last->odom_from_robot, scan.t, match.odom_from_robot))
     return;
   if (last && !connected) store(active_->finishAll());
@@ -112,8 +94,8 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   here.path_m += length;
   graph_.addNode(connected, step, length);
   way_.push_back(here);
-  const PlanarScan planar = toPlanarScan(scan, min_range_m_, max_range_m_);
-  scans_.push_back({scan.t, thinnedTo(planar.points, thinning_m_, max_points_)});
+  const PlanarScan planar = toPlanarScan(scan, submap_settings_.min_range_m, submap_settings_.max_range_m);
+  scans_.push_back({scan.t, submap_settings_.points(planar)});
   waiting_.push_back(static_cast<int>(scans_.size()) - 1);
   store(active_->insert(planar, match.odom_from_robot));
 }
@@ -154,7 +136,8 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
 std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(
     int b, const std::vector<std::optional<Pose2>>& world) const {
   std::vector<Candidate> candidates;
-  if (static_cast<int>(scans_[static_cast<std::size_t>(b)].points.size()) < min_points_) return candidates;
+  if (static_cast<int>(scans_[static_cast<std::size_t>(b)].points.size()) < submap_settings_.min_points)
+    return candidates;
   const std::vector<ClosureGraph::Reached> reached = graph_.reachedFrom(b);
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
     const auto candidate = nearestIn(s, b, reached, world);

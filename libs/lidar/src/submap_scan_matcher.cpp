@@ -18,25 +18,7 @@ constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says
 }  // namespace
 
 void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
-  v.add("min_range_m", min_range_m_, {.doc = "Nearer returns are ignored.", .unit = "m", .min = 0});
-  v.add("max_range_m", max_range_m_, {.doc = "Farther returns are ignored.", .unit = "m", .min = 0.5});
-  v.add("cell_m", cell_m_, {.doc = "Cell size of the local maps.", .unit = "m", .min = 0.01, .max = 0.5});
-  v.add("scans_per_submap", scans_per_submap_,
-        {.doc = "Kept scans in one local map.", .min = 2, .max = 1000});
-  v.add("hit_probability", hit_probability_,
-        {.doc = "Occupancy evidence of one return.", .min = 0.501, .max = 0.99});
-  v.add("miss_probability", miss_probability_,
-        {.doc = "Occupancy evidence of a beam that passes.", .min = 0.01, .max = 0.499});
-  v.add("keep_distance_m", keep_distance_m_,
-        {.doc = "Movement after which a scan is kept.", .unit = "m", .min = 0});
-  v.add("keep_angle_deg", keep_angle_deg_,
-        {.doc = "Turn after which a scan is kept.", .unit = "deg", .min = 0});
-  v.add("keep_time_s", keep_time_s_,
-        {.doc = "Time after which a scan is kept anyway.", .unit = "s", .min = 0});
-  v.add("thinning_m", thinning_m_,
-        {.doc = "One return per square of this side is matched.", .unit = "m", .min = 0.001});
-  v.add("max_points", max_points_, {.doc = "Most returns matched; thinned further beyond.", .min = 10});
-  v.add("min_points", min_points_, {.doc = "With fewer returns a scan is not matched.", .min = 3});
+  submap_settings_.declare(v);
   v.add("window_m", window_m_,
         {.doc = "Search half width around a measured movement.", .unit = "m", .min = 0});
   v.add("window_deg", window_deg_,
@@ -75,8 +57,7 @@ void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
 }
 
 void SubmapScanMatcher::prepare() {
-  submaps_ = std::make_unique<ActiveSubmaps>(cell_m_, scans_per_submap_,
-                                             GridUpdate{hit_probability_, miss_probability_});
+  submaps_ = submap_settings_.emptySubmaps();
   pyramid_stale_ = true;
   trajectory_ = Trajectory();
   segment_ = lost_scans_ = 0;
@@ -86,8 +67,8 @@ void SubmapScanMatcher::prepare() {
 
 ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
   if (!submaps_) prepare();
-  const PlanarScan planar = toPlanarScan(scan, min_range_m_, max_range_m_);
-  const Points2 points = thinnedTo(planar.points, thinning_m_, max_points_);
+  const PlanarScan planar = toPlanarScan(scan, submap_settings_.min_range_m, submap_settings_.max_range_m);
+  const Points2 points = submap_settings_.points(planar);
   const bool has_prior = previous_from_current.has_value();
   const Pose2 predicted = predict(scan.t, previous_from_current);
   if (last_t_ && scan.t <= *last_t_) {
@@ -97,7 +78,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     repeated.segment = segment_;
     return repeated;
   }
-  if (static_cast<int>(points.size()) < min_points_)
+  if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
@@ -172,7 +153,7 @@ void SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const
   last_pose_ = pose;
   lost_scans_ = 0;
   trajectory_.add(scan.t, toPose3(pose), segment_);
-  const MotionFilter filter{keep_distance_m_, keep_angle_deg_ * kRadPerDeg, keep_time_s_};
+  const MotionFilter filter = submap_settings_.filter();
   if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return;
   kept_t_ = scan.t;
   kept_pose_ = pose;

@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 
-#include "roomgraph/lidar/active_submaps.h"
 #include "roomgraph/lidar/closure_confirmation.h"
 #include "roomgraph/lidar/closure_graph.h"
 #include "roomgraph/lidar/correlative_search.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "roomgraph/lidar/score_pyramid.h"
+#include "roomgraph/lidar/submap_settings.h"
 
 namespace roomgraph {
 
@@ -54,13 +54,8 @@ class SubmapLoopCloser : public ScanLoopCloser {
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;
 
-  double min_range_m_ = 0.1, max_range_m_ = 30;
-  double cell_m_ = 0.05;
-  int scans_per_submap_ = 60;
-  double hit_probability_ = 0.6, miss_probability_ = 0.48;
-  double keep_distance_m_ = 0.2, keep_angle_deg_ = 10, keep_time_s_ = 10;
-  double thinning_m_ = 0.05;
-  int max_points_ = 150, min_points_ = 40;
+  SubmapSettings submap_settings_{
+      .keep_distance_m = 0.2, .keep_angle_deg = 10, .keep_time_s = 10, .max_points = 150, .min_points = 40};
   double min_way_m_ = 4;
   double near_m_ = 3, max_near_m_ = 12;
   double drift_per_m_ = 0.03, drift_deg_per_m_ = 0.5;

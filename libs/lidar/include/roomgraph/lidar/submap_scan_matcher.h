@@ -4,10 +4,10 @@
 
 #include <memory>
 
-#include "roomgraph/lidar/active_submaps.h"
 #include "roomgraph/lidar/grid_refinement.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "roomgraph/lidar/score_pyramid.h"
+#include "roomgraph/lidar/submap_settings.h"
 
 namespace roomgraph {
 
@@ -29,13 +29,7 @@ class SubmapScanMatcher : public ScanMatcher {
   ScanMatch start(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
 
-  double min_range_m_ = 0.1, max_range_m_ = 30;
-  double cell_m_ = 0.05;
-  int scans_per_submap_ = 60;
-  double hit_probability_ = 0.6, miss_probability_ = 0.48;
-  double keep_distance_m_ = 0.1, keep_angle_deg_ = 6, keep_time_s_ = 5;
-  double thinning_m_ = 0.05;
-  int max_points_ = 200, min_points_ = 20;
+  SubmapSettings submap_settings_;
   double window_m_ = 0.15, window_deg_ = 12;
   double free_window_m_ = 0.4, free_window_deg_ = 25;
   double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
