@@ -106,5 +106,39 @@ TEST(SubmapLoopCloser, SameInputSameOutput) {
   }
 }
 
+TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
+  const auto room = testing::asymmetricRoom();
+  const auto poses = oval(170);
+  std::mt19937 random(5);
+  SubmapLoopCloser closer;
+  closer.prepare();
+  const double far = 40;  // the odometry is lost after the first pass: search alone would look elsewhere
+  for (int i = 0; i < 230; ++i) {
+    const Pose2 pose = poses[static_cast<std::size_t>(i % 170)];
+    ScanMatch match;
+    match.matched = true;
+    match.odom_from_robot = i < 170 ? pose : Pose2{far, 0, 0.5} * pose;
+    match.segment = i < 170 ? 0 : 1;
+    closer.add(testing::castScan(room, pose, 0.2 * i, random), match);
+  }
+  RelativePose proposed;
+  proposed.t_a = 0.2 * 20;
+  proposed.t_b = 0.2 * 195;
+  const Pose2 truth = poses[20].inverse() * poses[25];
+  proposed.a_from_b = toPose3(truth * Pose2{0.2, -0.15, 0.1});
+  const auto confirmed = closer.verify(proposed);
+  ASSERT_TRUE(confirmed);
+  const auto at = [&](double t) { return poses[static_cast<std::size_t>(std::lround(t / 0.2)) % 170]; };
+  const Pose2 error =
+      (at(confirmed->t_a).inverse() * at(confirmed->t_b)).inverse() * planarPart(confirmed->a_from_b);
+  EXPECT_LT(std::hypot(error.x, error.y), 0.05);
+  EXPECT_LT(std::abs(error.yaw), 0.03);
+
+  proposed.a_from_b = toPose3(truth * Pose2{1.8, 1.5, 1.2});
+  EXPECT_FALSE(closer.verify(proposed));
+  proposed.t_b = 1000;
+  EXPECT_FALSE(closer.verify(proposed)) << "no scan at that time";
+}
+
 }  // namespace
 }  // namespace roomgraph

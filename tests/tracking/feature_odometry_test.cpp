@@ -183,8 +183,8 @@ TEST(FeatureOdometry, IgnoresDynamicRegions) {
     const auto result = odometry.track(frame, prior);
     ASSERT_TRUE(result.tracked) << i << result.reason;
     EXPECT_LT(distance(Pose3::Identity(), result.odom_from_camera), 0.01) << i;
-    for (const auto& [pixel, id] : result.features)
-      EXPECT_FALSE(Box2({column + 0.0, 20, column + 170.0, 220}).contains(pixel.x(), pixel.y()));
+    for (const auto& feature : result.features)
+      EXPECT_FALSE(Box2({column + 0.0, 20, column + 170.0, 220}).contains(feature.pixel.x(), feature.pixel.y()));
   }
 }
 

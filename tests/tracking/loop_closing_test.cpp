@@ -45,5 +45,25 @@ TEST(LoopClosing, FullTurnClosesALoopWithTheTrueRelativePose) {
   }
 }
 
+TEST(LoopClosing, AProposedClosureIsConfirmedByTheImagesOrNot) {
+  const testing::TexturedRoom room;
+  FeatureOdometry odometry;
+  const double step = 0.13;
+  for (int i = 0; i < 49; ++i)
+    ASSERT_TRUE(odometry.track(room.render(i, looking(step * i)), {}).tracked) << i;
+  RelativePose proposed;
+  proposed.t_a = 0;
+  proposed.t_b = 48;  // a full turn later
+  const auto closure = odometry.verifyLoop(proposed);
+  ASSERT_TRUE(closure);
+  EXPECT_LT(closure->t_a, 4);
+  EXPECT_GT(closure->t_b, 44);
+  const Pose3 expected = looking(step * closure->t_a).inverse() * looking(step * closure->t_b);
+  EXPECT_LT((expected.inverse() * closure->a_from_b).translation().norm(), 0.02);
+  EXPECT_LT(rotationAngle(expected.inverse() * closure->a_from_b), 0.01);
+  proposed.t_b = 24;  // looks the other way
+  EXPECT_FALSE(odometry.verifyLoop(proposed));
+}
+
 }  // namespace
 }  // namespace roomgraph

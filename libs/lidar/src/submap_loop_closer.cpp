@@ -15,8 +15,9 @@ IMPLEMENTS_MRPT_OBJECT(SubmapLoopCloser, ScanLoopCloser, roomgraph)
 namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr int kPyramidLevels = 7;
-constexpr double kTurnLength = 0.3;                               // m of way that a turn by 1 rad counts for
-constexpr double kClosureLength = 0.3;                            // m of way that a closure counts for
+constexpr double kTurnLength = 0.3;     // m of way that a turn by 1 rad counts for
+constexpr double kVerifyHorizon_s = 3;  // a kept scan this near in time is at the proposed place
+constexpr double kClosureLength = 0.3;  // m of way that a closure counts for
 constexpr double kSecondBestRadius = 0.6, kSecondBestTurn = 0.3;  // m, rad: nearer is the same solution
 
 Pose2 movement(const WayPoint& a, const WayPoint& b) {
@@ -66,6 +67,34 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
         {.doc = "Least standard deviation of a closure.", .unit = "m", .min = 1e-6});
   v.add("floor_sigma_deg", floor_sigma_deg_,
         {.doc = "Least standard deviation of its turn.", .unit = "deg", .min = 1e-6});
+}
+
+// Kept scan nearest in time, -1: none within the horizon.
+int SubmapLoopCloser::nearestScan(double t) const {
+  int best = -1;
+  for (int i = 0; i < static_cast<int>(scans_.size()); ++i) {
+    const double distance = std::abs(scans_[static_cast<std::size_t>(i)].t - t);
+    if (distance > kVerifyHorizon_s) continue;
+    if (best < 0 || distance < std::abs(scans_[static_cast<std::size_t>(best)].t - t)) best = i;
+  }
+  return best;
+}
+
+std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& proposed) {
+  const int a = nearestScan(proposed.t_a), b = nearestScan(proposed.t_b);
+  if (a < 0 || b < 0) return std::nullopt;
+  for (std::size_t s = 0; s < submaps_.size(); ++s) {
+    const Submap& submap = *submaps_[s].submap;
+    const int first = submap.first_insertion, last = first + submap.insertions - 1;
+    if (a < first || a > last || b <= last) continue;
+    // Just beyond what is trusted: the match must be unambiguous.
+    const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_drift_m_ + 1};
+    const std::optional<Closure> found = match(candidate, b);
+    if (!found) continue;
+    graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);
+    return toRelativePose(*found);
+  }
+  return std::nullopt;
 }
 
 void SubmapLoopCloser::prepare() {
@@ -120,7 +149,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
     const int b = waiting_.front();
     for (const Candidate& candidate : candidatesFor(b, world)) {
       ++matches;
-      const std::optional<Closure> closure = verify(candidate, b);
+      const std::optional<Closure> closure = match(candidate, b);
       if (!closure) continue;
       std::vector<Closure> confirmed{*closure};
       if (closure->drift_m > trusted_drift_m_) confirmed = confirmation_.add(*closure, way_, rule);
@@ -183,7 +212,7 @@ SearchWindow SubmapLoopCloser::windowFor(double drift_m) const {
   return window;
 }
 
-std::optional<Closure> SubmapLoopCloser::verify(const Candidate& candidate, int b) {
+std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b) {
   StoredSubmap& stored = submaps_[candidate.submap];
   const ProbabilityGrid& grid = stored.submap->grid;
   if (stored.pyramid.levels() == 0) stored.pyramid = ScorePyramid(grid, kPyramidLevels);

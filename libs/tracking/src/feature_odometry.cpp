@@ -24,6 +24,10 @@ Trajectory FeatureOdometry::trajectory() const {
   return tracker_ ? tracker_->trajectory() : Trajectory();
 }
 
+std::optional<RelativePose> FeatureOdometry::verifyLoop(const RelativePose& proposed) {
+  return tracker_ ? tracker_->verifyLoop(proposed) : std::nullopt;
+}
+
 std::vector<RelativePose> FeatureOdometry::takeLoopClosures() {
   return tracker_ ? tracker_->takeLoopClosures() : std::vector<RelativePose>();
 }

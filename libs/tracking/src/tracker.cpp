@@ -14,8 +14,10 @@
 namespace roomgraph::tracking {
 namespace {
 
-constexpr int kCoastFrames = 3;  // lost frames over which the velocity is extrapolated
-constexpr int kLoopPause = 3;    // keyframes between two loop closures
+constexpr int kCoastFrames = 3;         // lost frames over which the velocity is extrapolated
+constexpr int kLoopPause = 3;           // keyframes between two loop closures
+constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
+constexpr int kVerifyKeyframes = 4;
 
 /// Why a frame cannot be used at all; empty when it can.
 std::string unusable(const Frame& frame, double last_t) {
@@ -118,9 +120,9 @@ TrackingResult Tracker::accept(View view, const Pose3& previous) {
     // Relocalised in an older segment: unrelated to the last frame, so the link to the keyframe is what is
     // known.
     result.step_covariance = Matrix6d::Identity();
-    reportLoop(reference_, view.frame->t,
-               map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
-               view.solution.covariance);
+    closures_.push_back(loopOf(reference_, view.frame->t,
+                               map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
+                               view.solution.covariance));
   }
   // A step over several frames, or between segments, says nothing about the next one.
   if (lost_frames_ > 0 || segment != segment_) velocity_ = Pose3::Identity();
@@ -179,8 +181,8 @@ Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseS
          floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
 }
 
-void Tracker::reportLoop(int keyframe, double t, const Pose3& keyframe_from_camera,
-                         const Matrix6d& covariance) {
+RelativePose Tracker::loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
+                             const Matrix6d& covariance) const {
   RelativePose closure;
   closure.t_a = map_.keyframe(keyframe).t;
   closure.t_b = t;
@@ -188,7 +190,7 @@ void Tracker::reportLoop(int keyframe, double t, const Pose3& keyframe_from_came
   closure.covariance = parameters_.covariance_scale * turned(covariance, keyframe_from_camera) +
                        floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
   closure.source = "tracking";
-  closures_.push_back(closure);
+  return closure;
 }
 
 void Tracker::closeLoops(int index) {
@@ -197,10 +199,36 @@ void Tracker::closeLoops(int index) {
   for (const int candidate : loopCandidates(map_, index, parameters_)) {
     const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
     if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-    reportLoop(candidate, current.t, found.solution.camera_from_world.inverse(), found.solution.covariance);
+    closures_.push_back(
+        loopOf(candidate, current.t, found.solution.camera_from_world.inverse(), found.solution.covariance));
     last_loop_ = index;
     return;
   }
+}
+
+std::vector<int> Tracker::keyframesNear(double t) const {
+  std::vector<std::pair<double, int>> near;
+  for (int i = 0; i < static_cast<int>(map_.keyframes.size()); ++i)
+    if (const double apart = std::abs(map_.keyframe(i).t - t); apart < kVerifyHorizon_s)
+      near.emplace_back(apart, i);
+  std::sort(near.begin(), near.end());
+  std::vector<int> out;
+  for (const auto& [apart, index] : near)
+    if (static_cast<int>(out.size()) < kVerifyKeyframes) out.push_back(index);
+  return out;
+}
+
+std::optional<RelativePose> Tracker::verifyLoop(const RelativePose& proposed) const {
+  for (const int b : keyframesNear(proposed.t_b)) {
+    const Keyframe& view = map_.keyframe(b);
+    for (const int a : keyframesNear(proposed.t_a)) {
+      if (a == b) continue;
+      const auto found = recognize(map_, a, view.features, view.camera, parameters_);
+      if (found.solution.inliers < parameters_.loop_min_inliers) continue;
+      return loopOf(a, view.t, found.solution.camera_from_world.inverse(), found.solution.covariance);
+    }
+  }
+  return std::nullopt;
 }
 
 Trajectory Tracker::trajectory() const {

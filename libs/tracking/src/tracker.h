@@ -19,6 +19,7 @@ class Tracker {
   TrackingResult track(const Frame& frame, const TrackingPrior& prior);
   Trajectory trajectory() const;
   std::vector<RelativePose> takeLoopClosures() { return std::exchange(closures_, {}); }
+  std::optional<RelativePose> verifyLoop(const RelativePose& proposed) const;
 
  private:
   /// The frame being tracked.
@@ -58,7 +59,10 @@ class Tracker {
   bool needsKeyframe(const View& view) const;
   void addKeyframe(const View& view);
   void closeLoops(int keyframe);
-  void reportLoop(int keyframe, double t, const Pose3& keyframe_from_camera, const Matrix6d& covariance);
+  /// Keyframes nearest in time within the horizon, nearest first.
+  std::vector<int> keyframesNear(double t) const;
+  RelativePose loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
+                      const Matrix6d& covariance) const;
   Matrix6d stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution);
   Pose3 lastPose() const;
 

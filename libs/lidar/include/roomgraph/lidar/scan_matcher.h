@@ -43,6 +43,11 @@ class ScanLoopCloser : public Stage {
   /// Searches with what is known now. `world_from_robot`: current best trajectory, used to choose candidates
   /// and as the initial guess. Returns only closures not returned before (a_from_b of the robot, planar).
   virtual std::vector<RelativePose> search(const Trajectory& world_from_robot) = 0;
+  /// Checks and refines a closure that something else proposed; nothing when the scans do not confirm it.
+  virtual std::optional<RelativePose> verify(const RelativePose& proposed) {
+    (void)proposed;
+    return std::nullopt;
+  }
 };
 
 }  // namespace roomgraph

@@ -25,6 +25,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   void prepare() override;
   void add(const Scan& scan, const ScanMatch& match) override;
   std::vector<RelativePose> search(const Trajectory& world_from_robot) override;
+  std::optional<RelativePose> verify(const RelativePose& proposed) override;
 
  private:
   struct KeptScan {
@@ -49,7 +50,8 @@ class SubmapLoopCloser : public ScanLoopCloser {
                                      const std::vector<ClosureGraph::Reached>& reached,
                                      const std::vector<std::optional<Pose2>>& world) const;
   SearchWindow windowFor(double drift_m) const;
-  std::optional<Closure> verify(const Candidate& candidate, int b);
+  std::optional<Closure> match(const Candidate& candidate, int b);
+  int nearestScan(double t) const;
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;

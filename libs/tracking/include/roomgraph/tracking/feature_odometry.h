@@ -28,6 +28,7 @@ class FeatureOdometry : public RgbdOdometry {
   TrackingResult track(const Frame& frame, const TrackingPrior& prior) override;
   Trajectory trajectory() const override;
   std::vector<RelativePose> takeLoopClosures() override;
+  std::optional<RelativePose> verifyLoop(const RelativePose& proposed) override;
 
  private:
   TrackingParameters parameters_;

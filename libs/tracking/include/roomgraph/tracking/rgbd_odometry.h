@@ -47,6 +47,13 @@ class RgbdOdometry : public Stage {
   /// Loop closures found since the last call, between cameras at two frame times (a_from_b of the optical
   /// frames).
   virtual std::vector<RelativePose> takeLoopClosures() { return {}; }
+
+  /// Checks and refines a closure that something else proposed, between the cameras near its two times;
+  /// nothing when the images do not confirm it.
+  virtual std::optional<RelativePose> verifyLoop(const RelativePose& proposed) {
+    (void)proposed;
+    return std::nullopt;
+  }
 };
 
 }  // namespace roomgraph

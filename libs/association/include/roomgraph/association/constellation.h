@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "roomgraph/geometry/pose.h"
+#include "roomgraph/observations/landmark.h"
+
+namespace roomgraph {
+
+struct ConstellationOptions {
+  int min_pairs = 3;            ///< fewer objects in common say nothing
+  double tolerance_m = 0.3;     ///< of an object's place after the transform
+  double yaw_tolerance = 0.6;   ///< rad, of an object's front; objects without a yaw fit any
+  double min_separation_m = 1;  ///< two objects nearer to each other do not fix a direction
+  int min_lead = 1;             ///< pairs more than the best clearly different transform has
+};
+
+/// How two sets of objects lie on each other.
+struct ConstellationMatch {
+  Pose2 map_from_query;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< (query, map), ascending
+  double rms_m = 0;                                        ///< of the pairs' distances
+};
+
+/// The rigid transform on the floor that lays the most objects of `query` on objects of `map`, class by class
+/// and one to one (method.md sec. 4: loop closing by objects). Every two pairs of objects with equal distance
+/// propose a transform, the pairs it brings within tolerance vote for it, least squares (Umeyama 1991)
+/// refines it. Nothing when too few objects agree, or when a clearly different transform explains nearly as
+/// many: a row of equal chairs fits itself in several ways.
+std::optional<ConstellationMatch> matchConstellation(const std::vector<Landmark>& query,
+                                                     const std::vector<Landmark>& map,
+                                                     const ConstellationOptions& options = {});
+
+}  // namespace roomgraph
