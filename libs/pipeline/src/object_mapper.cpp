@@ -2,9 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/object_mapper.h"
 
+#include <algorithm>
 #include <set>
 
 #include "roomgraph/geometry/ground.h"
+#include "roomgraph/pipeline/sighting.h"
 #include "roomgraph/pipeline/visibility.h"
 
 namespace roomgraph {
@@ -24,54 +26,96 @@ WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& worl
   return out;
 }
 
-LandmarkFactor sightingOf(const ObjectDecision& decision, const PosedFrame& posed) {
-  const auto& proposal = decision.seen.measurement.proposal;
-  const Pose3 node_from_object =
-      posed.node_from_robot * posed.frame.robot_from_camera * proposal.camera_from_object;
-  LandmarkFactor factor;
-  factor.node = posed.node.id;
-  factor.landmark = decision.landmark;
-  factor.position_in_robot = node_from_object.translation();
-  factor.yaw_in_robot = wrapAngle(planarPart(decision.seen.world_from_object).yaw -
-                                  planarPart(posed.world_from_robot * posed.node_from_robot.inverse()).yaw);
-  factor.has_yaw = proposal.has_yaw;
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() = posed.node.world_from_robot.linear().transpose();
-  factor.covariance = turn * decision.seen.covariance * turn.transpose();
-  factor.weight = decision.association.probability * decision.seen.measurement.confidence * proposal.score;
-  return factor;
+// Two landmarks were one: their shares of the posterior belong together.
+void rename(ObjectDecision& decision, LandmarkId removed, LandmarkId kept) {
+  if (decision.landmark == removed) decision.landmark = kept;
+  if (decision.association.landmark == removed) decision.association.landmark = kept;
+  auto& posterior = decision.association.posterior;
+  const auto find = [&](LandmarkId id) {
+    return std::find_if(posterior.begin(), posterior.end(), [id](const auto& p) { return p.first == id; });
+  };
+  const auto old = find(removed);
+  if (old == posterior.end()) return;
+  if (const auto other = find(kept); other != posterior.end()) {
+    other->second += old->second;
+    posterior.erase(old);
+  } else {
+    old->first = kept;
+  }
 }
 
 }  // namespace
 
-std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements,
-                                       const PosedFrame& posed, double pose_sigma_m, Associator& associator,
-                                       LandmarkMap& landmarks, std::vector<LandmarkFactor>& sightings) {
-  const Pose3 world_from_camera = posed.world_from_robot * posed.frame.robot_from_camera;
-  std::vector<WorldMeasurement> seen;
-  for (const auto& measurement : measurements)
-    seen.push_back(toWorld(measurement, world_from_camera, pose_sigma_m));
+std::vector<ObjectDecision> ObjectMapper::observe(const FrameProposals& seen, const Frame& frame,
+                                                  const std::vector<FeatureTrack>& features) {
+  const auto measurements = select(seen, frame, features);
   std::vector<ObjectDecision> decisions;
-  for (const auto& association : associator.associate(seen, landmarks.landmarks())) {
-    ObjectDecision decision{seen[association.measurement], association, {}};
-    decision.landmark = landmarks.update(decision.seen, association);
-    const LandmarkFactor sighting = sightingOf(decision, posed);
-    if (sighting.weight > 1e-3) sightings.push_back(sighting);
+  for (const auto& association : stages_.associator->associate(measurements, landmarks().landmarks())) {
+    ObjectDecision decision{measurements[association.measurement], association, {}};
+    decision.landmark = landmarks().update(decision.seen, association);
+    stages_.associator->assigned(decision.seen, decision.landmark);
+    decision.seen.measurement.detection.mask = cv::Mat();  // large, and not needed any more
     decisions.push_back(std::move(decision));
   }
+  missUnseen(decisions, seen.detections, frame);
+  if (!decisions.empty()) frames_.push_back({frame.id, frame.t, frame.robot_from_camera, decisions});
   return decisions;
 }
 
-void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
-                const PosedFrame& posed, LandmarkMap& landmarks) {
+std::vector<WorldMeasurement> ObjectMapper::select(const FrameProposals& seen, const Frame& frame,
+                                                   const std::vector<FeatureTrack>& features) const {
+  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+  std::vector<WorldMeasurement> out;
+  for (const auto& chosen :
+       stages_.proposal_selector->select(seen, {frame.camera, world_from_camera, features})) {
+    const auto* model = stages_.database.find(chosen.proposal.class_name);
+    if (model && model->landmark)
+      out.push_back(toWorld(chosen, world_from_camera, stages_.backend.pose_sigma_m));
+  }
+  return out;
+}
+
+void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
+                              const std::vector<Detection>& detections, const Frame& frame) {
   std::set<LandmarkId> seen;
   for (const auto& decision : decisions) seen.insert(decision.landmark);
-  const Pose3 world_from_camera = posed.world_from_robot * posed.frame.robot_from_camera;
+  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
   std::vector<LandmarkId> missed;
-  for (const auto& landmark : landmarks.landmarks())
-    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, posed.frame, world_from_camera, detections))
+  for (const auto& landmark : landmarks().landmarks())
+    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
-  for (const auto id : missed) landmarks.miss(id);
+  for (const auto id : missed) landmarks().miss(id);
+}
+
+void ObjectMapper::mergeDuplicates() {
+  for (const auto& [removed, kept] : landmarks().mergeDuplicates()) {
+    stages_.associator->merged(removed, kept);
+    for (auto& frame : frames_)
+      for (auto& decision : frame.decisions) rename(decision, removed, kept);
+  }
+}
+
+std::vector<LandmarkFactor> ObjectMapper::sightings() const {
+  std::map<std::pair<NodeId, LandmarkId>, std::vector<LandmarkFactor>> groups;
+  for (const auto& frame : frames_) {
+    const KeyPose& node = poses_.nearest(frame.t);
+    const Pose3 node_from_camera = poses_.offset(node, frame.t) * frame.robot_from_camera;
+    for (const auto& decision : frame.decisions)
+      if (const Landmark* landmark = landmarks().find(decision.landmark))
+        groups[{node.id, landmark->id}].push_back(sightingOf(decision, *landmark, node, node_from_camera));
+  }
+  std::vector<LandmarkFactor> out;
+  for (const auto& [key, group] : groups)
+    if (const LandmarkFactor mean = meanSighting(group); mean.weight > 1e-3) out.push_back(mean);
+  return out;
+}
+
+std::map<LandmarkId, SeenSpan> ObjectMapper::seenSpans() const {
+  std::map<LandmarkId, SeenSpan> spans;
+  for (const auto& frame : frames_)
+    for (const auto& decision : frame.decisions)
+      spans.try_emplace(decision.landmark, SeenSpan{frame.t, frame.t}).first->second.last = frame.t;
+  return spans;
 }
 
 }  // namespace roomgraph

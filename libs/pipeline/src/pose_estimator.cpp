@@ -49,9 +49,9 @@ bool PoseEstimator::due() const {
   return nodes_since_optimization_ >= pause;
 }
 
-void PoseEstimator::update(LandmarkMap& landmarks) {
+void PoseEstimator::update(ObjectMapper& objects) {
   if (due()) {
-    optimizeAll(landmarks);
+    optimizeAll(objects);
   } else {
     optimizeWindow();
   }
@@ -66,13 +66,13 @@ void PoseEstimator::optimizeWindow() {
   for (std::size_t i = first; i < nodes.size(); ++i) nodes[i].world_from_robot = graph.pose(nodes[i].id);
 }
 
-bool PoseEstimator::optimizeAll(LandmarkMap& landmarks) {
+bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
   if (poses_.empty()) return true;
   nodes_since_optimization_ = 0;
   surprised_ = false;
-  for (const auto& [removed, kept] : landmarks.mergeDuplicates())
-    for (auto& sighting : measurements_.sightings)
-      if (sighting.landmark == removed) sighting.landmark = kept;
+  objects.mergeDuplicates();
+  measurements_.sightings = objects.sightings();
+  LandmarkMap& landmarks = objects.landmarks();
   graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);
   if (!graph_.optimize(options_.max_iterations).usable) return false;
   for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);

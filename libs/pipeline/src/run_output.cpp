@@ -35,9 +35,9 @@ ordered_json detectionsJson(const StepReport& report) {
   return line;
 }
 
-ordered_json associationsJson(const StepReport& report) {
-  ordered_json line{{"timestamp", report.t}, {"measurements", ordered_json::array()}};
-  for (const auto& decision : report.decisions) {
+ordered_json associationsJson(double t, const std::vector<ObjectDecision>& decisions) {
+  ordered_json line{{"timestamp", t}, {"measurements", ordered_json::array()}};
+  for (const auto& decision : decisions) {
     const auto& measurement = decision.seen.measurement;
     const Eigen::Vector3d place = decision.seen.world_from_object.translation();
     ordered_json posterior = ordered_json::array();
@@ -103,7 +103,7 @@ RunOutput::RunOutput(const std::filesystem::path& folder) : folder_(folder) {
   if (error) throw RunError("output folder " + folder_.string() + ": cannot be made: " + error.message());
   live_ = open("live.tum");
   detections_ = open("detections.jsonl");
-  associations_ = open("associations.jsonl");
+  associations_ = open("associations_live.jsonl");
 }
 
 std::ofstream RunOutput::open(const std::string& name) const {
@@ -116,7 +116,7 @@ void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   writeStamped(live_, report.t, report.world_from_robot);
   if (report.detector_ran) detections_ << detectionsJson(report) << '\n';
-  if (!report.decisions.empty()) associations_ << associationsJson(report) << '\n';
+  if (!report.decisions.empty()) associations_ << associationsJson(report.t, report.decisions) << '\n';
 }
 
 void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
@@ -128,13 +128,16 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   writeTum(robot, result.world_from_robot);
   auto camera = open("trajectory_camera.tum");
   writeTum(camera, result.world_from_camera);
+  auto associations = open("associations.jsonl");
+  for (const auto& frame : slam.objects().frames())
+    associations << associationsJson(frame.t, frame.decisions) << '\n';
   saveLandmarksJson(result.map.landmarks, folder_ / "landmarks.json");
   if (result.map.occupancy) saveOccupancyRos(*result.map.occupancy, folder_ / "map");
   saveMap(result.map, folder_ / "map.rgmap");
   slam.graph().saveG2o(folder_ / "graph.g2o");
   open("config.ini") << slam.stages().effective_config;
   open("summary.json") << summaryJson(slam, result, read, facts).dump(2) << '\n';
-  if (!live_ || !detections_ || !associations_ || !robot || !camera)
+  if (!live_ || !detections_ || !associations_ || !associations || !robot || !camera)
     throw RunError("output folder " + folder_.string() + ": writing failed (disk full?)");
 }
 

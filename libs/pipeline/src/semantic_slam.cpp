@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "roomgraph/lidar/dynamic_return_filter.h"
-#include "roomgraph/pipeline/object_mapper.h"
 
 namespace roomgraph {
 namespace {
@@ -30,6 +29,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
       timer_(std::make_unique<mrpt::system::CTimeLogger>(true, "", false)),
       front_ends_(*stages_),
       estimator_(stages_->backend, front_ends_.motion()),
+      objects_(*stages_, estimator_.poses()),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
@@ -152,7 +152,7 @@ void SemanticSlam::localize(double t) {
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
   }
   const Timing timing(*timer_, "graph optimisation");
-  estimator_.update(stages_->landmarks);
+  estimator_.update(objects_);
 }
 
 void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
@@ -194,20 +194,7 @@ void SemanticSlam::level(const Frame& frame) {
 void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   if (!report.detector_ran || !seen_.ground) return;
   const Timing timing(*timer_, "selection and association");
-  const FrameContext context{frame.camera, estimator_.poses().at(frame.t) * frame.robot_from_camera,
-                             features_};
-  std::vector<ObjectMeasurement> objects;
-  for (const auto& measurement : stages_->proposal_selector->select(seen_, context)) {
-    const auto* model = stages_->database.find(measurement.proposal.class_name);
-    if (model && model->landmark) objects.push_back(measurement);
-  }
-  const KeyPoses& poses = estimator_.poses();
-  const KeyPose& node = poses.nearest(frame.t);
-  const PosedFrame posed{frame, poses.at(frame.t), node, poses.offset(node, frame.t)};
-  report.decisions =
-      roomgraph::mapObjects(objects, posed, stages_->backend.pose_sigma_m, *stages_->associator,
-                            stages_->landmarks, estimator_.measurements().sightings);
-  missUnseen(report.decisions, report.detections, posed, stages_->landmarks);
+  report.decisions = objects_.observe(seen_, frame, features_);
 }
 
 // Returns inside the wedge of a person's box, at the person's depth (sec. 5).
@@ -230,11 +217,11 @@ SlamResult SemanticSlam::finish() {
   front_ends_.refine();
   // Alternate until nothing new is found: landmarks merge after poses moved, loops close after poses moved.
   for (int round = 0; round < 3; ++round) {
-    if (!estimator_.optimizeAll(stages_->landmarks)) ++counts_.reasons["back end: no usable solution"];
+    if (!estimator_.optimizeAll(objects_)) ++counts_.reasons["back end: no usable solution"];
     if (!stages_->scan_loop_closer || estimator_.poses().empty()) continue;
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
   }
-  estimator_.optimizeAll(stages_->landmarks);
+  estimator_.optimizeAll(objects_);
   return collect();
 }
 
@@ -246,7 +233,7 @@ SlamResult SemanticSlam::collect() {
   result.counts.loop_closures = static_cast<int>(estimator_.measurements().closures.size());
   result.map.planar = estimator_.measurements().planar;
   if (poses.empty()) return result;
-  result.map.landmarks = stages_->landmarks.confirmed();
+  result.map.landmarks = objects_.landmarks().confirmed();
   if (const auto covariances = graph().landmarkCovariances())
     for (auto& landmark : result.map.landmarks)
       if (const auto found = covariances->find(landmark.id); found != covariances->end())

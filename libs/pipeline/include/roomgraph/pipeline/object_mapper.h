@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "roomgraph/pipeline/key_poses.h"
@@ -10,22 +11,51 @@
 
 namespace roomgraph {
 
-/// A camera frame with its place in the map.
-struct PosedFrame {
-  const Frame& frame;
-  Pose3 world_from_robot;
-  const KeyPose& node;    ///< key pose that sightings are attached to
-  Pose3 node_from_robot;  ///< movement from it
+/// The objects measured in one frame, as a run remembers them.
+struct ObjectFrame {
+  FrameId frame;
+  double t = 0;
+  Pose3 robot_from_camera = Pose3::Identity();
+  std::vector<ObjectDecision> decisions;  ///< places in world as of the last E-step
 };
 
-/// Selected measurements -> world -> association -> landmarks; the object part of one step (method.md sec. 4,
-/// E-step). Appends the sightings for the factor graph.
-std::vector<ObjectDecision> mapObjects(const std::vector<ObjectMeasurement>& measurements,
-                                       const PosedFrame& posed, double pose_sigma_m, Associator& associator,
-                                       LandmarkMap& landmarks, std::vector<LandmarkFactor>& sightings);
+/// When a landmark was measured first and last, s.
+struct SeenSpan {
+  double first = 0, last = 0;
+};
 
-/// Lowers the existence of landmarks in good view where nothing was detected.
-void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
-                const PosedFrame& posed, LandmarkMap& landmarks);
+/// The object part of a run: selection (method.md sec. 3), association (sec. 4, E-step), and the memory of
+/// what was measured, relative to the robot, so that it can be judged again when poses have moved.
+class ObjectMapper {
+ public:
+  /// Both outlive the mapper.
+  ObjectMapper(Stages& stages, const KeyPoses& poses) : stages_(stages), poses_(poses) {}
+
+  /// One frame on which there are detections: chooses proposals, gives them to landmarks, fuses them.
+  std::vector<ObjectDecision> observe(const FrameProposals& seen, const Frame& frame,
+                                      const std::vector<FeatureTrack>& features);
+
+  /// Joins landmarks that turned out to be one object, in the memory too.
+  void mergeDuplicates();
+
+  /// What the graph is to know: per key pose and landmark one factor, the mean of the sightings there (their
+  /// errors are nearly the same, so that many count like one).
+  std::vector<LandmarkFactor> sightings() const;
+
+  const std::vector<ObjectFrame>& frames() const { return frames_; }
+  LandmarkMap& landmarks() { return stages_.landmarks; }
+  const LandmarkMap& landmarks() const { return stages_.landmarks; }
+  std::map<LandmarkId, SeenSpan> seenSpans() const;
+
+ private:
+  std::vector<WorldMeasurement> select(const FrameProposals& seen, const Frame& frame,
+                                       const std::vector<FeatureTrack>& features) const;
+  void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                  const Frame& frame);
+
+  Stages& stages_;
+  const KeyPoses& poses_;
+  std::vector<ObjectFrame> frames_;
+};
 
 }  // namespace roomgraph

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "roomgraph/association/landmark_map.h"
 #include "roomgraph/pipeline/graph_builder.h"
+#include "roomgraph/pipeline/object_mapper.h"
 
 namespace roomgraph {
 
@@ -25,9 +25,9 @@ class PoseEstimator {
   bool advance(double t);
   void addClosures(const std::vector<RelativePose>& closures);
   /// Optimises the latest key poses, or everything when that is due.
-  void update(LandmarkMap& landmarks);
+  void update(ObjectMapper& objects);
   /// Optimises everything; false when the solver found nothing usable.
-  bool optimizeAll(LandmarkMap& landmarks);
+  bool optimizeAll(ObjectMapper& objects);
   /// Moves the world frame rigidly.
   void transform(const Pose3& new_from_old);
 

@@ -11,6 +11,7 @@
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
+#include "roomgraph/pipeline/object_mapper.h"
 #include "roomgraph/pipeline/pose_estimator.h"
 #include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
@@ -52,6 +53,8 @@ class SemanticSlam {
 
   /// The last graph that was optimised as a whole (after finish(): the final one).
   const FactorGraph& graph() const { return estimator_.graph(); }
+  /// Every measured object and the landmark it belongs to; after finish() with all hindsight.
+  const ObjectMapper& objects() const { return objects_; }
   const Stages& stages() const { return *stages_; }
   /// Per stage: calls, mean ms, total ms.
   std::map<std::string, std::array<double, 3>> timings() const;
@@ -78,6 +81,7 @@ class SemanticSlam {
 
   FrontEnds front_ends_;     ///< trajectories of the sources
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
+  ObjectMapper objects_;     ///< what was seen of objects
   RunCounts counts_;
   FrameProposals seen_;                 ///< of the last frame
   std::vector<FeatureTrack> features_;  ///< tracked in the last frame
