@@ -75,11 +75,24 @@ ScanMatch FrontEnds::match(const Scan& scan) {
 std::vector<RelativePose> FrontEnds::takeImageClosures() {
   if (!stages_.rgbd_odometry || !stages_.tracking.loop_closing) return {};
   std::vector<RelativePose> closures = stages_.rgbd_odometry->takeLoopClosures();
-  for (auto& closure : closures) {
-    closure.a_from_b = ofRobot(closure.a_from_b, robot_from_camera_);
-    closure.covariance = turned(closure.covariance, robot_from_camera_.linear());
-  }
+  for (auto& closure : closures) toRobot(closure);
   return closures;
+}
+
+void FrontEnds::toRobot(RelativePose& of_camera) const {
+  of_camera.a_from_b = ofRobot(of_camera.a_from_b, robot_from_camera_);
+  of_camera.covariance = turned(of_camera.covariance, robot_from_camera_.linear());
+}
+
+std::optional<RelativePose> FrontEnds::verify(const RelativePose& proposed) {
+  if (stages_.scan_loop_closer)
+    if (auto closure = stages_.scan_loop_closer->verify(proposed)) return closure;
+  if (!stages_.rgbd_odometry) return std::nullopt;
+  RelativePose of_camera = proposed;
+  of_camera.a_from_b = ofRobot(proposed.a_from_b, robot_from_camera_.inverse());
+  auto closure = stages_.rgbd_odometry->verifyLoop(of_camera);
+  if (closure) toRobot(*closure);
+  return closure;
 }
 
 void FrontEnds::refine() {

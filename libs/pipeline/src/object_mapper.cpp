@@ -58,7 +58,9 @@ std::vector<ObjectDecision> ObjectMapper::observe(const FrameProposals& seen, co
     decisions.push_back(std::move(decision));
   }
   missUnseen(decisions, seen.detections, frame);
-  if (!decisions.empty()) frames_.push_back({frame.id, frame.t, frame.robot_from_camera, decisions});
+  if (decisions.empty()) return decisions;
+  frames_.push_back({frame.id, frame.t, frame.robot_from_camera, decisions});
+  span(frames_.back());
   return decisions;
 }
 
@@ -88,11 +90,15 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
 }
 
 void ObjectMapper::mergeDuplicates() {
-  for (const auto& [removed, kept] : landmarks().mergeDuplicates()) {
+  const auto merged = landmarks().mergeDuplicates();
+  for (const auto& [removed, kept] : merged) {
     stages_.associator->merged(removed, kept);
     for (auto& frame : frames_)
       for (auto& decision : frame.decisions) rename(decision, removed, kept);
   }
+  if (merged.empty()) return;
+  spans_.clear();
+  for (const auto& frame : frames_) span(frame);
 }
 
 std::vector<LandmarkFactor> ObjectMapper::sightings() const {
@@ -110,12 +116,9 @@ std::vector<LandmarkFactor> ObjectMapper::sightings() const {
   return out;
 }
 
-std::map<LandmarkId, SeenSpan> ObjectMapper::seenSpans() const {
-  std::map<LandmarkId, SeenSpan> spans;
-  for (const auto& frame : frames_)
-    for (const auto& decision : frame.decisions)
-      spans.try_emplace(decision.landmark, SeenSpan{frame.t, frame.t}).first->second.last = frame.t;
-  return spans;
+void ObjectMapper::span(const ObjectFrame& frame) {
+  for (const auto& decision : frame.decisions)
+    spans_.try_emplace(decision.landmark, SeenSpan{frame.t, frame.t}).first->second.last = frame.t;
 }
 
 }  // namespace roomgraph

@@ -99,4 +99,22 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .max = 1});
 }
 
+void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {
+  v.add("enabled", enabled, {.doc = "whether objects propose loop closures"});
+  v.add("recent_s", recent_s,
+        {.doc = "landmarks first seen this long ago at most are compared with older ones",
+         .unit = "s",
+         .min = 1,
+         .max = 10000});
+  v.add("every_nodes", every_nodes, {.doc = "new poses between two searches", .min = 1, .max = 100000});
+  v.add("min_shift_m", min_shift_m,
+        {.doc = "a smaller disagreement is left to the association", .unit = "m", .min = 0, .max = 100});
+  v.add("min_pairs", constellation.min_pairs,
+        {.doc = "objects that two constellations must have in common", .min = 3, .max = 100});
+  v.add("tolerance_m", constellation.tolerance_m,
+        {.doc = "distance of two objects that lie on each other", .unit = "m", .min = 0.01, .max = 5});
+  v.add("min_lead", constellation.min_lead,
+        {.doc = "pairs more than the best other way to lay them on each other", .min = 0, .max = 100});
+}
+
 }  // namespace roomgraph

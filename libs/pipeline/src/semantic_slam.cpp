@@ -30,6 +30,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
       front_ends_(*stages_),
       estimator_(stages_->backend, front_ends_.motion()),
       objects_(*stages_, estimator_.poses()),
+      object_loops_(stages_->object_loops),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
@@ -150,6 +151,12 @@ void SemanticSlam::localize(double t) {
   if (stages_->scan_loop_closer) {
     const Timing timing(*timer_, "scan loop closing");
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
+  }
+  {
+    const Timing timing(*timer_, "object loop closing");
+    const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
+    if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
+      estimator_.addClosures({*closure});
   }
   const Timing timing(*timer_, "graph optimisation");
   estimator_.update(objects_);

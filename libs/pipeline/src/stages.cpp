@@ -99,6 +99,7 @@ void makeObjectStages(Stages& stages, Loader& loader) {
   stages.proposal_selector = loader.makeChosen<ProposalSelector>("selection");
   stages.associator = loader.makeChosen<Associator>("association");
   loader.read("landmarks", stages.landmarks);
+  loader.read("object_loop_closing", stages.object_loops);
 }
 
 void prepareAll(Stages& stages) {
@@ -149,6 +150,7 @@ ConfigSchema configSchema() {
   ObjectOptions detection;
   BackendOptions backend;
   LandmarkMap landmarks;
+  ObjectLoopOptions object_loops;
   OccupancyMapper mapper;
   schema.add("pipeline", general);
   schema.add("odometry", odometry);
@@ -163,6 +165,7 @@ ConfigSchema configSchema() {
   addChosen<ProposalSelector>(schema, "selection");
   addChosen<Associator>(schema, "association");
   schema.add("landmarks", landmarks);
+  schema.add("object_loop_closing", object_loops);
   schema.add("backend", backend);
   schema.add("mapping", mapper);
   return schema;

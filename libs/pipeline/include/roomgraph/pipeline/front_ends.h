@@ -28,12 +28,15 @@ class FrontEnds {
 
   /// Loop closures found in images since the last call, between robots.
   std::vector<RelativePose> takeImageClosures();
+  /// Asks the scans, then the images, whether a proposed closure between robots is right; refines it.
+  std::optional<RelativePose> verify(const RelativePose& proposed);
   /// Takes over what the front ends refined since: for the final estimate.
   void refine();
 
  private:
   std::optional<Pose3> predicted(double t_a, double t_b, const MotionSource& first,
                                  const MotionSource& second) const;
+  void toRobot(RelativePose& of_camera) const;
 
   const Stages& stages_;
   Motion motion_;

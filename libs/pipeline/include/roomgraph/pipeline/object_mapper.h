@@ -45,7 +45,7 @@ class ObjectMapper {
   const std::vector<ObjectFrame>& frames() const { return frames_; }
   LandmarkMap& landmarks() { return stages_.landmarks; }
   const LandmarkMap& landmarks() const { return stages_.landmarks; }
-  std::map<LandmarkId, SeenSpan> seenSpans() const;
+  const std::map<LandmarkId, SeenSpan>& seenSpans() const { return spans_; }
 
  private:
   std::vector<WorldMeasurement> select(const FrameProposals& seen, const Frame& frame,
@@ -55,7 +55,9 @@ class ObjectMapper {
 
   Stages& stages_;
   const KeyPoses& poses_;
+  void span(const ObjectFrame& frame);
   std::vector<ObjectFrame> frames_;
+  std::map<LandmarkId, SeenSpan> spans_;
 };
 
 }  // namespace roomgraph

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/association/constellation.h"
 #include "roomgraph/core/parameters.h"
 
 namespace roomgraph {
@@ -72,6 +73,16 @@ struct BackendOptions : Configurable {
   double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
   double landmark_information_share = 0.01;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [object_loop_closing]
+struct ObjectLoopOptions : Configurable {
+  bool enabled = true;
+  double recent_s = 40;
+  int every_nodes = 5;
+  double min_shift_m = 0.3;
+  ConstellationOptions constellation;
   void declareParameters(ParameterVisitor& v) override;
 };
 

@@ -11,6 +11,7 @@
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
+#include "roomgraph/pipeline/object_loop_closer.h"
 #include "roomgraph/pipeline/object_mapper.h"
 #include "roomgraph/pipeline/pose_estimator.h"
 #include "roomgraph/pipeline/stages.h"
@@ -82,6 +83,7 @@ class SemanticSlam {
   FrontEnds front_ends_;     ///< trajectories of the sources
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
+  ObjectLoopCloser object_loops_;
   RunCounts counts_;
   FrameProposals seen_;                 ///< of the last frame
   std::vector<FeatureTrack> features_;  ///< tracked in the last frame

@@ -42,6 +42,7 @@ struct Stages {
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;
   LandmarkMap landmarks;
+  ObjectLoopOptions object_loops;
   OccupancyMapper mapper;
   std::string effective_config;  ///< INI text of every parameter as it is used
 };

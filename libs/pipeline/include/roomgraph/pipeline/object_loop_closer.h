@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "roomgraph/observations/trajectory.h"
+#include "roomgraph/pipeline/object_mapper.h"
+
+namespace roomgraph {
+
+/// Asks the scans or the images whether a closure is right; refines it.
+using ClosureVerifier = std::function<std::optional<RelativePose>(const RelativePose&)>;
+
+/// Landmarks made lately that lie on each other like older ones elsewhere: the robot came back with drift (or
+/// after being lost) and mapped the same objects again. The constellation gives the candidate, scans or
+/// images verify it (method.md sec. 4).
+class ObjectLoopCloser {
+ public:
+  explicit ObjectLoopCloser(const ObjectLoopOptions& options) : options_(options) {}
+
+  /// Called with every new key pose. Returns a verified closure that the current estimate does not agree
+  /// with, or nothing.
+  std::optional<RelativePose> search(const ObjectMapper& objects, const KeyPoses& poses,
+                                     const ClosureVerifier& verify);
+
+ private:
+  const ObjectLoopOptions& options_;
+  int nodes_since_search_ = 0;
+};
+
+/// Landmarks first seen within `recent_s` before the last measurement, and those not seen any more since.
+struct LandmarkAges {
+  std::vector<Landmark> recent, old;
+};
+LandmarkAges splitByAge(const std::vector<Landmark>& landmarks, const std::map<LandmarkId, SeenSpan>& spans,
+                        double now, double recent_s);
+
+}  // namespace roomgraph
