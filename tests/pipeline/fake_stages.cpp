@@ -59,7 +59,9 @@ FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Det
   out.ground = ground;
   for (std::size_t j = 0; j < detections.size(); ++j)
     for (const auto& object : world().objects) {
-      if (object.class_name != detections[j].class_name) continue;
+      const auto seen = projectShape(object.shape, cameraFromObject(object, frame.t), frame.camera);
+      if (object.class_name != detections[j].class_name || !seen || !(seen->visible == detections[j].box))
+        continue;
       Proposal proposal;
       proposal.detection = static_cast<int>(j);
       proposal.model = proposal.class_name = object.class_name;
@@ -80,8 +82,18 @@ TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior&) {
   // A frame of its own, as a real tracker has.
   result.odom_from_camera = poseFromYpr(4, 5, 6, 0.3, 0, 0) * world().world_from_camera(frame.t);
   result.step_covariance = 1e-8 * Matrix6d::Identity();
-  trajectory_.add(frame.t, result.odom_from_camera);
+  result.segment = frame.t >= world().lost_at;
+  trajectory_.add(frame.t, result.odom_from_camera, result.segment);
   return result;
+}
+
+std::optional<RelativePose> FakeOdometry::verifyLoop(const RelativePose& proposed) {
+  RelativePose exact = proposed;
+  exact.a_from_b =
+      world().world_from_camera(proposed.t_a).inverse() * world().world_from_camera(proposed.t_b);
+  if ((exact.a_from_b.translation() - proposed.a_from_b.translation()).norm() > 1) return std::nullopt;
+  exact.covariance = 1e-6 * Matrix6d::Identity();
+  return exact;
 }
 
 }  // namespace fakes

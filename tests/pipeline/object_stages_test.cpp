@@ -16,7 +16,7 @@ class ObjectStagesTest : public ::testing::Test {
   ObjectStagesTest() {
     registerAllClasses();
     fakes::registerClasses();
-    fakes::world().objects.clear();
+    fakes::world() = {};
     fakes::world().world_from_camera = [](double t) {
       return toPose3(Drive::truth(t)) * Drive::robotFromCamera();
     };
@@ -113,6 +113,33 @@ TEST_F(ObjectStagesTest, UnknownStageIsAnErrorThatListsTheKnown) {
     FAIL() << "no exception";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("FakeDetector"), std::string::npos) << error.what();
+  }
+}
+
+// The camera is lost while the robot drives a quarter lap; it goes on as if it stood where it was lost, and
+// maps everything a second time. The objects say where it is.
+TEST_F(ObjectStagesTest, ObjectsBringBackALostCamera) {
+  const ObjectShape chair{ShapeKind::kCylinder, 0.6, 0.6, 0.9}, sofa{ShapeKind::kCuboid, 1.8, 0.9, 0.8};
+  place("swivel_chair", chair, 3.0, -0.5, 0);
+  place("swivel_chair", chair, 3.4, 2.0, 0);
+  place("sofa", sofa, 1.0, 4.5, -1.5);
+  place("swivel_chair", chair, -2.0, 4.0, 0);
+  place("sofa", sofa, -3.2, 1.0, 0.2);
+  place("swivel_chair", chair, -1.5, -2.4, 0);
+  fakes::world().lost_at = 15;
+  for (const bool enabled : {true, false}) {
+    SemanticSlam slam(stagesWith(kFakeObjects +
+                                 "[tracking]\nclass = FakeOdometry\n[object_loop_closing]\nenabled = " +
+                                 (enabled ? "true" : "false") + "\n"));
+    for (int i = 0; i <= 270; ++i)
+      if (i <= 120 || i >= 150) slam.process(Drive::frame(0.1 * i));
+    const SlamResult result = slam.finish();
+    const Pose3 error = result.world_from_robot.back().pose.inverse() *
+                        toPose3(Drive::truth(result.world_from_robot.back().t));
+    EXPECT_EQ(result.map.landmarks.size() == 6, enabled);
+    EXPECT_EQ(result.counts.loop_closures > 0, enabled);
+    EXPECT_EQ(error.translation().norm() < 0.1 && rotationAngle(error) < 0.05, enabled)
+        << error.translation().norm() << " m, " << rotationAngle(error) << " rad";
   }
 }
 

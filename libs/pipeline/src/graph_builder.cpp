@@ -11,10 +11,11 @@ namespace {
 const NodeId kAnchor{1'000'000'000};
 constexpr double kLidarGap_s = 0.25;
 
-// Nothing saw the movement: the poses stay near each other, hardly more than that.
-Movement unknownMovement() {
+// Nothing saw the movement: the poses are as near to each other as a walk, or a drive, allows.
+Movement unknownMovement(double seconds) {
+  const double sigma_m = 0.3 + 0.5 * seconds, sigma_rad = 0.3 + 0.7 * seconds;
   Vector6d sigma;
-  sigma << 0.3, 0.3, 0.3, 0.3, 0.3, 0.3;
+  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
   return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
 }
 
@@ -27,7 +28,7 @@ void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const 
     graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
   }
   if (any) return;
-  const Movement unknown = unknownMovement();
+  const Movement unknown = unknownMovement(b.t - a.t);
   graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
 }
 
@@ -79,6 +80,12 @@ void addObjects(FactorGraph& graph, const Measurements& measurements, const std:
 }
 
 }  // namespace
+
+bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
+  for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})
+    if (source->between(a.t, b.t, kLidarGap_s)) return true;
+  return false;
+}
 
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const std::vector<Landmark>& landmarks, const BackendOptions& options,

@@ -3,7 +3,7 @@
 #include "roomgraph/pipeline/object_loop_closer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <set>
 
 namespace roomgraph {
 namespace {
@@ -29,20 +29,24 @@ RelativePose proposal(double t_a, double t_b, const Pose2& map_from_query, const
 
 }  // namespace
 
-LandmarkAges splitByAge(const std::vector<Landmark>& landmarks, const std::map<LandmarkId, SeenSpan>& spans,
-                        double now, double recent_s) {
-  LandmarkAges out;
-  double first_recent = now;
-  for (const auto& landmark : landmarks) {
-    const auto span = spans.find(landmark.id);
-    if (span == spans.end() || !trustworthy(landmark) || span->second.first < now - recent_s) continue;
-    out.recent.push_back(landmark);
-    first_recent = std::min(first_recent, span->second.first);
-  }
-  for (const auto& landmark : landmarks) {
-    const auto span = spans.find(landmark.id);
-    if (span != spans.end() && trustworthy(landmark) && span->second.last < first_recent)
-      out.old.push_back(landmark);
+std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks,
+                               const std::map<LandmarkId, SeenSpan>& spans, double now, double recent_s,
+                               std::size_t min_each) {
+  std::set<double> times;
+  for (const auto& landmark : landmarks)
+    if (const auto span = spans.find(landmark.id);
+        span != spans.end() && span->second.first >= now - recent_s)
+      times.insert(span->second.first);
+  std::vector<Visits> out;
+  for (const double parting : times) {
+    Visits visits;
+    for (const auto& landmark : landmarks) {
+      const auto span = spans.find(landmark.id);
+      if (span == spans.end() || !trustworthy(landmark)) continue;
+      if (span->second.first >= parting) visits.recent.push_back(landmark);
+      if (span->second.last < parting) visits.old.push_back(landmark);
+    }
+    if (std::min(visits.recent.size(), visits.old.size()) >= min_each) out.push_back(std::move(visits));
   }
   return out;
 }
@@ -51,18 +55,27 @@ std::optional<RelativePose> ObjectLoopCloser::search(const ObjectMapper& objects
                                                      const ClosureVerifier& verify) {
   if (!options_.enabled || ++nodes_since_search_ < options_.every_nodes) return std::nullopt;
   nodes_since_search_ = 0;
-  const auto spans = objects.seenSpans();
-  const double now = poses.nodes().back().t;
-  const LandmarkAges ages = splitByAge(objects.landmarks().landmarks(), spans, now, options_.recent_s);
-  const auto match = matchConstellation(ages.recent, ages.old, options_.constellation);
-  if (!match) return std::nullopt;
-  const Landmark& some = ages.recent[match->pairs.front().first];
-  const Eigen::Vector2d place = some.position.head<2>();
-  if ((match->map_from_query * place - place).norm() < options_.min_shift_m) return std::nullopt;
-  for (std::size_t i = 0; i < std::min(kAttempts, match->pairs.size()); ++i) {
-    const auto& [recent, old] = match->pairs[i];
-    const double t_a = spans.at(ages.old[old].id).last, t_b = spans.at(ages.recent[recent].id).last;
-    auto closure = verify(proposal(t_a, t_b, match->map_from_query, poses));
+  const auto& rule = options_.constellation;
+  for (const Visits& visits :
+       partByTime(objects.landmarks().landmarks(), objects.seenSpans(), poses.nodes().back().t,
+                  options_.recent_s, static_cast<std::size_t>(rule.min_pairs))) {
+    const auto match = matchConstellation(visits.recent, visits.old, rule);
+    if (!match) continue;
+    if (auto closure = confirm(*match, visits, objects.seenSpans(), poses, verify)) return closure;
+  }
+  return std::nullopt;
+}
+
+std::optional<RelativePose> ObjectLoopCloser::confirm(const ConstellationMatch& match, const Visits& visits,
+                                                      const std::map<LandmarkId, SeenSpan>& spans,
+                                                      const KeyPoses& poses,
+                                                      const ClosureVerifier& verify) const {
+  const Eigen::Vector2d place = visits.recent[match.pairs.front().first].position.head<2>();
+  if ((match.map_from_query * place - place).norm() < options_.min_shift_m) return std::nullopt;
+  for (std::size_t i = 0; i < std::min(kAttempts, match.pairs.size()); ++i) {
+    const auto& [recent, old] = match.pairs[i];
+    const double t_a = spans.at(visits.old[old].id).last, t_b = spans.at(visits.recent[recent].id).last;
+    auto closure = verify(proposal(t_a, t_b, match.map_from_query, poses));
     if (!closure) continue;
     closure->source = "objects";
     return closure;

@@ -101,6 +101,15 @@ void ObjectMapper::mergeDuplicates() {
   for (const auto& frame : frames_) span(frame);
 }
 
+void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
+  for (const auto& [id, span] : spans_) {
+    const Landmark* landmark = landmarks().find(id);
+    if (!landmark || span.first < t) continue;
+    const Pose3 moved = new_from_old * landmark->worldFromObject();
+    landmarks().correct(id, moved.translation(), planarPart(moved).yaw, landmark->covariance);
+  }
+}
+
 std::vector<LandmarkFactor> ObjectMapper::sightings() const {
   std::map<std::pair<NodeId, LandmarkId>, std::vector<LandmarkFactor>> groups;
   for (const auto& frame : frames_) {

@@ -34,9 +34,28 @@ bool PoseEstimator::surprising(const RelativePose& closure) const {
          rotationAngle(difference) > options_.urgent_closure_rad;
 }
 
-void PoseEstimator::addClosures(const std::vector<RelativePose>& closures) {
+// Far from the solution a robust closure pulls too weakly: bring the unconnected part there first.
+void PoseEstimator::reconnect(const RelativePose& closure, ObjectMapper& objects) {
+  auto& nodes = poses_.nodes();
+  const double early = std::min(closure.t_a, closure.t_b), late = std::max(closure.t_a, closure.t_b);
+  for (std::size_t i = nodes.size(); i-- > 1;) {
+    if (nodes[i].t > late || nodes[i - 1].t < early || connected(motion_, nodes[i - 1], nodes[i])) continue;
+    const Pose3 b_now = poses_.at(closure.t_b), a_now = poses_.at(closure.t_a);
+    const Pose3 move = closure.t_a < closure.t_b ? a_now * closure.a_from_b * b_now.inverse()
+                                                 : b_now * closure.a_from_b.inverse() * a_now.inverse();
+    const double since = nodes[i].t;
+    for (; i < nodes.size(); ++i) nodes[i].world_from_robot = move * nodes[i].world_from_robot;
+    objects.moveSince(since, move);
+    return;
+  }
+}
+
+void PoseEstimator::addClosures(const std::vector<RelativePose>& closures, ObjectMapper& objects) {
   for (const auto& closure : closures) {
-    surprised_ |= surprising(closure);
+    if (surprising(closure)) {
+      surprised_ = true;
+      reconnect(closure, objects);
+    }
     measurements_.closures.push_back(closure);
   }
 }

@@ -147,16 +147,16 @@ void SemanticSlam::track(const Frame& frame, StepReport& report) {
 
 void SemanticSlam::localize(double t) {
   if (!estimator_.advance(t)) return;
-  estimator_.addClosures(front_ends_.takeImageClosures());
+  estimator_.addClosures(front_ends_.takeImageClosures(), objects_);
   if (stages_->scan_loop_closer) {
     const Timing timing(*timer_, "scan loop closing");
-    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
+    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
   }
   {
     const Timing timing(*timer_, "object loop closing");
     const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
     if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
-      estimator_.addClosures({*closure});
+      estimator_.addClosures({*closure}, objects_);
   }
   const Timing timing(*timer_, "graph optimisation");
   estimator_.update(objects_);
@@ -226,7 +226,7 @@ SlamResult SemanticSlam::finish() {
   for (int round = 0; round < 3; ++round) {
     if (!estimator_.optimizeAll(objects_)) ++counts_.reasons["back end: no usable solution"];
     if (!stages_->scan_loop_closer || estimator_.poses().empty()) continue;
-    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()));
+    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
   }
   estimator_.optimizeAll(objects_);
   return collect();

@@ -18,6 +18,9 @@ struct Measurements {
   bool planar = true;                 ///< a robot on the floor
 };
 
+/// Whether any source of motion saw the movement from one key pose to the next.
+bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
+
 /// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects
 /// (method.md sec. 4, factors 1, 3, 5, 6). With `first` > 0 only the key poses from there on: the first is
 /// held.

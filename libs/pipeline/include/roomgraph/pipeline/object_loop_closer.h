@@ -11,6 +11,17 @@
 
 namespace roomgraph {
 
+/// Landmarks of two visits that have none in common.
+struct Visits {
+  std::vector<Landmark> recent, old;
+};
+
+/// Every way to part the landmarks at a time within `recent_s` before `now`: first seen from then on, and not
+/// seen any more since; only those with at least `min_each` landmarks in both visits.
+std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks,
+                               const std::map<LandmarkId, SeenSpan>& spans, double now, double recent_s,
+                               std::size_t min_each);
+
 /// Asks the scans or the images whether a closure is right; refines it.
 using ClosureVerifier = std::function<std::optional<RelativePose>(const RelativePose&)>;
 
@@ -27,15 +38,12 @@ class ObjectLoopCloser {
                                      const ClosureVerifier& verify);
 
  private:
+  std::optional<RelativePose> confirm(const ConstellationMatch& match, const Visits& visits,
+                                      const std::map<LandmarkId, SeenSpan>& spans, const KeyPoses& poses,
+                                      const ClosureVerifier& verify) const;
+
   const ObjectLoopOptions& options_;
   int nodes_since_search_ = 0;
 };
-
-/// Landmarks first seen within `recent_s` before the last measurement, and those not seen any more since.
-struct LandmarkAges {
-  std::vector<Landmark> recent, old;
-};
-LandmarkAges splitByAge(const std::vector<Landmark>& landmarks, const std::map<LandmarkId, SeenSpan>& spans,
-                        double now, double recent_s);
 
 }  // namespace roomgraph

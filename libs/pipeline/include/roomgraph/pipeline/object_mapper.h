@@ -38,6 +38,9 @@ class ObjectMapper {
   /// Joins landmarks that turned out to be one object, in the memory too.
   void mergeDuplicates();
 
+  /// Moves the landmarks that were first seen at that time or later.
+  void moveSince(double t, const Pose3& new_from_old);
+
   /// What the graph is to know: per key pose and landmark one factor, the mean of the sightings there (their
   /// errors are nearly the same, so that many count like one).
   std::vector<LandmarkFactor> sightings() const;

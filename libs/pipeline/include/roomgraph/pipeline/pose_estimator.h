@@ -23,7 +23,9 @@ class PoseEstimator {
 
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
   bool advance(double t);
-  void addClosures(const std::vector<RelativePose>& closures);
+  /// A closure over a gap that no source of motion saw across also lays the poses after the gap, and the
+  /// landmarks first seen there, where it says.
+  void addClosures(const std::vector<RelativePose>& closures, ObjectMapper& objects);
   /// Optimises the latest key poses, or everything when that is due.
   void update(ObjectMapper& objects);
   /// Optimises everything; false when the solver found nothing usable.
@@ -35,6 +37,7 @@ class PoseEstimator {
   void optimizeWindow();
   bool due() const;
   bool surprising(const RelativePose& closure) const;
+  void reconnect(const RelativePose& closure, ObjectMapper& objects);
 
   const BackendOptions& options_;
   const Motion& motion_;
