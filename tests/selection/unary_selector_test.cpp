@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/selection/potentials.h"
 #include "roomgraph/selection/unary_selector.h"
 
 #include <gtest/gtest.h>

@@ -2,19 +2,13 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/selection/unary_selector.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "roomgraph/selection/potentials.h"
 
 namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(UnarySelector, ProposalSelector, roomgraph)
-
-double unaryPotential(const Proposal& proposal, const Detection& detection) {
-  if (detection.box.diagonal() <= 0) return 0;
-  const double apart = (proposal.projected.visible.center() - detection.box.center()).norm();
-  const double d = std::min(1.0, apart / detection.box.diagonal());
-  return -proposal.box_iou * (1 - d);
-}
 
 void UnarySelector::declareParameters(ParameterVisitor& v) {
   v.add("max_energy", max_energy_,
@@ -24,7 +18,8 @@ void UnarySelector::declareParameters(ParameterVisitor& v) {
       {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
 }
 
-std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame, const FrameContext&) {
+std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame,
+                                                     const FrameContext& context) {
   std::vector<ObjectMeasurement> selected;
   for (std::size_t j = 0; j < frame.detections.size(); ++j) {
     const auto& detection = frame.detections[j];
@@ -32,9 +27,7 @@ std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame
     double best_energy = max_energy_, partition = 1;  // 1 = exp(0), the state "none"
     for (const auto& proposal : frame.proposals) {
       if (proposal.detection != static_cast<int>(j)) continue;
-      // The generator's own score breaks ties between shapes that fit the box alike.
-      const double energy =
-          detection.score * unaryPotential(proposal, detection) * (0.5 + 0.5 * proposal.score);
+      const double energy = unaryEnergy(proposal, detection);
       partition += std::exp(-energy / temperature_);
       if (energy > best_energy) continue;
       best_energy = energy;
@@ -44,6 +37,8 @@ std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame
     ObjectMeasurement measurement{frame.frame, frame.t, detection, *best};
     measurement.confidence = std::exp(-best_energy / temperature_) / partition;
     measurement.energy.unary = best_energy;
+    measurement.features =
+        featuresOnObject(context.features, detection.box, *best, context.camera, kFeatureMargin_m);
     selected.push_back(std::move(measurement));
   }
   return selected;

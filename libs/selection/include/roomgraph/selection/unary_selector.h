@@ -6,11 +6,6 @@
 
 namespace roomgraph {
 
-/// Unary potential of a proposal (paper Eq. 4, method.md sec. 3): U = -S (1 - d), with S the agreement of the
-/// projected model's size with its box and d the distance of their centres over the box diagonal. In [-1, 0];
-/// lower is better.
-double unaryPotential(const Proposal& proposal, const Detection& detection);
-
 /// Each frame on its own: per detection the proposal with the lowest alpha * U, if it is low enough.
 /// Confidence is the Boltzmann probability of the choice among {none} and the detection's proposals.
 class UnarySelector : public ProposalSelector {

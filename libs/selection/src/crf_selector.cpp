@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/selection/crf_selector.h"
+
+#include <limits>
+
+#include "object_window.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(CrfSelector, ProposalSelector, roomgraph)
+
+namespace {
+
+std::vector<std::vector<const Proposal*>> byDetection(const FrameProposals& frame) {
+  std::vector<std::vector<const Proposal*>> out(frame.detections.size());
+  for (const auto& proposal : frame.proposals)
+    if (proposal.detection >= 0 && proposal.detection < static_cast<int>(out.size()))
+      out[static_cast<std::size_t>(proposal.detection)].push_back(&proposal);
+  return out;
+}
+
+// States of least energy, where the newest frame may only take what is good enough by itself.
+ChainSolution minimizeReportable(ChainProblem problem, double max_energy) {
+  auto& newest = problem.unary.back();
+  for (std::size_t x = 1; x < newest.size(); ++x)
+    if (newest[x] > max_energy) newest[x] = std::numeric_limits<double>::infinity();
+  return minimize(problem);
+}
+
+}  // namespace
+
+CrfSelector::CrfSelector() : window_(std::make_unique<ObjectWindow>()) {}
+CrfSelector::~CrfSelector() = default;
+
+void CrfSelector::declareParameters(ParameterVisitor& v) {
+  v.add("max_energy", max_energy_,
+        {.doc = "a proposal is selected when alpha * U (Eq. 4) is at most this", .min = -1, .max = 0});
+  v.add(
+      "temperature", temperature_,
+      {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
+  v.add(
+      "window_frames", window_frames_,
+      {.doc = "frames N of the window; an object missed for as many gets a new track", .min = 2, .max = 100});
+  v.add("min_link_overlap", min_link_overlap_,
+        {.doc = "least IoU of a detection's box with the predicted one that may continue a track",
+         .min = 0.01,
+         .max = 1});
+}
+
+std::vector<ObjectMeasurement> CrfSelector::select(const FrameProposals& frame, const FrameContext& context) {
+  const View view{context.camera, context.world_from_camera};
+  const auto proposals = byDetection(frame);
+  std::vector<Sighting> sightings;
+  std::vector<std::uint8_t> labels;
+  for (std::size_t j = 0; j < frame.detections.size(); ++j) {
+    sightings.push_back(makeSighting(frame.detections[j], proposals[j], view, context.features));
+    labels.push_back(window_->codes.of(frame.detections[j].class_name));
+  }
+  const WindowStep step =
+      advance(*window_, std::move(sightings), labels, view, window_frames_, min_link_overlap_);
+
+  std::vector<ObjectMeasurement> selected;
+  for (std::size_t j = 0; j < frame.detections.size(); ++j) {
+    const ObjectChain& object = window_->objects[static_cast<std::size_t>(step.objects[j])];
+    const bool whole_window = window_->frame - object.born + 1 >= window_frames_;
+    const ChainProblem chain = chainProblem(object, whole_window);
+    const ChainSolution solution = minimizeReportable(chain, max_energy_);
+    if (solution.states.empty() || solution.states.back() == 0) continue;
+    const int state = solution.states.back();
+    const Proposal& proposal = *proposals[j][static_cast<std::size_t>(state - 1)];
+    ObjectMeasurement measurement{frame.frame, frame.t, frame.detections[j], proposal};
+    measurement.confidence = marginals(chain, temperature_).back()[static_cast<std::size_t>(state)];
+    measurement.energy.unary = chain.unary.back()[static_cast<std::size_t>(state)];
+    if (!chain.pairwise.empty())
+      measurement.energy.pairwise = chain.pairwise.back()(solution.states.end()[-2], state);
+    measurement.track = object.id;
+    measurement.beta = step.beta;
+    measurement.features = featuresOnObject(context.features, frame.detections[j].box, proposal,
+                                            context.camera, kFeatureMargin_m);
+    selected.push_back(std::move(measurement));
+  }
+  return selected;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <deque>
+
+#include "roomgraph/selection/crf.h"
+#include "roomgraph/selection/potentials.h"
+#include "roomgraph/selection/semantic_code.h"
+
+namespace roomgraph {
+
+/// An object in one frame: a detection with its proposals, as later frames need it.
+struct Sighting {
+  int frame = 0;  ///< count of the frame, set when it enters the window
+  Box2 box;       ///< of the detection, px
+  View view;
+  std::vector<PlacedShape> shapes;     ///< of the proposals 1..P
+  std::vector<double> unary;           ///< per state (crf.h): 0, then the proposals' energies
+  std::vector<std::int64_t> features;  ///< inside the box, ascending
+  Eigen::MatrixXd pairwise;            ///< energy with the states of the sighting before; empty: first
+};
+
+/// An object followed over the window.
+struct ObjectChain {
+  TrackId id;
+  std::uint8_t label = 0;
+  int born = 0;                    ///< count of the frame of the first sighting
+  std::deque<Sighting> sightings;  ///< those inside the window, oldest first; never empty
+};
+
+/// `proposals`: those of this detection.
+Sighting makeSighting(const Detection& detection, const std::vector<const Proposal*>& proposals,
+                      const View& view, const std::vector<FeatureTrack>& features);
+
+/// Pairwise energies w P between the states of two sightings, w = s (1 - beta) (Eq. 3, 6). "None" has no
+/// area: after a proposal it overlaps as little as can be and costs w, if there was anything to choose;
+/// before a proposal, or before another "none", it costs nothing. So a bad link, whose P is at most 1, never
+/// makes "none" cheaper than a proposal in the newest frame, and an object that could not be modelled before
+/// is not held against a proposal now. Only a proposal with a bad link on either side can be worth dropping.
+Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, double weight);
+
+/// Where the detection's box should be in another view, cut by its border: the sighting's best shape, carried
+/// there, says how the box moves and grows; without proposals the box turns with the camera. Nothing when
+/// outside.
+std::optional<Box2> predictedBox(const Sighting& sighting, const View& view);
+
+/// The chain of one object over its sightings (frames without one are left out: their only state is "none").
+ChainProblem chainProblem(const ObjectChain& chain, bool must_appear);
+
+}  // namespace roomgraph

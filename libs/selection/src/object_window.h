@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "object_chain.h"
+
+namespace roomgraph {
+
+/// The objects of the last frames and the latest frame's code.
+struct ObjectWindow {
+  int frame = 0;  ///< count of the newest frame, from 1
+  LabelCodes codes;
+  std::vector<ObjectChain> objects;  ///< seen within the window, in order of id
+  SemanticCode code;                 ///< of the newest frame
+  std::int64_t next_track = 0;
+};
+
+/// How the newest frame continues the window.
+struct WindowStep {
+  double beta = 1;           ///< likeness to the frame before (Eq. 5); 1 in the first frame
+  double beta_star = 1;      ///< likeness to the window taken together
+  std::vector<int> objects;  ///< per detection its place in ObjectWindow::objects
+};
+
+/// Moves the window on by a frame: forgets what lies `frames` or more behind, links the frame's sightings
+/// (one per detection, `labels` beside them) to the objects of the window and starts new objects for the
+/// rest.
+WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
+                   const std::vector<std::uint8_t>& labels, const View& view, int frames, double min_overlap);
+
+}  // namespace roomgraph
