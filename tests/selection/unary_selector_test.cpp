@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/potentials.h"
 #include "roomgraph/selection/unary_selector.h"
+#include "roomgraph/selection/potentials.h"
 
 #include <gtest/gtest.h>
 
