@@ -8,11 +8,15 @@
 namespace roomgraph {
 namespace {
 
-// The map of each axis that takes `from` to `to`, applied to `box`.
-Box2 movedAlong(const Box2& box, const Box2& from, const Box2& to) {
-  const double su = to.width() / from.width(), sv = to.height() / from.height();
-  return {to.u_min + su * (box.u_min - from.u_min), to.v_min + sv * (box.v_min - from.v_min),
-          to.u_min + su * (box.u_max - from.u_min), to.v_min + sv * (box.v_max - from.v_min)};
+// The map of each axis that takes the area `from` to `to`, applied to `box`. A side that the image border cut
+// says nothing about the object: there the area's own side counts.
+Box2 movedAlong(const Box2& box, const ProjectedShape& from, const Box2& to) {
+  const Box2& full = from.full;
+  const double su = to.width() / full.width(), sv = to.height() / full.height();
+  return {from.cut_left ? to.u_min : to.u_min + su * (box.u_min - full.u_min),
+          from.cut_top ? to.v_min : to.v_min + sv * (box.v_min - full.v_min),
+          from.cut_right ? to.u_max : to.u_min + su * (box.u_max - full.u_min),
+          from.cut_bottom ? to.v_max : to.v_min + sv * (box.v_max - full.v_min)};
 }
 
 // Bounds of the box's corners under the camera's turn alone, as if the object were far away.
@@ -69,8 +73,7 @@ std::optional<Box2> predictedBox(const Sighting& sighting, const View& view) {
     const auto best = std::min_element(sighting.unary.begin() + 1, sighting.unary.end());
     const auto& shape = sighting.shapes[static_cast<std::size_t>(best - sighting.unary.begin() - 1)];
     if (const auto area = carriedArea(shape, view))
-      box = shape.projected.full.empty() ? area->full
-                                         : movedAlong(sighting.box, shape.projected.full, area->full);
+      box = shape.projected.full.empty() ? area->full : movedAlong(sighting.box, shape.projected, area->full);
   }
   if (!box) return std::nullopt;
   const Box2 visible = clipped(*box, view.camera.width, view.camera.height);
