@@ -47,8 +47,9 @@ TEST(CarriedArea, IsWhereTheObjectIsSeenAfterTheCameraMoved) {
         viewFrom(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4));
     const auto carried =
         carriedArea(placedShape(onlyProposal(before, object), before.world_from_camera), viewOf(now));
-    ASSERT_TRUE(carried);
     const Box2 expected = boundsOfSamples(object, viewOf(now));
+    ASSERT_EQ(carried.has_value(), !clipped(expected, 640, 480).empty());
+    if (!carried) continue;
     EXPECT_NEAR(carried->full.u_min, expected.u_min, 0.1);
     EXPECT_NEAR(carried->full.v_min, expected.v_min, 0.1);
     EXPECT_NEAR(carried->full.u_max, expected.u_max, 0.1);

@@ -34,7 +34,7 @@ TEST(LabelCodes, StayTheSame) {
 }
 
 TEST(SemanticCode, ReadsRowsFromTopLeftToBottomRight) {
-  const std::vector<LabelledBox> objects = {boxAt(300, 205, 5), boxAt(100, 105, 2), boxAt(200, 95, 3),
+  const std::vector<LabelledBox> objects = {boxAt(300, 205, 5), boxAt(100, 103, 2), boxAt(200, 95, 3),
                                             boxAt(50, 200, 4), boxAt(0, 100, 1)};
   const SemanticCode code = semanticCode(objects);
   EXPECT_EQ(code.labels, (std::vector<std::uint8_t>{1, 2, 3, 4, 5}));
