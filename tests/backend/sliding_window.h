@@ -13,7 +13,8 @@ namespace roomgraph::testing {
 /// and all landmarks are kept, what leaves the window stays as a prior.
 class SlidingWindow {
  public:
-  explicit SlidingWindow(std::size_t size, bool keep_prior = true) : size_(size), keep_prior_(keep_prior) {}
+  explicit SlidingWindow(std::size_t size, bool keep_prior = true, double tolerance = 1e-13)
+      : size_(size), keep_prior_(keep_prior), tolerance_(tolerance) {}
 
   void addLandmark(LandmarkId id, const LandmarkEstimate& start) { landmarks_[id] = start; }
 
@@ -23,7 +24,7 @@ class SlidingWindow {
     factors_.insert(factors_.end(), factors.begin(), factors.end());
     shrink();
     build();
-    graph_.optimize(SolveOptions{50, 1e-13});
+    graph_.optimize(SolveOptions{50, tolerance_});
     for (auto& [node, pose] : poses_) pose = graph_.pose(node);
     for (auto& [name, landmark] : landmarks_) landmark = graph_.landmark(name);
   }
@@ -56,11 +57,13 @@ class SlidingWindow {
   static bool touches(const Factor& factor, NodeId node) {
     if (const auto* f = std::get_if<BetweenFactor>(&factor)) return f->a == node || f->b == node;
     if (const auto* f = std::get_if<LandmarkFactor>(&factor)) return f->node == node;
+    if (const auto* f = std::get_if<PlanarFactor>(&factor)) return f->node == node;
     return false;
   }
 
   std::size_t size_;
   bool keep_prior_;
+  double tolerance_;
   std::map<NodeId, Pose3> poses_;
   std::map<LandmarkId, LandmarkEstimate> landmarks_;
   std::vector<Factor> factors_;
