@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "program.h"
 #include "temporary_folder.h"
+#include "tiny_recording.h"
 
 namespace roomgraph::testing {
 namespace {
@@ -29,6 +30,21 @@ TEST(OptimizeCommand, PrintsChiSquaredBeforeAndAfter) {
                                           folder.file("again.g2o").string(), "--quiet"});
   EXPECT_THAT(again.out, HasSubstr("chi2 before 0.0400"));
   EXPECT_THAT(again.out, HasSubstr("chi2 after  0.0400"));
+}
+
+TEST(OptimizeCommand, ReadsTheGraphOfARun) {
+  TemporaryFolder folder;
+  test::writeRawlog(folder.file("tiny.rawlog"), TinyRecording(10).records({true, false, true}));
+  ASSERT_EQ(
+      call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", folder.file("out").string(),
+                           "--quiet", "--no-snapshot", "--set", "backend.node_distance_m=0.1"})
+          .exit_code,
+      0);
+  const auto result = call(folder.path(), {"optimize", (folder.file("out") / "graph.g2o").string(), "-o",
+                                           folder.file("again.g2o").string(), "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "no line of it is skipped";
+  EXPECT_THAT(result.out, HasSubstr("3D, "));
 }
 
 TEST(OptimizeCommand, Failures) {
