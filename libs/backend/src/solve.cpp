@@ -4,19 +4,31 @@
 
 #include <glog/logging.h>
 
+#include <mutex>
+
 namespace roomgraph {
 namespace {
 
-// Ceres reports a singular problem on stderr before it says so in its result.
+// Ceres reports a singular problem on stderr before it says so in its result. The level is the process's: it
+// is touched by the first solve that begins and the last that ends, if several run at once.
 class QuietCeres {
  public:
-  QuietCeres() { FLAGS_minloglevel = google::GLOG_FATAL; }
-  ~QuietCeres() { FLAGS_minloglevel = level_; }
+  QuietCeres() {
+    const std::lock_guard lock(mutex_);
+    if (solves_++ > 0) return;
+    level_ = FLAGS_minloglevel;
+    FLAGS_minloglevel = google::GLOG_FATAL;
+  }
+  ~QuietCeres() {
+    const std::lock_guard lock(mutex_);
+    if (--solves_ == 0) FLAGS_minloglevel = level_;
+  }
   QuietCeres(const QuietCeres&) = delete;
   QuietCeres& operator=(const QuietCeres&) = delete;
 
  private:
-  int level_ = FLAGS_minloglevel;
+  static inline std::mutex mutex_;
+  static inline int solves_ = 0, level_ = 0;
 };
 
 class Watcher : public ceres::IterationCallback {
