@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   roomgraph::observations::registerClasses();
   roomgraph::addImportCommand(app);
   roomgraph::addInfoCommand(app);
+  roomgraph::addOptimizeCommand(app);
   roomgraph::addRunCommand(app);
   roomgraph::addEvaluateCommand(app);
   roomgraph::addSnapshotCommand(app);

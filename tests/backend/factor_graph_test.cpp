@@ -136,6 +136,12 @@ TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   EXPECT_THAT(error(LandmarkFactor{NodeId{0}, LandmarkId{80}}), ::testing::HasSubstr("80"));
   EXPECT_THAT(error(LandmarkFactor{NodeId{81}, LandmarkId{1}}), ::testing::HasSubstr("81"));
   EXPECT_THAT(error(LandmarkGroundFactor{LandmarkId{82}}), ::testing::HasSubstr("82"));
+  EXPECT_THAT(error(LandmarkSizeFactor{LandmarkId{83}}), ::testing::HasSubstr("83"));
+  EXPECT_THAT(error(LandmarkBoxFactor{NodeId{0}, LandmarkId{84}}), ::testing::HasSubstr("84"));
+  EXPECT_THAT(error(CameraPointFactor{NodeId{0}, PointId{85}}), ::testing::HasSubstr("85"));
+  EXPECT_THAT(error(PointLandmarkFactor{PointId{86}, LandmarkId{1}}), ::testing::HasSubstr("86"));
+  EXPECT_THROW(graph.add(BetweenFactor{NodeId{0}, NodeId{0}}), std::invalid_argument);
+  EXPECT_THROW(graph.point(PointId{5}), std::out_of_range);
   EXPECT_THROW(graph.pose(NodeId{5}), std::out_of_range);
   EXPECT_THROW(graph.landmark(LandmarkId{5}), std::out_of_range);
   EXPECT_EQ(graph.factors(), 0u);
@@ -147,6 +153,8 @@ TEST(FactorGraph, AddingTwiceIsAnError) {
   graph.addLandmark(LandmarkId{0}, {});
   EXPECT_THROW(graph.addPose(NodeId{0}, Pose3::Identity()), std::invalid_argument);
   EXPECT_THROW(graph.addLandmark(LandmarkId{0}, {}), std::invalid_argument);
+  graph.addPoint(PointId{0}, Eigen::Vector3d::Zero());
+  EXPECT_THROW(graph.addPoint(PointId{0}, Eigen::Vector3d::Zero()), std::invalid_argument);
 }
 
 }  // namespace

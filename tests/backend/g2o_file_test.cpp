@@ -24,6 +24,7 @@ std::vector<Line> parse(const std::string& text) {
     std::istringstream words(row);
     Line line;
     words >> line.tag;
+    if (line.tag == "#") words.setstate(std::ios::eofbit);
     for (double value = 0; words >> value;) line.values.push_back(value);
     EXPECT_TRUE(words.eof()) << "not a number in: " << row;
     lines.push_back(line);
@@ -45,6 +46,14 @@ void expectUpperTriangle(const std::vector<double>& values, std::size_t from, co
       EXPECT_NEAR(values[from], information(i, j), 1e-9 * information.norm()) << i << ", " << j;
 }
 
+// g2o's error is turned into the measured b frame and has half the rotation vector.
+Matrix6d inG2oConvention(const Pose3& measured, const Matrix6d& information) {
+  Matrix6d ours_from_g2o = Matrix6d::Zero();
+  ours_from_g2o.topLeftCorner<3, 3>() = measured.linear();
+  ours_from_g2o.bottomRightCorner<3, 3>() = 2 * Eigen::Matrix3d::Identity();
+  return ours_from_g2o.transpose() * information * ours_from_g2o;
+}
+
 TEST(G2oFile, HoldsEveryVertexAndEdgeInOrder) {
   SimulatedLoop loop(7, 3);
   FactorGraph graph;
@@ -63,8 +72,8 @@ TEST(G2oFile, HoldsEveryVertexAndEdgeInOrder) {
 
   const auto lines = parse(folder.read("graph.g2o"));
   const std::vector<std::string> tags = {
-      "VERTEX_SE3:QUAT", "FIX",           "VERTEX_SE3:QUAT", "VERTEX_SE3:QUAT", "VERTEX_SE3:QUAT",
-      "EDGE_SE3:QUAT",   "EDGE_SE3:QUAT", "EDGE_SE3:QUAT",   "EDGE_SE3:QUAT"};
+      "VERTEX_SE3:QUAT", "FIX",           "VERTEX_SE3:QUAT", "VERTEX_SE3:QUAT", "#",
+      "VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", "EDGE_SE3:QUAT",   "EDGE_SE3:QUAT",   "EDGE_SE3:QUAT"};
   ASSERT_EQ(lines.size(), tags.size());
   for (std::size_t i = 0; i < tags.size(); ++i) EXPECT_EQ(lines[i].tag, tags[i]) << "line " << i + 1;
   EXPECT_EQ(lines[1].values, std::vector<double>{0});
@@ -75,27 +84,32 @@ TEST(G2oFile, HoldsEveryVertexAndEdgeInOrder) {
     expectTransform(vertex, 1, loop.truth()[i]);
   }
   // Landmarks are numbered behind the poses: 3 + 2.
-  EXPECT_EQ(lines[4].values[0], 5);
+  EXPECT_EQ(lines[5].values[0], 5);
   const auto& object = loop.objects()[2];
   expectTransform(
-      lines[4].values, 1,
+      lines[5].values, 1,
       poseFromYpr(object.position.x(), object.position.y(), object.position.z(), object.yaw, 0, 0));
-  EXPECT_EQ(lines[5].values[0], 0);
-  EXPECT_EQ(lines[5].values[1], 1);
-  expectTransform(lines[5].values, 2, movement.a_from_b);
-  expectUpperTriangle(lines[5].values, 9, movement.covariance.inverse());
-  expectTransform(lines[6].values, 2, second.a_from_b);
-  EXPECT_EQ(lines[7].values[0], 1);
-  EXPECT_EQ(lines[7].values[1], 5);
+  EXPECT_EQ(lines[6].values[0], 0);
+  EXPECT_EQ(lines[6].values[1], 1);
+  expectTransform(lines[6].values, 2, movement.a_from_b);
+  expectUpperTriangle(lines[6].values, 9, inG2oConvention(movement.a_from_b, movement.covariance.inverse()));
+  expectTransform(lines[7].values, 2, second.a_from_b);
+  EXPECT_EQ(lines[8].values[0], 1);
+  EXPECT_EQ(lines[8].values[1], 5);
   const auto& p = with_yaw.position_in_robot;
-  expectTransform(lines[7].values, 2, poseFromYpr(p.x(), p.y(), p.z(), with_yaw.yaw_in_robot, 0, 0));
-  Matrix6d information = 1e-3 * Matrix6d::Identity();
+  const Pose3 seen = poseFromYpr(p.x(), p.y(), p.z(), with_yaw.yaw_in_robot, 0, 0);
+  expectTransform(lines[8].values, 2, seen);
+  Matrix6d information = Matrix6d::Zero();
   for (int i : {0, 1, 2}) information(i, i) = 1 / with_yaw.covariance(i, i);
+  const Matrix6d unturned = information;
   information(5, 5) = 1 / with_yaw.covariance(3, 3);
-  expectUpperTriangle(lines[7].values, 9, information);
-  information(5, 5) = 1e-3;
-  EXPECT_EQ(lines[8].values[0], 2);
+  information = inG2oConvention(seen, information);
+  for (int i : {3, 4}) information(i, i) = 1e-3;
   expectUpperTriangle(lines[8].values, 9, information);
+  EXPECT_EQ(lines[9].values[0], 2);
+  information = unturned;
+  for (int i : {3, 4, 5}) information(i, i) = 1e-3;
+  expectUpperTriangle(lines[9].values, 9, information);
 }
 
 TEST(G2oFile, UnwritablePlaceIsAnErrorThatNamesIt) {

@@ -2,6 +2,8 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+
 #include "residual_specimens.h"
 #include "simulated_loop.h"
 
@@ -14,12 +16,12 @@ struct State {
   std::vector<double> object;
 };
 
-// Pose blocks move as t + dt, exp(2 d) q, as the manifold of the solver does.
+// Poses move as t + dt, exp(w) R: the tangent in which covariances are given.
 State moved(const State& state, const Eigen::VectorXd& delta) {
   const auto move = [](const Pose3& pose, const Vector6d& d) {
     Pose3 out = pose;
     out.translation() += d.head<3>();
-    out.linear() = expSO3(2 * d.tail<3>()) * pose.linear();
+    out.linear() = expSO3(d.tail<3>()) * pose.linear();
     return out;
   };
   State out{move(state.first, delta.head<6>()), move(state.second, delta.segment<6>(6)), state.object};
@@ -45,12 +47,12 @@ struct SmallProblem {
     for (const auto& f : movements) {
       std::vector<Block> blocks = blocksOf(*poses[f.a.value]);
       append(blocks, *poses[f.b.value]);
-      evaluate(*costOf<BetweenResidual, 6, 3, 4, 3, 4>(f), blocks);
+      evaluate(*sharedCost(f), blocks);
     }
     for (const auto& f : sightings) {
       std::vector<Block> blocks = blocksOf(*poses[f.node.value]);
       blocks.push_back({state.object});
-      evaluate(*costOf<LandmarkResidual, 4, 3, 4, 4>(f), blocks);
+      evaluate(*sharedCost(f), blocks);
     }
     return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
@@ -68,27 +70,80 @@ Eigen::MatrixXd denseCovariance(const SmallProblem& problem, const State& state)
   return (jacobian.transpose() * jacobian).inverse();
 }
 
-TEST(MarginalCovariance, IsTheBlockOfTheDenseInverse) {
-  SimulatedLoop loop(4, 8);
-  SmallProblem problem{loop.truth()[0], {loop.movement(0, 1), loop.movement(1, 2)}, {}};
-  for (int i = 0; i < 3; ++i) problem.sightings.push_back(loop.sighting(i, 1));
-  FactorGraph graph;
-  for (int i = 0; i < 3; ++i) graph.addPose(NodeId{i}, loop.truth()[static_cast<std::size_t>(i)], i == 0);
-  graph.addLandmark(LandmarkId{1}, loop.objects()[1]);
-  for (const auto& f : problem.movements) graph.add(f);
-  for (const auto& f : problem.sightings) graph.add(f);
-  ASSERT_TRUE(graph.optimize().usable);
+void expectClose(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected, unsigned seed) {
+  EXPECT_LT((found - expected).norm(), 1e-5 * expected.norm()) << "seed " << seed << "\n"
+                                                               << found << "\n\n"
+                                                               << expected;
+}
 
-  const LandmarkEstimate object = graph.landmark(LandmarkId{1});
-  const State state{graph.pose(NodeId{1}),
-                    graph.pose(NodeId{2}),
-                    {object.position.x(), object.position.y(), object.position.z(), object.yaw}};
-  const Eigen::Matrix4d expected = denseCovariance(problem, state).bottomRightCorner<4, 4>();
-  const auto covariances = graph.landmarkCovariances();
-  ASSERT_TRUE(covariances);
-  EXPECT_LT((covariances->at(LandmarkId{1}) - expected).norm(), 1e-5 * expected.norm())
-      << covariances->at(LandmarkId{1}) << "\n\n"
-      << expected;
+TEST(MarginalCovariance, IsTheBlockOfTheDenseInverse) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    SimulatedLoop loop(seed, 8);
+    SmallProblem problem{loop.truth()[0], {loop.movement(0, 1), loop.movement(1, 2)}, {}};
+    for (int i = 0; i < 3; ++i) problem.sightings.push_back(loop.sighting(i, 1));
+    FactorGraph graph;
+    for (int i = 0; i < 3; ++i) graph.addPose(NodeId{i}, loop.truth()[static_cast<std::size_t>(i)], i == 0);
+    graph.addLandmark(LandmarkId{1}, loop.objects()[1]);
+    for (const auto& f : problem.movements) graph.add(f);
+    for (const auto& f : problem.sightings) graph.add(f);
+    ASSERT_TRUE(graph.optimize().usable);
+
+    const LandmarkEstimate object = graph.landmark(LandmarkId{1});
+    const State state{graph.pose(NodeId{1}),
+                      graph.pose(NodeId{2}),
+                      {object.position.x(), object.position.y(), object.position.z(), object.yaw}};
+    const Eigen::MatrixXd dense = denseCovariance(problem, state);
+    const auto landmarks = graph.landmarkCovariances();
+    const auto first = graph.poseCovariance(NodeId{1}), second = graph.poseCovariance(NodeId{2});
+    const auto joint = graph.jointCovariance(NodeId{2}, LandmarkId{1});
+    ASSERT_TRUE(landmarks && first && second && joint);
+    expectClose(landmarks->at(LandmarkId{1}), dense.bottomRightCorner<4, 4>(), seed);
+    expectClose(*first, dense.topLeftCorner<6, 6>(), seed);
+    expectClose(*second, dense.block<6, 6>(6, 6), seed);
+    expectClose(*joint, dense.bottomRightCorner<10, 10>(), seed);
+  }
+}
+
+TEST(MarginalCovariance, FixedPoseHasNoneAndUnknownYawIsUniform) {
+  SimulatedLoop loop(1, 4);
+  FactorGraph graph;
+  for (int i = 0; i < 2; ++i) graph.addPose(NodeId{i}, loop.truth()[static_cast<std::size_t>(i)], i == 0);
+  graph.add(loop.movement(0, 1));
+  graph.addLandmark(LandmarkId{0}, loop.objects()[0]);
+  for (int i = 0; i < 2; ++i) graph.add(loop.sighting(i, 0, false));
+  const auto joint = graph.jointCovariance(NodeId{0}, LandmarkId{0});
+  ASSERT_TRUE(joint);
+  EXPECT_TRUE(joint->topRows<6>().isZero(0));
+  EXPECT_TRUE(graph.poseCovariance(NodeId{0})->isZero(0));
+  EXPECT_TRUE((joint->bottomRightCorner<4, 4>().isApprox(graph.landmarkCovariances()->at(LandmarkId{0}))));
+  EXPECT_NEAR((*joint)(9, 9), M_PI * M_PI / 3, 1e-12);
+  EXPECT_THROW(graph.poseCovariance(NodeId{9}), std::out_of_range);
+  EXPECT_THROW(graph.jointCovariance(NodeId{0}, LandmarkId{9}), std::out_of_range);
+}
+
+// Normalised squared errors of unbiased, honest estimates have a mean of their dimension d and, over n runs,
+// a standard deviation of sqrt(2 d / n).
+TEST(MarginalCovariance, ErrorsOfPosesAndLandmarksAgreeWithIt) {
+  constexpr int kRuns = 60, kPose = 12;
+  double of_pose = 0, of_both = 0;
+  for (unsigned seed = 1; seed <= kRuns; ++seed) {
+    SimulatedLoop loop(seed);
+    FactorGraph graph = loop.graph();
+    ASSERT_TRUE(graph.optimize().usable);
+    const auto covariance = graph.poseCovariance(NodeId{kPose});
+    const auto joint = graph.jointCovariances(NodeId{kPose}, {LandmarkId{0}, LandmarkId{2}});
+    ASSERT_TRUE(covariance && joint);
+    const Pose3 estimate = graph.pose(NodeId{kPose}), &truth = loop.truth()[kPose];
+    const LandmarkEstimate landmark = graph.landmark(LandmarkId{2}), &object = loop.objects()[2];
+    Eigen::Matrix<double, 10, 1> error;
+    error << estimate.translation() - truth.translation(),
+        logSO3(estimate.linear() * truth.linear().transpose()), landmark.position - object.position,
+        wrapAngle(landmark.yaw - object.yaw);
+    of_pose += error.head<6>().dot(covariance->ldlt().solve(error.head<6>()));
+    of_both += error.dot(joint->at(LandmarkId{2}).ldlt().solve(error));
+  }
+  EXPECT_NEAR(of_pose / kRuns, 6, 3.3 * std::sqrt(2 * 6.0 / kRuns));
+  EXPECT_NEAR(of_both / kRuns, 10, 3.3 * std::sqrt(2 * 10.0 / kRuns));
 }
 
 TEST(MarginalCovariance, NoneForASingularProblem) {
@@ -98,6 +153,8 @@ TEST(MarginalCovariance, NoneForASingularProblem) {
   LandmarkFactor factor{NodeId{0}, LandmarkId{0}, {1, 0, 0}};
   graph.add(factor);
   EXPECT_FALSE(graph.landmarkCovariances());
+  EXPECT_FALSE(graph.poseCovariance(NodeId{0}));
+  EXPECT_FALSE(graph.jointCovariance(NodeId{0}, LandmarkId{0}));
 }
 
 }  // namespace

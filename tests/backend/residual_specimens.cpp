@@ -2,28 +2,14 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "residual_specimens.h"
 
+#include "object_specimens.h"
+
 namespace roomgraph::testing {
 namespace {
 
-std::shared_ptr<ceres::CostFunction> between(const BetweenFactor& f) {
-  return costOf<BetweenResidual, 6, 3, 4, 3, 4>(f);
-}
-std::shared_ptr<ceres::CostFunction> planar(const PlanarFactor& f) {
-  return costOf<PlanarResidual, 3, 3, 4>(f);
-}
-std::shared_ptr<ceres::CostFunction> ground(const GroundFactor& f) {
-  return costOf<GroundResidual, 3, 3, 4>(f);
-}
-std::shared_ptr<ceres::CostFunction> sighting(const LandmarkFactor& f) {
-  return costOf<LandmarkResidual, 4, 3, 4, 4>(f);
-}
-std::shared_ptr<ceres::CostFunction> onFloor(const LandmarkGroundFactor& f) {
-  return costOf<LandmarkGroundResidual, 1, 4>(f);
-}
-
 Specimen betweenAtMeasurement(Random& random) {
   const Pose3 a = random.pose(3), a_from_b = random.pose(1, 1.5);
-  Specimen s{between({{}, {}, a_from_b, randomCovariance<6>(random)}), blocksOf(a)};
+  Specimen s{sharedCost(BetweenFactor{{}, {}, a_from_b, randomCovariance<6>(random)}), blocksOf(a)};
   append(s.blocks, a * a_from_b);
   return s;
 }
@@ -35,20 +21,21 @@ Specimen betweenByHand() {
   f.a_from_b = poseFromYpr(1.2, 0, 0, 0, 0, 0);
   f.covariance = Matrix6d::Identity() * 0.01;
   f.covariance.bottomRightCorner<3, 3>() *= 0.25;
-  Specimen s{
-      between(f), blocksOf(poseFromYpr(1, 2, 0, M_PI / 2, 0, 0)), {-2, 0, 0, 0, 0, 2 * std::sin(0.1) / 0.05}};
+  Specimen s{sharedCost(f),
+             blocksOf(poseFromYpr(1, 2, 0, M_PI / 2, 0, 0)),
+             {-2, 0, 0, 0, 0, 2 * std::sin(0.1) / 0.05}};
   append(s.blocks, poseFromYpr(1, 3, 0, M_PI / 2 + 0.2, 0, 0));
   return s;
 }
 
 Specimen planarAtMeasurement(Random& random) {
   const Pose2 pose{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-3, 3)};
-  return {planar({{}, 0.02, 0.03}), blocksOf(toPose3(pose))};
+  return {sharedCost(PlanarFactor{{}, 0.02, 0.03}), blocksOf(toPose3(pose))};
 }
 
 // 4 cm too high with a sigma of 2 cm; nose 0.1 rad down: the up axis leans forward by sin(0.1), heading +y.
 Specimen planarByHand() {
-  return {planar({{}, 0.02, 0.05}),
+  return {sharedCost(PlanarFactor{{}, 0.02, 0.05}),
           blocksOf(poseFromYpr(7, 8, 0.04, M_PI / 2, 0.1, 0)),
           {2, 0, std::sin(0.1) / 0.05}};
 }
@@ -58,12 +45,14 @@ Specimen groundAtMeasurement(Random& random) {
   GroundFactor f;
   f.normal_in_robot = 2 * (pose.linear().transpose() * Eigen::Vector3d::UnitZ());  // any length will do
   f.offset_m = pose.translation().z();
-  return {ground(f), blocksOf(pose)};
+  return {sharedCost(f), blocksOf(pose)};
 }
 
 // An upright sensor 1.5 m up says 1.4 m, and sees a floor whose normal leans forward by atan(3/4).
 Specimen groundByHand() {
-  return {ground({{}, {0.6, 0, 0.8}, 1.4, 0.2, 0.05}), blocksOf(poseFromYpr(3, 1, 1.5, 0, 0, 0)), {3, 0, 2}};
+  return {sharedCost(GroundFactor{{}, {0.6, 0, 0.8}, 1.4, 0.2, 0.05}),
+          blocksOf(poseFromYpr(3, 1, 1.5, 0, 0, 0)),
+          {3, 0, 2}};
 }
 
 LandmarkFactor exactSighting(const Pose3& pose, const std::vector<double>& object) {
@@ -81,7 +70,7 @@ Specimen sightingAtMeasurement(Random& random) {
   f.has_yaw = random.index(2) == 0;
   f.covariance = randomCovariance<4>(random);
   f.weight = random.uniform(0.2, 1);
-  Specimen s{sighting(f), blocksOf(pose)};
+  Specimen s{sharedCost(f), blocksOf(pose)};
   s.blocks.push_back({object});
   return s;
 }
@@ -97,27 +86,105 @@ Specimen sightingByHand() {
   f.covariance = Eigen::Matrix4d::Identity() * 0.01;
   f.weight = 0.25;
   Specimen s{
-      sighting(f), blocksOf(poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)), {2, -1, 0, (1.5 * M_PI - 4.6) / 0.1}};
+      sharedCost(f), blocksOf(poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)), {2, -1, 0, (1.5 * M_PI - 4.6) / 0.1}};
   s.blocks.push_back({{1, 3, 0, -3}});
   return s;
 }
 
 Specimen onFloorAtMeasurement(Random& random) {
-  return {onFloor({{}, 0.02}), {{{random.uniform(-3, 3), random.uniform(-3, 3), 0, random.uniform(-3, 3)}}}};
+  return {sharedCost(LandmarkGroundFactor{{}, 0.02}),
+          {{{random.uniform(-3, 3), random.uniform(-3, 3), 0, random.uniform(-3, 3)}}}};
 }
 
 Specimen onFloorByHand() {
-  return {onFloor({{}, 0.02}), {{{1, 2, -0.05, 1}}}, {-2.5}};
+  return {sharedCost(LandmarkGroundFactor{{}, 0.02}), {{{1, 2, -0.05, 1}}}, {-2.5}};
+}
+
+Specimen planarEdgeAtMeasurement(Random& random) {
+  const Pose2 a{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-3, 3)};
+  const Pose2 a_from_b{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
+  const Pose2 b = a * a_from_b;
+  return {sharedCost(PlanarEdge{{}, {}, a_from_b, randomCovariance<3>(random)}),
+          {{{a.x, a.y, a.yaw}}, {{b.x, b.y, b.yaw}}}};
+}
+
+// a at (1, 2) heading +y, b one metre ahead, measured 1.2 m ahead and turned left by 90 degrees: the error of
+// -0.2 m along a's x is +0.2 m along the measured b's y. b's yaw is 0.2 rad more than measured, given 2 pi
+// less. Weights 2, 5, 10.
+Specimen planarEdgeByHand() {
+  const Eigen::Vector3d information(4, 25, 100);
+  return {sharedCost(PlanarEdge{{}, {}, {1.2, 0, M_PI / 2}, information.asDiagonal()}),
+          {{{1, 2, M_PI / 2}}, {{1, 3, 0.2 - M_PI}}},
+          {0, 1, 2}};
+}
+
+template <Specimen (*kAtMeasurement)(Random&), Specimen (*kByHand)()>
+struct Known {
+  static Specimen atMeasurement(Random& random) { return kAtMeasurement(random); }
+  static Specimen byHand() { return kByHand(); }
+};
+
+}  // namespace
+
+template <>
+struct SpecimenOf<BetweenFactor> : Known<betweenAtMeasurement, betweenByHand> {
+  static constexpr auto kName = "BetweenFactor";
+};
+template <>
+struct SpecimenOf<PlanarFactor> : Known<planarAtMeasurement, planarByHand> {
+  static constexpr auto kName = "PlanarFactor";
+};
+template <>
+struct SpecimenOf<GroundFactor> : Known<groundAtMeasurement, groundByHand> {
+  static constexpr auto kName = "GroundFactor";
+};
+template <>
+struct SpecimenOf<LandmarkFactor> : Known<sightingAtMeasurement, sightingByHand> {
+  static constexpr auto kName = "LandmarkFactor";
+};
+template <>
+struct SpecimenOf<LandmarkGroundFactor> : Known<onFloorAtMeasurement, onFloorByHand> {
+  static constexpr auto kName = "LandmarkGroundFactor";
+};
+template <>
+struct SpecimenOf<LandmarkSizeFactor> : Known<sizeAtMeasurement, sizeByHand> {
+  static constexpr auto kName = "LandmarkSizeFactor";
+};
+template <>
+struct SpecimenOf<LandmarkBoxFactor> : Known<boxAtMeasurement, boxByHand> {
+  static constexpr auto kName = "LandmarkBoxFactor";
+};
+template <>
+struct SpecimenOf<CameraPointFactor> : Known<cameraPointAtMeasurement, cameraPointByHand> {
+  static constexpr auto kName = "CameraPointFactor";
+};
+template <>
+struct SpecimenOf<PointLandmarkFactor> : Known<pointLandmarkAtMeasurement, pointLandmarkByHand> {
+  static constexpr auto kName = "PointLandmarkFactor";
+};
+template <>
+struct SpecimenOf<MarginalPrior> : Known<marginalPriorAtMeasurement, marginalPriorByHand> {
+  static constexpr auto kName = "MarginalPrior";
+};
+template <>
+struct SpecimenOf<PlanarEdge> : Known<planarEdgeAtMeasurement, planarEdgeByHand> {
+  static constexpr auto kName = "PlanarEdge";
+};
+
+namespace {
+
+template <class... Measurements>
+std::vector<ResidualCase> casesOf(std::type_identity<std::variant<Measurements...>>) {
+  return {{SpecimenOf<Measurements>::kName, SpecimenOf<Measurements>::atMeasurement,
+           SpecimenOf<Measurements>::byHand}...};
 }
 
 }  // namespace
 
 std::vector<ResidualCase> residualCases() {
-  return {{"BetweenResidual", betweenAtMeasurement, betweenByHand},
-          {"PlanarResidual", planarAtMeasurement, planarByHand},
-          {"GroundResidual", groundAtMeasurement, groundByHand},
-          {"LandmarkResidual", sightingAtMeasurement, sightingByHand},
-          {"LandmarkGroundResidual", onFloorAtMeasurement, onFloorByHand}};
+  auto cases = casesOf(std::type_identity<Factor>{});
+  for (const auto& planar : casesOf(std::type_identity<std::variant<PlanarEdge>>{})) cases.push_back(planar);
+  return cases;
 }
 
 }  // namespace roomgraph::testing

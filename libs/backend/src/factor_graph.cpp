@@ -2,42 +2,16 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/backend/factor_graph.h"
 
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <stdexcept>
 
+#include "chordal.h"
+#include "costs.h"
 #include "graph_state.h"
-#include "residuals.h"
+#include "solve.h"
 
 namespace roomgraph {
 namespace {
-
-template <class Residual, int Count, int... Blocks, class Factor>
-ceres::CostFunction* costOf(const Factor& factor) {
-  return new ceres::AutoDiffCostFunction<Residual, Count, Blocks...>(new Residual(factor));
-}
-
-ceres::LossFunction* lossOf(double width) {
-  return width > 0 ? new ceres::CauchyLoss(width) : nullptr;
-}
-
-// Weight outside the robust loss: what counts as an outlier does not depend on how much a measurement counts.
-ceres::LossFunction* weighted(ceres::LossFunction* loss, double weight) {
-  return new ceres::ScaledLoss(loss, weight, ceres::TAKE_OWNERSHIP);
-}
-
-// Ceres reports a singular problem on stderr before it says so in its result.
-class QuietCeres {
- public:
-  QuietCeres() { FLAGS_minloglevel = google::GLOG_FATAL; }
-  ~QuietCeres() { FLAGS_minloglevel = level_; }
-  QuietCeres(const QuietCeres&) = delete;
-  QuietCeres& operator=(const QuietCeres&) = delete;
-
- private:
-  int level_ = FLAGS_minloglevel;
-};
 
 ceres::Problem::Options problemOptions() {
   ceres::Problem::Options options;
@@ -45,22 +19,179 @@ ceres::Problem::Options problemOptions() {
   return options;
 }
 
+template <class Map, class Id>
+auto& entryOf(Map& map, Id id, const char* what) {
+  const auto found = map.find(id);
+  if (found == map.end())
+    throw std::out_of_range(std::string("factor graph: no ") + what + " " + std::to_string(id.value));
+  return found->second;
+}
+
+template <class Map, class Id, class Value>
+auto& insertInto(Map& map, Id id, const Value& value, const char* what) {
+  auto [entry, inserted] = map.try_emplace(id, value);
+  if (!inserted)
+    throw std::invalid_argument(std::string("factor graph: ") + what + " " + std::to_string(id.value) +
+                                " added twice");
+  return entry->second;
+}
+
+ceres::LossFunction* cauchy(double width) {
+  return width > 0 ? new ceres::CauchyLoss(width) : nullptr;
+}
+
+ceres::LossFunction* lossOf(const PlanarFactor&) {
+  return nullptr;
+}
+ceres::LossFunction* lossOf(const LandmarkGroundFactor&) {
+  return nullptr;
+}
+ceres::LossFunction* lossOf(const LandmarkSizeFactor&) {
+  return nullptr;
+}
+ceres::LossFunction* lossOf(const MarginalPrior&) {
+  return nullptr;
+}
+ceres::LossFunction* lossOf(const GroundFactor&) {
+  return cauchy(1);
+}
+ceres::LossFunction* lossOf(const BetweenFactor& f) {
+  return cauchy(f.robust_width);
+}
+ceres::LossFunction* lossOf(const CameraPointFactor& f) {
+  if (f.loss == RobustLoss::kCauchy || f.robust_width <= 0) return cauchy(f.robust_width);
+  return new ceres::HuberLoss(f.robust_width);
+}
+// Weight outside the robust loss: what counts as an outlier does not depend on how much a measurement counts.
+template <class Weighted>
+ceres::LossFunction* lossOf(const Weighted& f) {
+  return new ceres::ScaledLoss(cauchy(f.robust_width), f.weight, ceres::TAKE_OWNERSHIP);
+}
+
 }  // namespace
 
 FactorGraph::Impl::Impl() : problem(std::make_unique<ceres::Problem>(problemOptions())) {}
 
 FactorGraph::Impl::Pose& FactorGraph::Impl::at(NodeId id) {
-  const auto found = poses.find(id);
-  if (found == poses.end()) throw std::out_of_range("factor graph: no pose " + std::to_string(id.value));
-  return found->second;
+  return entryOf(poses, id, "pose");
+}
+FactorGraph::Impl::Object& FactorGraph::Impl::at(LandmarkId id) {
+  return entryOf(objects, id, "landmark");
+}
+FactorGraph::Impl::Point& FactorGraph::Impl::at(PointId id) {
+  return entryOf(points, id, "point");
 }
 
-FactorGraph::Impl::Object& FactorGraph::Impl::at(LandmarkId id) {
-  const auto found = objects.find(id);
-  if (found == objects.end())
-    throw std::out_of_range("factor graph: no landmark " + std::to_string(id.value));
-  return found->second;
+void FactorGraph::Impl::freeYaw(LandmarkId id) {
+  auto& object = at(id);
+  object.free_yaw = true;
+  problem->SetManifold(object.value.data(), nullptr);
 }
+
+void FactorGraph::Impl::freeSize(LandmarkId id) {
+  auto& object = at(id);
+  object.free_size = true;
+  problem->SetParameterBlockVariable(object.size.data());
+}
+
+namespace {
+
+using Impl = FactorGraph::Impl;
+using Blocks = std::vector<double*>;
+
+void append(Blocks& blocks, Impl::Pose& pose) {
+  blocks.insert(blocks.end(), {pose.t.data(), pose.q.data()});
+}
+void append(Blocks& blocks, Impl::Object& object) {
+  blocks.insert(blocks.end(), {object.value.data(), object.size.data()});
+}
+void append(Blocks& blocks, Impl::Point& point) {
+  blocks.push_back(point.value.data());
+}
+
+template <class... Variables>
+Blocks blocksOf(Variables&... variables) {
+  Blocks blocks;
+  (append(blocks, variables), ...);
+  return blocks;
+}
+
+// The blocks of each factor, in the order of its cost function.
+Blocks blocksOf(Impl& graph, const BetweenFactor& f) {
+  if (f.a == f.b)
+    throw std::invalid_argument("factor graph: movement from pose " + std::to_string(f.a.value) +
+                                " to itself");
+  return blocksOf(graph.at(f.a), graph.at(f.b));
+}
+template <class OfPose>
+requires(std::is_same_v<OfPose, PlanarFactor> || std::is_same_v<OfPose, GroundFactor>) Blocks
+    blocksOf(Impl& graph, const OfPose& f) {
+  return blocksOf(graph.at(f.node));
+}
+Blocks blocksOf(Impl& graph, const LandmarkFactor& f) {
+  Blocks blocks = blocksOf(graph.at(f.node));
+  blocks.push_back(graph.at(f.landmark).value.data());
+  return blocks;
+}
+Blocks blocksOf(Impl& graph, const LandmarkGroundFactor& f) {
+  return {graph.at(f.landmark).value.data()};
+}
+Blocks blocksOf(Impl& graph, const LandmarkSizeFactor& f) {
+  return {graph.at(f.landmark).size.data()};
+}
+Blocks blocksOf(Impl& graph, const LandmarkBoxFactor& f) {
+  return blocksOf(graph.at(f.node), graph.at(f.landmark));
+}
+Blocks blocksOf(Impl& graph, const CameraPointFactor& f) {
+  return blocksOf(graph.at(f.node), graph.at(f.point));
+}
+Blocks blocksOf(Impl& graph, const PointLandmarkFactor& f) {
+  return blocksOf(graph.at(f.point), graph.at(f.landmark));
+}
+Blocks blocksOf(Impl& graph, const MarginalPrior& f) {
+  Blocks blocks;
+  for (const NodeId id : f.variables.nodes) append(blocks, graph.at(id));
+  for (const LandmarkId id : f.variables.landmarks) append(blocks, graph.at(id));
+  for (const PointId id : f.variables.points) append(blocks, graph.at(id));
+  return blocks;
+}
+
+// Cost function; those that need a landmark's shape are told it.
+template <class OneFactor>
+ceres::CostFunction* costIn(Impl& graph, const OneFactor& f) {
+  if constexpr (requires { costOf(f, ShapeKind{}); }) {
+    const auto& object = graph.at(f.landmark);
+    if (*std::max_element(object.size.begin(), object.size.end()) <= 0)
+      throw std::invalid_argument("factor graph: landmark " + std::to_string(f.landmark.value) +
+                                  " has no size");
+    return costOf(f, object.kind);
+  } else {
+    return costOf(f);
+  }
+}
+
+// What a factor measures may move from now on.
+template <class OneFactor>
+void release(Impl&, const OneFactor&) {}
+void release(Impl& graph, const LandmarkFactor& f) {
+  if (f.has_yaw) graph.freeYaw(f.landmark);
+}
+void release(Impl& graph, const LandmarkBoxFactor& f) {
+  if (graph.at(f.landmark).kind != ShapeKind::kCylinder) graph.freeYaw(f.landmark);
+}
+void release(Impl& graph, const LandmarkSizeFactor& f) {
+  graph.freeSize(f.landmark);
+}
+void release(Impl& graph, const MarginalPrior& f) {
+  auto column = static_cast<Eigen::Index>(kPoseTangent * f.variables.nodes.size());
+  for (const LandmarkId id : f.variables.landmarks) {
+    if (!f.root.col(column + 3).isZero(0)) graph.freeYaw(id);
+    if (!f.root.middleCols<3>(column + 4).isZero(0)) graph.freeSize(id);
+    column += kLandmarkTangent;
+  }
+}
+
+}  // namespace
 
 FactorGraph::FactorGraph() : impl_(std::make_unique<Impl>()) {}
 FactorGraph::~FactorGraph() = default;
@@ -70,13 +201,10 @@ FactorGraph& FactorGraph::operator=(FactorGraph&&) noexcept = default;
 void FactorGraph::addPose(NodeId id, const Pose3& world_from_robot, bool fixed) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(world_from_robot.linear()).normalized();
   const Eigen::Vector3d t = world_from_robot.translation();
-  auto [entry, inserted] =
-      impl_->poses.try_emplace(id, Impl::Pose{{t.x(), t.y(), t.z()}, {q.x(), q.y(), q.z(), q.w()}, fixed});
-  if (!inserted)
-    throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " added twice");
-  auto& pose = entry->second;
+  auto& pose = insertInto(impl_->poses, id,
+                          Impl::Pose{{t.x(), t.y(), t.z()}, {q.x(), q.y(), q.z(), q.w()}, fixed}, "pose");
   impl_->problem->AddParameterBlock(pose.t.data(), 3);
-  impl_->problem->AddParameterBlock(pose.q.data(), 4, impl_->quaternion.get());
+  impl_->problem->AddParameterBlock(pose.q.data(), 4, &impl_->quaternion);
   if (fixed) {
     impl_->problem->SetParameterBlockConstant(pose.t.data());
     impl_->problem->SetParameterBlockConstant(pose.q.data());
@@ -85,82 +213,100 @@ void FactorGraph::addPose(NodeId id, const Pose3& world_from_robot, bool fixed) 
 
 void FactorGraph::addLandmark(LandmarkId id, const LandmarkEstimate& initial) {
   const auto& p = initial.position;
-  auto [entry, inserted] =
-      impl_->objects.try_emplace(id, Impl::Object{{p.x(), p.y(), p.z(), initial.yaw}, false});
-  if (!inserted)
-    throw std::invalid_argument("factor graph: landmark " + std::to_string(id.value) + " added twice");
-  impl_->problem->AddParameterBlock(entry->second.value.data(), 4);
+  const auto& shape = initial.shape;
+  auto& object = insertInto(
+      impl_->objects, id,
+      Impl::Object{{p.x(), p.y(), p.z(), initial.yaw}, {shape.width, shape.depth, shape.height}, shape.kind},
+      "landmark");
+  impl_->problem->AddParameterBlock(object.value.data(), 4, &impl_->held_yaw);
+  impl_->problem->AddParameterBlock(object.size.data(), 3);
+  impl_->problem->SetParameterBlockConstant(object.size.data());
 }
 
-void FactorGraph::add(const BetweenFactor& factor) {
-  auto &a = impl_->at(factor.a), &b = impl_->at(factor.b);
-  impl_->problem->AddResidualBlock(costOf<BetweenResidual, 6, 3, 4, 3, 4>(factor),
-                                   lossOf(factor.robust_width), a.t.data(), a.q.data(), b.t.data(),
-                                   b.q.data());
-  impl_->between.push_back(factor);
+void FactorGraph::addPoint(PointId id, const Eigen::Vector3d& in_world) {
+  auto& point =
+      insertInto(impl_->points, id, Impl::Point{{in_world.x(), in_world.y(), in_world.z()}}, "point");
+  impl_->problem->AddParameterBlock(point.value.data(), 3);
 }
 
-void FactorGraph::add(const PlanarFactor& factor) {
-  auto& pose = impl_->at(factor.node);
-  impl_->problem->AddResidualBlock(costOf<PlanarResidual, 3, 3, 4>(factor), nullptr, pose.t.data(),
-                                   pose.q.data());
-}
-
-void FactorGraph::add(const GroundFactor& factor) {
-  auto& pose = impl_->at(factor.node);
-  impl_->problem->AddResidualBlock(costOf<GroundResidual, 3, 3, 4>(factor), lossOf(1), pose.t.data(),
-                                   pose.q.data());
-}
-
-void FactorGraph::add(const LandmarkFactor& factor) {
-  auto& pose = impl_->at(factor.node);
-  auto& object = impl_->at(factor.landmark);
-  impl_->problem->AddResidualBlock(costOf<LandmarkResidual, 4, 3, 4, 4>(factor),
-                                   weighted(lossOf(factor.robust_width), factor.weight), pose.t.data(),
-                                   pose.q.data(), object.value.data());
-  object.seen_yaw |= factor.has_yaw;
-  impl_->sightings.push_back(factor);
-}
-
-void FactorGraph::add(const LandmarkGroundFactor& factor) {
-  auto& object = impl_->at(factor.landmark);
-  impl_->problem->AddResidualBlock(costOf<LandmarkGroundResidual, 1, 4>(factor), nullptr,
-                                   object.value.data());
+void FactorGraph::add(const Factor& factor) {
+  std::visit(
+      [this](const auto& f) {
+        const Blocks blocks = blocksOf(*impl_, f);
+        const auto id = impl_->problem->AddResidualBlock(costIn(*impl_, f), lossOf(f), blocks);
+        release(*impl_, f);
+        impl_->factors.push_back({f, id});
+      },
+      factor);
 }
 
 SolveReport FactorGraph::optimize(int max_iterations) {
-  // A yaw that nothing measures would make the normal equations singular: hold it.
-  std::vector<std::unique_ptr<ceres::SubsetManifold>> held;
-  for (auto& [id, object] : impl_->objects) {
-    if (object.seen_yaw) continue;
-    held.push_back(std::make_unique<ceres::SubsetManifold>(4, std::vector<int>{3}));
-    impl_->problem->SetManifold(object.value.data(), held.back().get());
+  return optimize(SolveOptions{max_iterations});
+}
+
+SolveReport FactorGraph::optimize(const SolveOptions& options) {
+  ceres::Solver::Options solver = solverOptions(options);
+  // Points depend on each other only through poses: eliminated first, one by one. Ceres finds them itself; an
+  // ordering given to it would be one of addresses, which are not the same on every run.
+  if (!impl_->points.empty()) solver.linear_solver_type = ceres::SPARSE_SCHUR;
+  return solve(options, solver, *impl_->problem);
+}
+
+bool FactorGraph::initializePoses() {
+  if (impl_->poses.empty() || !impl_->objects.empty() || !impl_->points.empty()) return false;
+  std::vector<RelativeEdge> edges;
+  for (const auto& entry : impl_->factors) {
+    const auto* f = std::get_if<BetweenFactor>(&entry.factor);
+    if (!f) return false;
+    const Matrix6d information = f->covariance.inverse();
+    edges.push_back({f->a, f->b, f->a_from_b, information.topLeftCorner<3, 3>().trace(),
+                     information.bottomRightCorner<3, 3>().trace()});
   }
-  ceres::Solver::Options options;
-  options.max_num_iterations = max_iterations;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.num_threads = 1;  // sums in one order: the same bits on every machine
-  options.function_tolerance = 1e-8;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  const QuietCeres quiet;
-  ceres::Solve(options, impl_->problem.get(), &summary);
-  for (auto& [id, object] : impl_->objects) impl_->problem->SetManifold(object.value.data(), nullptr);
-  return {summary.IsSolutionUsable(), summary.initial_cost, summary.final_cost,
-          static_cast<int>(summary.iterations.size()), summary.message};
+  std::map<NodeId, Pose3> start;
+  std::vector<NodeId> held;
+  for (const auto& [id, state] : impl_->poses) {
+    start[id] = pose(id);
+    if (state.fixed) held.push_back(id);
+  }
+  if (held.size() > 1) return false;
+  const auto set = [&](const std::map<NodeId, Pose3>& poses) {
+    for (const auto& [id, value] : poses) {
+      auto& state = impl_->poses.at(id);
+      if (state.fixed) continue;
+      Eigen::Map<Eigen::Vector3d>(state.t.data()) = value.translation();
+      Eigen::Map<Eigen::Vector4d>(state.q.data()) = Eigen::Quaterniond(value.linear()).coeffs();
+    }
+  };
+  const NodeId anchor = held.empty() ? start.begin()->first : held.front();
+  const auto relaxed = chordalPoses(start, anchor, edges);
+  if (!relaxed) return false;
+  const double before = chiSquared();
+  set(*relaxed);
+  if (chiSquared() < before) return true;
+  set(start);
+  return false;
+}
+
+double FactorGraph::chiSquared() const {
+  return 2 * costNow(*impl_->problem);
 }
 
 Pose3 FactorGraph::pose(NodeId id) const {
-  const auto& state = impl_->poses.at(id);
+  const auto& state = impl_->at(id);
   Pose3 pose = Pose3::Identity();
   pose.linear() = Eigen::Quaterniond(state.q.data()).normalized().toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(state.t[0], state.t[1], state.t[2]);
+  pose.translation() = Eigen::Vector3d(state.t.data());
   return pose;
 }
 
 LandmarkEstimate FactorGraph::landmark(LandmarkId id) const {
-  const auto& value = impl_->objects.at(id).value;
-  return {{value[0], value[1], value[2]}, wrapAngle(value[3])};
+  const auto& object = impl_->at(id);
+  const auto& v = object.value;
+  return {{v[0], v[1], v[2]}, wrapAngle(v[3]), {object.kind, object.size[0], object.size[1], object.size[2]}};
+}
+
+Eigen::Vector3d FactorGraph::point(PointId id) const {
+  return Eigen::Vector3d(impl_->at(id).value.data());
 }
 
 bool FactorGraph::hasLandmark(LandmarkId id) const {
@@ -173,35 +319,7 @@ std::size_t FactorGraph::landmarks() const {
   return impl_->objects.size();
 }
 std::size_t FactorGraph::factors() const {
-  return static_cast<std::size_t>(impl_->problem->NumResidualBlocks());
-}
-
-std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovariances() const {
-  const QuietCeres quiet;
-  std::vector<const double*> blocks;
-  std::vector<std::unique_ptr<ceres::SubsetManifold>> held;
-  for (auto& [id, object] : impl_->objects) {
-    blocks.push_back(object.value.data());
-    if (object.seen_yaw) continue;
-    held.push_back(std::make_unique<ceres::SubsetManifold>(4, std::vector<int>{3}));
-    impl_->problem->SetManifold(object.value.data(), held.back().get());
-  }
-  ceres::Covariance::Options options;
-  options.num_threads = 1;
-  ceres::Covariance covariance(options);
-  std::vector<std::pair<const double*, const double*>> pairs;
-  for (const auto* block : blocks) pairs.emplace_back(block, block);
-  const bool computed = !blocks.empty() && covariance.Compute(pairs, impl_->problem.get());
-  std::map<LandmarkId, Eigen::Matrix4d> result;
-  for (auto& [id, object] : impl_->objects) {
-    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> block;
-    if (computed) covariance.GetCovarianceBlock(object.value.data(), object.value.data(), block.data());
-    if (!object.seen_yaw) block(3, 3) = M_PI * M_PI / 3;  // uniform over the circle
-    result[id] = block;
-    impl_->problem->SetManifold(object.value.data(), nullptr);
-  }
-  if (!computed) return std::nullopt;
-  return result;
+  return impl_->factors.size();
 }
 
 }  // namespace roomgraph

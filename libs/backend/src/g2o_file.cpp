@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/backend/g2o_file.h"
+
+#include <array>
 #include <fstream>
 #include <limits>
 
+#include "g2o_convention.h"
 #include "graph_state.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
 namespace {
+
+std::ofstream openForWriting(const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out.precision(std::numeric_limits<double>::max_digits10);
+  return out;
+}
+
+void finish(std::ofstream& out, const std::filesystem::path& file) {
+  out.flush();
+  if (!out) throw RunError(file.string() + ": cannot be written");
+}
 
 void writeTransform(std::ostream& out, const Pose3& pose) {
   const Eigen::Quaterniond q(pose.linear());
@@ -16,29 +31,35 @@ void writeTransform(std::ostream& out, const Pose3& pose) {
       << q.w();
 }
 
-void writeUpper(std::ostream& out, const Matrix6d& information) {
-  for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) out << ' ' << information(i, j);
+template <int N>
+void writeUpper(std::ostream& out, const Eigen::Matrix<double, N, N>& information) {
+  for (int i = 0; i < N; ++i)
+    for (int j = i; j < N; ++j) out << ' ' << information(i, j);
   out << '\n';
 }
 
-// A landmark's measurement fixes x, y, z and perhaps yaw; roll and pitch get a token weight to keep readers
-// happy.
+// A landmark's measurement fixes x, y, z and perhaps yaw; the rest gets a token weight to keep readers happy.
 Matrix6d informationOf(const LandmarkFactor& factor) {
-  Matrix6d information = 1e-3 * Matrix6d::Identity();
-  const Eigen::Matrix4d full = factor.weight * factor.covariance.inverse();
-  information.topLeftCorner<3, 3>() =
-      factor.has_yaw ? Eigen::Matrix3d(full.topLeftCorner<3, 3>())
-                     : Eigen::Matrix3d(factor.weight * factor.covariance.topLeftCorner<3, 3>().inverse());
-  if (factor.has_yaw) information(5, 5) = full(3, 3);
+  Eigen::Matrix4d covariance = factor.covariance;
+  if (!factor.has_yaw) {
+    covariance.row(3).setZero();
+    covariance.col(3).setZero();
+    covariance(3, 3) = 1;
+  }
+  Matrix6d wide = Matrix6d::Identity();
+  constexpr std::array<int, 4> kRows{0, 1, 2, 5};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) wide(kRows[i], kRows[j]) = covariance(i, j) / factor.weight;
+  Matrix6d information = g2oInformation(measuredTransform(factor), wide);
+  for (int i : {3, 4}) information(i, i) = kTokenInformation;
+  if (!factor.has_yaw) information(5, 5) = kTokenInformation;
   return information;
 }
 
 }  // namespace
 
 void FactorGraph::saveG2o(const std::filesystem::path& file) const {
-  std::ofstream out(file);
-  out.precision(std::numeric_limits<double>::max_digits10);
+  std::ofstream out = openForWriting(file);
   const std::int64_t first_landmark = impl_->poses.empty() ? 0 : impl_->poses.rbegin()->first.value + 1;
   for (const auto& [id, state] : impl_->poses) {
     out << "VERTEX_SE3:QUAT " << id;
@@ -47,23 +68,44 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
     if (state.fixed) out << "FIX " << id << '\n';
   }
   for (const auto& [id, object] : impl_->objects) {
-    const auto& v = object.value;
-    out << "VERTEX_SE3:QUAT " << first_landmark + id.value;
-    writeTransform(out, poseFromYpr(v[0], v[1], v[2], v[3], 0, 0));
+    const LandmarkEstimate estimate = landmark(id);
+    const auto& p = estimate.position;
+    out << "# LANDMARK " << first_landmark + id.value << ' ' << id << ' ' << toString(object.kind);
+    for (const double size : object.size) out << ' ' << size;
+    out << "\nVERTEX_SE3:QUAT " << first_landmark + id.value;
+    writeTransform(out, poseFromYpr(p.x(), p.y(), p.z(), estimate.yaw, 0, 0));
     out << '\n';
   }
-  for (const auto& factor : impl_->between) {
-    out << "EDGE_SE3:QUAT " << factor.a << ' ' << factor.b;
-    writeTransform(out, factor.a_from_b);
-    writeUpper(out, factor.covariance.inverse());
+  for (const auto& entry : impl_->factors) {
+    if (const auto* movement = std::get_if<BetweenFactor>(&entry.factor)) {
+      out << "EDGE_SE3:QUAT " << movement->a << ' ' << movement->b;
+      writeTransform(out, movement->a_from_b);
+      writeUpper<6>(out, g2oInformation(movement->a_from_b, movement->covariance));
+    }
   }
-  for (const auto& factor : impl_->sightings) {
-    const auto& p = factor.position_in_robot;
-    out << "EDGE_SE3:QUAT " << factor.node << ' ' << first_landmark + factor.landmark.value;
-    writeTransform(out, poseFromYpr(p.x(), p.y(), p.z(), factor.has_yaw ? factor.yaw_in_robot : 0, 0, 0));
-    writeUpper(out, informationOf(factor));
+  for (const auto& entry : impl_->factors) {
+    const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
+    if (sighting && sighting->weight > 0) {
+      out << "EDGE_SE3:QUAT " << sighting->node << ' ' << first_landmark + sighting->landmark.value;
+      writeTransform(out, measuredTransform(*sighting));
+      writeUpper<6>(out, informationOf(*sighting));
+    }
   }
-  if (!out) throw RunError(file.string() + ": cannot be written");
+  finish(out, file);
+}
+
+void saveG2o(const PlanarGraph& graph, const std::filesystem::path& file) {
+  std::ofstream out = openForWriting(file);
+  for (const auto& [id, pose] : graph.poses) {
+    out << "VERTEX_SE2 " << id << ' ' << pose.x << ' ' << pose.y << ' ' << pose.yaw << '\n';
+    if (graph.fixed.contains(id)) out << "FIX " << id << '\n';
+  }
+  for (const auto& edge : graph.edges) {
+    const Pose2& p = edge.a_from_b;
+    out << "EDGE_SE2 " << edge.a << ' ' << edge.b << ' ' << p.x << ' ' << p.y << ' ' << p.yaw;
+    writeUpper<3>(out, edge.information);
+  }
+  finish(out, file);
 }
 
 }  // namespace roomgraph

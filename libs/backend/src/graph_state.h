@@ -4,6 +4,7 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <map>
 #include <memory>
@@ -12,6 +13,12 @@
 #include "roomgraph/backend/factor_graph.h"
 
 namespace roomgraph {
+
+/// Residuals with their derivatives along the tangents of some blocks.
+struct Linearization {
+  Eigen::SparseMatrix<double> jacobian;
+  Eigen::VectorXd residuals;
+};
 
 /// Storage behind FactorGraph. The maps are ordered, so residuals and blocks always come in the same order;
 /// their nodes never move, so Ceres may keep pointers into them.
@@ -23,19 +30,38 @@ struct FactorGraph::Impl {
   };
   struct Object {
     std::array<double, 4> value;  // x y z yaw
-    bool seen_yaw = false;
+    std::array<double, 3> size;   // width, depth, height
+    ShapeKind kind;
+    bool free_yaw = false, free_size = false;
+  };
+  struct Point {
+    std::array<double, 3> value;
+  };
+  struct Entry {
+    Factor factor;
+    ceres::ResidualBlockId block;
   };
 
   Impl();
   Pose& at(NodeId id);
   Object& at(LandmarkId id);
+  Point& at(PointId id);
+  void freeYaw(LandmarkId id);
+  void freeSize(LandmarkId id);
+
+  /// With robust losses and weights applied; columns in the order of `blocks`, all of which must be variable.
+  Linearization linearize(const std::vector<double*>& blocks,
+                          const std::vector<ceres::ResidualBlockId>& residual_blocks) const;
+  /// Everything that is not held, in the order of the maps.
+  std::vector<double*> variableBlocks();
+  int freedoms(const double* block) const { return problem->ParameterBlockTangentSize(block); }
 
   std::map<NodeId, Pose> poses;
   std::map<LandmarkId, Object> objects;
-  std::vector<BetweenFactor> between;
-  std::vector<LandmarkFactor> sightings;
-  std::unique_ptr<ceres::EigenQuaternionManifold> quaternion =
-      std::make_unique<ceres::EigenQuaternionManifold>();
+  std::map<PointId, Point> points;
+  std::vector<Entry> factors;
+  ceres::EigenQuaternionManifold quaternion;
+  ceres::SubsetManifold held_yaw{4, {3}};  // a yaw that nothing measures would make the problem singular
   std::unique_ptr<ceres::Problem> problem;
 };
 

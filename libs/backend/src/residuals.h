@@ -6,15 +6,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "projected_box.h"
 #include "roomgraph/backend/factors.h"
 
 namespace roomgraph {
 
 // Pure residual functions, templated for automatic differentiation. Poses are (translation, quaternion x y z
 // w).
-
-template <class T>
-using Vec3 = Eigen::Matrix<T, 3, 1>;
 
 /// Square root of an information matrix: L with Lᵀ L = covariance⁻¹.
 template <int N>

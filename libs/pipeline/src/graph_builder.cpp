@@ -68,7 +68,7 @@ void addObjects(FactorGraph& graph, const Measurements& measurements, const std:
     if (sighting.node >= first && known.contains(sighting.landmark)) seen.insert(sighting.landmark);
   for (const auto& landmark : landmarks) {
     if (!seen.contains(landmark.id)) continue;
-    graph.addLandmark(landmark.id, {landmark.position, landmark.yaw});
+    graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
     graph.add(LandmarkGroundFactor{landmark.id, 0.02});
   }
   for (LandmarkFactor sighting : measurements.sightings) {

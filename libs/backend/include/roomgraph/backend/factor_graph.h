@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,10 +14,12 @@
 
 namespace roomgraph {
 
-/// Estimate of a landmark in world.
-struct LandmarkEstimate {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< bottom centre
-  double yaw = 0;
+/// How far to solve.
+struct SolveOptions {
+  int max_iterations = 50;
+  double function_tolerance = 1e-8;  ///< stop when the cost changes by less than this share
+  /// Told after every iteration: its number and the cost so far. May be empty.
+  std::function<void(int iteration, double cost)> progress = {};
 };
 
 /// What a solve did.
@@ -27,9 +30,11 @@ struct SolveReport {
   std::string message;
 };
 
-/// Poses, landmarks and the factors between them; robust non-linear least squares (method.md Eq. 9).
+using Matrix10d = Eigen::Matrix<double, 10, 10>;
+
+/// Poses, landmarks, points and the factors between them; robust non-linear least squares (method.md Eq. 9).
 /// Ids are the caller's; every id used in a factor must have been added before. Throws std::out_of_range
-/// otherwise.
+/// otherwise. Nothing here depends on the number of threads: the same input gives the same bits.
 class FactorGraph {
  public:
   FactorGraph();
@@ -39,33 +44,55 @@ class FactorGraph {
 
   void addPose(NodeId id, const Pose3& world_from_robot, bool fixed = false);
   void addLandmark(LandmarkId id, const LandmarkEstimate& initial);
-  void add(const BetweenFactor& factor);
-  void add(const PlanarFactor& factor);
-  void add(const GroundFactor& factor);
-  void add(const LandmarkFactor& factor);
-  void add(const LandmarkGroundFactor& factor);
+  void addPoint(PointId id, const Eigen::Vector3d& in_world);
+  /// Throws std::invalid_argument when the landmark of a LandmarkBoxFactor or PointLandmarkFactor has no
+  /// size.
+  void add(const Factor& factor);
 
-  /// Minimises over everything that is not fixed. Deterministic, whatever the number of threads of the
-  /// machine.
+  /// Minimises over everything that is not fixed. The yaw of a landmark moves only if a factor measures it,
+  /// its size only with a LandmarkSizeFactor.
   SolveReport optimize(int max_iterations = 50);
+  SolveReport optimize(const SolveOptions& options);
+  /// Poses from the movements alone by chordal relaxation, without need of a good start; kept when they lower
+  /// the cost. Only for graphs of nothing but poses and movements. Returns whether anything changed.
+  bool initializePoses();
+  /// Sum of squared residuals, whitened and weighted, with robust losses applied: twice the cost.
+  double chiSquared() const;
 
   Pose3 pose(NodeId id) const;
   LandmarkEstimate landmark(LandmarkId id) const;
+  Eigen::Vector3d point(PointId id) const;
   bool hasLandmark(LandmarkId id) const;
   std::size_t poses() const;
   std::size_t landmarks() const;
   std::size_t factors() const;
 
   /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is
-  /// singular.
+  /// singular. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
+  /// Marginal covariance of a pose: translation in world, then rotation vector w with R = exp(w) R_estimated.
+  /// Zero for a fixed pose; nothing when the problem is singular.
+  std::optional<Matrix6d> poseCovariance(NodeId id) const;
+  /// Joint marginal covariance of a pose (first 6, as above) and a landmark (x, y, z, yaw).
+  std::optional<Matrix10d> jointCovariance(NodeId node, LandmarkId landmark) const;
+  /// The same for several landmarks, from one decomposition.
+  std::optional<std::map<LandmarkId, Matrix10d>> jointCovariances(
+      NodeId node, const std::vector<LandmarkId>& landmarks) const;
+
+  /// What is left for `keep` when everything else is removed (Schur complement at the current estimate). It
+  /// takes in every factor that touches something removed, and every MarginalPrior; factors among kept
+  /// variables stay the caller's to add again. Add it to a graph of the kept variables. Nothing when the
+  /// removed part says nothing about the kept one.
+  std::optional<MarginalPrior> marginalize(const Variables& keep) const;
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
-  /// EDGE_SE3:QUAT between them. Throws RunError when the file cannot be written.
+  /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). Priors, points and robust
+  /// losses have no place in it. Throws RunError when the file cannot be written.
   void saveG2o(const std::filesystem::path& file) const;
 
+  struct Impl;  ///< behind the scenes
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

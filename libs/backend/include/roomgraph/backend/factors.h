@@ -3,15 +3,30 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <variant>
+#include <vector>
 
 #include "roomgraph/core/ids.h"
+#include "roomgraph/geometry/box.h"
+#include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
+#include "roomgraph/geometry/shape.h"
 
 namespace roomgraph {
 
 // The measurements that make up the graph (method.md sec. 4). World is the frame of all estimates; `node`
 // poses are world_from_robot. Covariances are in the order (translation, rotation) and in the measurement's
 // own frame.
+
+using PointId = Id<struct PointTag>;  ///< one feature point of the map
+
+/// Estimate of a landmark in world.
+struct LandmarkEstimate {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< bottom centre
+  double yaw = 0;
+  ObjectShape shape =
+      {};  ///< kind and size; the kind never changes, the size only when a factor speaks of it
+};
 
 /// Movement between two poses: odometry, visual odometry, scan match, loop closure.
 struct BetweenFactor {
@@ -53,5 +68,78 @@ struct LandmarkGroundFactor {
   LandmarkId landmark;
   double sigma_z_m = 0.02;
 };
+
+/// What the object database knows of a landmark's size (factor 6). Frees the landmark's size.
+struct LandmarkSizeFactor {
+  LandmarkId landmark;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Ones();  ///< width, depth, height
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Constant(0.1);
+};
+
+/// Bounding box of a landmark in an image against that of its projected model (factor 3, paper Eq. 12). A
+/// side of the measured box on the image border says nothing of where the object ends: it is not compared.
+/// The landmark must have a size.
+struct LandmarkBoxFactor {
+  NodeId node;
+  LandmarkId landmark;
+  PinholeCamera camera;
+  Pose3 robot_from_camera = Pose3::Identity();  ///< optical frame
+  Box2 box;                                     ///< measured, px
+  double sigma_px = 4;                          ///< of each side
+  double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
+  double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
+};
+
+enum class RobustLoss { kHuber, kCauchy };
+
+/// A point seen in an image, with its depth when measured (factor 2, paper Eq. 11).
+struct CameraPointFactor {
+  NodeId node;
+  PointId point;
+  PinholeCamera camera;
+  Pose3 robot_from_camera = Pose3::Identity();  ///< optical frame
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  double sigma_px = 1;
+  double depth_m = 0;  ///< along the optical axis; 0: not measured
+  double sigma_depth_m = 0.02;
+  RobustLoss loss = RobustLoss::kHuber;
+  double robust_width = 2.5;  ///< in standard deviations; 0: plain least squares
+};
+
+/// A point of a landmark lies inside its model (factor 4, paper Eq. 13): distance outside the volume, its
+/// horizontal and vertical parts apart, nothing inside.
+struct PointLandmarkFactor {
+  PointId point;
+  LandmarkId landmark;
+  double sigma_horizontal_m = 0.05, sigma_vertical_m = 0.05;
+  double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
+  double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
+};
+
+/// Some variables of a graph.
+struct Variables {
+  std::vector<NodeId> nodes;
+  std::vector<LandmarkId> landmarks;
+  std::vector<PointId> points;
+};
+
+/// What the measurements of a removed part say about the variables next to it: cost 1/2 |root d + offset|^2
+/// with d the difference from the place of linearisation. Per pose 6 numbers (translation in world, rotation
+/// vector w with R = exp(w) R_linearised), per landmark 7 (x, y, z, yaw, width, depth, height), per point 3,
+/// in the order of `variables`: poses, landmarks, points. Made by FactorGraph::marginalize.
+struct MarginalPrior {
+  Variables variables;
+  std::vector<Pose3> poses;                 ///< linearised at, like the following
+  std::vector<LandmarkEstimate> landmarks;  ///< shape kinds are not used
+  std::vector<Eigen::Vector3d> points;
+  Eigen::MatrixXd root;
+  Eigen::VectorXd offset;
+};
+
+/// Every kind of measurement a graph can hold. A new one belongs here; the tests don't compile until it has
+/// its specimens (tests/backend/residual_specimens.h).
+using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkGroundFactor,
+                            LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor, PointLandmarkFactor,
+                            MarginalPrior>;
 
 }  // namespace roomgraph

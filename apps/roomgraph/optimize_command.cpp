@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "roomgraph/backend/g2o_file.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/core/progress.h"
+
+namespace roomgraph {
+namespace {
+
+struct Arguments {
+  std::filesystem::path graph, output;
+  int max_iterations = 100;
+  bool keep_start = false, quiet = false;
+};
+
+SolveReport optimize(FactorGraph& graph, const SolveOptions& options) {
+  return graph.optimize(options);
+}
+double chiSquared(const FactorGraph& graph) {
+  return graph.chiSquared();
+}
+bool initializePoses(FactorGraph& graph) {
+  return graph.initializePoses();
+}
+void saveG2o(const FactorGraph& graph, const std::filesystem::path& file) {
+  graph.saveG2o(file);
+}
+std::string describe(const FactorGraph& graph) {
+  return "3D, " + std::to_string(graph.poses()) + " poses, " + std::to_string(graph.landmarks()) +
+         " landmarks, " + std::to_string(graph.factors()) + " edges";
+}
+std::string describe(const PlanarGraph& graph) {
+  return "2D, " + std::to_string(graph.poses.size()) + " poses, " + std::to_string(graph.edges.size()) +
+         " edges";
+}
+
+std::string decimal(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4f", value);
+  return text;
+}
+
+template <class Graph>
+void run(Graph& graph, const Arguments& arguments) {
+  std::cout << arguments.graph.string() << ": " << describe(graph) << "\n"
+            << "chi2 before " << decimal(chiSquared(graph)) << std::endl;
+  if (!arguments.keep_start && initializePoses(graph))
+    std::cout << "chi2 of the chordal start " << decimal(chiSquared(graph)) << std::endl;
+  Progress line(arguments.quiet ? nullptr : &std::cerr, "optimize", "iterations", 0);
+  SolveOptions options{arguments.max_iterations, 1e-12};
+  options.progress = [&](int iteration, double cost) { line.update(iteration, "chi2 " + decimal(2 * cost)); };
+  const SolveReport report = optimize(graph, options);
+  line.finish();
+  if (!report.usable) throw RunError(arguments.graph.string() + ": cannot be optimised: " + report.message);
+  saveG2o(graph, arguments.output);
+  std::cout << "chi2 after  " << decimal(chiSquared(graph)) << " (" << report.iterations << " iterations)\n"
+            << arguments.output.string() << ": written\n";
+}
+
+void optimizeFile(const Arguments& arguments) {
+  G2oContent content = loadG2o(arguments.graph);
+  for (const auto& [tag, lines] : content.skipped)
+    std::cerr << "roomgraph: warning: " << arguments.graph.string() << ": " << lines << " lines '" << tag
+              << "' skipped\n";
+  std::visit([&](auto& graph) { run(graph, arguments); }, content.graph);
+}
+
+}  // namespace
+
+void addOptimizeCommand(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("optimize", "Optimise a 2D or 3D pose graph (g2o), print its chi^2");
+  command->add_option("GRAPH", arguments->graph, "g2o file (VERTEX_SE2 or VERTEX_SE3:QUAT)")->required();
+  command->add_option("-o,--output", arguments->output, "g2o file to write")->required();
+  command->add_option("--max-iterations", arguments->max_iterations, "stop after so many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag("--keep-start", arguments->keep_start,
+                    "start from the file's poses even where the chordal start is better");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->footer(
+      "Examples:\n"
+      "  roomgraph optimize manhattan3500.g2o -o optimum.g2o\n"
+      "  roomgraph optimize out/lab/graph.g2o -o again.g2o --keep-start\n"
+      "chi^2 is the sum of e' Omega e over all edges, e in g2o's convention, without robust losses.");
+  command->callback([arguments] { optimizeFile(*arguments); });
+}
+
+}  // namespace roomgraph

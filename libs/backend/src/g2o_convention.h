@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "roomgraph/backend/factors.h"
+
+namespace roomgraph {
+
+// g2o's error of EDGE_SE3:QUAT is (translation, quaternion's x y z) of measured^-1 * estimated. Ours is the
+// same translation before it is turned into the measured b frame, and twice the quaternion (a rotation vector
+// for small errors): ours = D g2o with D = diag(R_measured, 2 I). With the information matrices converted,
+// both give the same chi^2 to the last digit.
+
+constexpr double kTokenInformation = 1e-3;  ///< of what a landmark's measurement says nothing about
+
+inline Matrix6d errorFromG2o(const Eigen::Matrix3d& measured) {
+  Matrix6d d = Matrix6d::Zero();
+  d.topLeftCorner<3, 3>() = measured;
+  d.bottomRightCorner<3, 3>() = 2 * Eigen::Matrix3d::Identity();
+  return d;
+}
+
+inline Matrix6d g2oInformation(const Pose3& measured, const Matrix6d& covariance) {
+  const Matrix6d d = errorFromG2o(measured.linear());
+  return d.transpose() * covariance.inverse() * d;
+}
+
+inline Matrix6d covarianceOfG2o(const Pose3& measured, const Matrix6d& information) {
+  const Matrix6d d = errorFromG2o(measured.linear());
+  return d * information.inverse() * d.transpose();
+}
+
+/// Place and yaw of a landmark in the robot's frame as the transform of an edge.
+inline Pose3 measuredTransform(const LandmarkFactor& f) {
+  const auto& p = f.position_in_robot;
+  return poseFromYpr(p.x(), p.y(), p.z(), f.has_yaw ? f.yaw_in_robot : 0, 0, 0);
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <algorithm>
+
+#include "projected_box.h"
+#include "residuals.h"
+
+namespace roomgraph {
+
+// Residuals of points, and of the extent of landmarks. Landmarks are (x, y, z, yaw), sizes (width, depth,
+// height), points (x, y, z) in world.
+
+/// A camera on a robot, templated: coordinates in its optical frame.
+template <class T>
+struct CameraView {
+  CameraView(const Pose3& robot_from_camera, const T* t, const T* q)
+      : rotation(robot_from_camera.linear().transpose().cast<T>() *
+                 Eigen::Map<const Eigen::Quaternion<T>>(q).toRotationMatrix().transpose()),
+        position(t),
+        lever(robot_from_camera.linear().transpose() * robot_from_camera.translation()) {}
+
+  Vec3<T> see(const Vec3<T>& in_world) const {
+    return rotation * (in_world - position) - lever.template cast<T>();
+  }
+
+  Mat3<T> rotation;  ///< camera_from_world
+  Eigen::Map<const Vec3<T>> position;
+  Eigen::Vector3d lever;
+};
+
+constexpr double kNear_m = 0.05;  // nothing is seen closer than this
+
+struct CameraPointResidual {
+  explicit CameraPointResidual(const CameraPointFactor& f) : factor(f) {}
+
+  template <class T>
+  bool operator()(const T* t, const T* q, const T* point, T* out) const {
+    const auto& camera = factor.camera;
+    const Vec3<T> p = CameraView<T>(factor.robot_from_camera, t, q).see(Eigen::Map<const Vec3<T>>(point));
+    if (p.z() < T(kNear_m)) {
+      // Behind the camera, where nothing is seen: as wrong as the image is large.
+      out[0] = T(camera.width / factor.sigma_px);
+      out[1] = T(camera.height / factor.sigma_px);
+      out[2] = T(0);
+      return true;
+    }
+    out[0] = (camera.fx * p.x() / p.z() + camera.cx - factor.pixel.x()) / factor.sigma_px;
+    out[1] = (camera.fy * p.y() / p.z() + camera.cy - factor.pixel.y()) / factor.sigma_px;
+    out[2] = factor.depth_m > 0 ? T((p.z() - factor.depth_m) / factor.sigma_depth_m) : T(0);
+    return true;
+  }
+
+  CameraPointFactor factor;
+};
+
+/// Which sides (left, top, right, bottom) of a measured box lie inside the image, not on its border.
+inline std::array<bool, 4> sidesInside(const Box2& box, const PinholeCamera& camera) {
+  constexpr double kBorder_px = 2;  // a detector's box hardly ever ends on the very last pixel
+  return {box.u_min > kBorder_px, box.v_min > kBorder_px, box.u_max < camera.width - kBorder_px,
+          box.v_max < camera.height - kBorder_px};
+}
+
+struct LandmarkBoxResidual {
+  LandmarkBoxResidual(const LandmarkBoxFactor& f, ShapeKind shape)
+      : factor(f), kind(shape), compared(sidesInside(f.box, f.camera)) {}
+
+  template <class T>
+  bool operator()(const T* t, const T* q, const T* landmark, const T* size, T* out) const {
+    using std::cos, std::sin;
+    const CameraView<T> view(factor.robot_from_camera, t, q);
+    const T c = cos(landmark[3]), s = sin(landmark[3]);
+    Mat3<T> axes;
+    axes << c, -s, T(0), s, c, T(0), T(0), T(0), T(1);
+    const auto sides =
+        projectedSides<T>(kind, Eigen::Map<const Vec3<T>>(size), view.rotation * axes,
+                          view.see(Eigen::Map<const Vec3<T>>(landmark)), factor.camera, kNear_m);
+    const double measured[] = {factor.box.u_min, factor.box.v_min, factor.box.u_max, factor.box.v_max};
+    for (std::size_t i = 0; i < 4; ++i) {
+      out[i] = T(0);
+      if (!compared[i]) continue;
+      // Wholly behind the camera: as wrong as the image is large.
+      const double worst = i % 2 == 0 ? factor.camera.width : factor.camera.height;
+      out[i] = (sides ? T((*sides)[i] - measured[i]) : T(worst)) / factor.sigma_px;
+    }
+    return true;
+  }
+
+  LandmarkBoxFactor factor;
+  ShapeKind kind;
+  std::array<bool, 4> compared;
+};
+
+/// Distance of a point (object frame) from the model's volume, (horizontal, vertical); geometry's
+/// distanceOutside as a template.
+template <class T>
+std::array<T, 2> distanceFromModel(ShapeKind kind, const Vec3<T>& size, const Vec3<T>& point) {
+  using std::sqrt;
+  const auto positive = [](const T& value) { return value > T(0) ? value : T(0); };
+  const auto norm = [](const T& x, const T& y) {
+    const T square = x * x + y * y;
+    return square > T(0) ? T(sqrt(square)) : T(0);  // the root has no derivative at 0
+  };
+  const T vertical = point.z() < T(0) ? T(-point.z()) : positive(T(point.z() - size[2]));
+  if (kind == ShapeKind::kCylinder)
+    return {positive(T(norm(point.x(), point.y()) - (size[0] + size[1]) / 4.0)), vertical};
+  const auto beyond = [&](const T& x, const T& extent) {
+    return positive(T((x < T(0) ? T(-x) : x) - extent / 2.0));
+  };
+  return {norm(beyond(point.x(), size[1]), beyond(point.y(), size[0])), vertical};
+}
+
+struct PointLandmarkResidual {
+  PointLandmarkResidual(const PointLandmarkFactor& f, ShapeKind shape) : factor(f), kind(shape) {}
+
+  template <class T>
+  bool operator()(const T* point, const T* landmark, const T* size, T* out) const {
+    using std::cos, std::sin;
+    const Vec3<T> away = Eigen::Map<const Vec3<T>>(point) - Eigen::Map<const Vec3<T>>(landmark);
+    const T c = cos(landmark[3]), s = sin(landmark[3]);
+    const Vec3<T> inside(c * away.x() + s * away.y(), c * away.y() - s * away.x(), away.z());
+    const auto distance = distanceFromModel<T>(kind, Eigen::Map<const Vec3<T>>(size), inside);
+    out[0] = distance[0] / factor.sigma_horizontal_m;
+    out[1] = distance[1] / factor.sigma_vertical_m;
+    return true;
+  }
+
+  PointLandmarkFactor factor;
+  ShapeKind kind;
+};
+
+struct LandmarkSizeResidual {
+  explicit LandmarkSizeResidual(const LandmarkSizeFactor& f) : factor(f) {}
+
+  template <class T>
+  bool operator()(const T* size, T* out) const {
+    for (int i = 0; i < 3; ++i) out[i] = (size[i] - factor.size_m[i]) / factor.sigma_m[i];
+    return true;
+  }
+
+  LandmarkSizeFactor factor;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "solve.h"
+
+#include <glog/logging.h>
+
+#include <mutex>
+
+namespace roomgraph {
+namespace {
+
+// Ceres reports a singular problem on stderr before it says so in its result. The level is the process's: it
+// is touched by the first solve that begins and the last that ends, if several run at once.
+class QuietCeres {
+ public:
+  QuietCeres() {
+    const std::lock_guard lock(mutex_);
+    if (solves_++ > 0) return;
+    level_ = FLAGS_minloglevel;
+    FLAGS_minloglevel = google::GLOG_FATAL;
+  }
+  ~QuietCeres() {
+    const std::lock_guard lock(mutex_);
+    if (--solves_ == 0) FLAGS_minloglevel = level_;
+  }
+  QuietCeres(const QuietCeres&) = delete;
+  QuietCeres& operator=(const QuietCeres&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int solves_ = 0, level_ = 0;
+};
+
+class Watcher : public ceres::IterationCallback {
+ public:
+  explicit Watcher(const SolveOptions& options) : options_(options) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    options_.progress(summary.iteration, summary.cost);
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const SolveOptions& options_;
+};
+
+}  // namespace
+
+ceres::Solver::Options solverOptions(const SolveOptions& options) {
+  ceres::Solver::Options solver;
+  solver.max_num_iterations = options.max_iterations;
+  solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  solver.num_threads = 1;  // sums in one order: the same bits on every machine
+  solver.function_tolerance = options.function_tolerance;
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+SolveReport solve(const SolveOptions& options, ceres::Solver::Options solver, ceres::Problem& problem) {
+  Watcher watcher(options);
+  if (options.progress) solver.callbacks.push_back(&watcher);
+  ceres::Solver::Summary summary;
+  const QuietCeres quiet;
+  ceres::Solve(solver, &problem, &summary);
+  return {summary.IsSolutionUsable(), summary.initial_cost, summary.final_cost,
+          static_cast<int>(summary.iterations.size()), summary.message};
+}
+
+double costNow(ceres::Problem& problem) {
+  double cost = 0;
+  problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
+  return cost;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "residual_specimens.h"
+
+namespace roomgraph::testing {
+
+// Specimens of the factors of points, extents and priors; those of poses and places are in
+// residual_specimens.cpp.
+Specimen sizeAtMeasurement(Random& random);
+Specimen sizeByHand();
+Specimen boxAtMeasurement(Random& random);
+Specimen boxByHand();
+Specimen cameraPointAtMeasurement(Random& random);
+Specimen cameraPointByHand();
+Specimen pointLandmarkAtMeasurement(Random& random);
+Specimen pointLandmarkByHand();
+Specimen marginalPriorAtMeasurement(Random& random);
+Specimen marginalPriorByHand();
+
+}  // namespace roomgraph::testing
