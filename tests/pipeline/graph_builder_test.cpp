@@ -133,10 +133,8 @@ TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
     LandmarkFactor sighting{NodeId{i}, LandmarkId{1}};
     sighting.position_in_robot = truthAt(i).inverse() * place;
     sighting.covariance = 1e-4 * Eigen::Matrix4d::Identity();
-    scenario.measurements.sightings.push_back(sighting);
+    scenario.measurements.objects.sightings.push_back(sighting);
   }
-  LandmarkFactor merged_away{NodeId{3}, LandmarkId{77}};  // its landmark is no more: left out
-  scenario.measurements.sightings.push_back(merged_away);
   const KeyPoses poses = scenario.start();
   FactorGraph graph =
       buildGraph(poses, scenario.motion, scenario.measurements, scenario.landmarks, scenario.options);

@@ -60,23 +60,20 @@ void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses&
   graph.add(factor);
 }
 
-void addObjects(FactorGraph& graph, const Measurements& measurements, const std::vector<Landmark>& landmarks,
-                NodeId first, const BackendOptions& options) {
-  std::set<LandmarkId> seen, known;
-  for (const auto& landmark : landmarks) known.insert(landmark.id);
-  for (const auto& sighting : measurements.sightings)
-    if (sighting.node >= first && known.contains(sighting.landmark)) seen.insert(sighting.landmark);
+void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vector<Landmark>& landmarks) {
+  std::set<LandmarkId> seen;
+  for (const auto& sighting : objects.sightings) seen.insert(sighting.landmark);
   for (const auto& landmark : landmarks) {
     if (!seen.contains(landmark.id)) continue;
     graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
     graph.add(LandmarkGroundFactor{landmark.id, 0.02});
   }
-  for (LandmarkFactor sighting : measurements.sightings) {
-    if (!seen.contains(sighting.landmark) || sighting.node < first) continue;
-    sighting.weight *= options.landmark_information_share;
-    sighting.robust_width = options.landmark_robust_width;
-    graph.add(sighting);
-  }
+  for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
+  for (const auto& factor : objects.sightings) graph.add(factor);
+  for (const auto& factor : objects.sizes) graph.add(factor);
+  for (const auto& factor : objects.boxes) graph.add(factor);
+  for (const auto& factor : objects.views) graph.add(factor);
+  for (const auto& factor : objects.insides) graph.add(factor);
 }
 
 }  // namespace
@@ -104,7 +101,7 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
     if (ground.node >= nodes[first].id) graph.add(ground);
   for (const auto& closure : measurements.closures)
     addClosure(graph, closure, poses, nodes[first].id, options.closure_robust_width);
-  addObjects(graph, measurements, landmarks, nodes[first].id, options);
+  if (first == 0) addObjects(graph, measurements.objects, landmarks);
   return graph;
 }
 

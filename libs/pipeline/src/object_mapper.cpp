@@ -6,7 +6,6 @@
 #include <set>
 
 #include "roomgraph/geometry/ground.h"
-#include "roomgraph/pipeline/sighting.h"
 #include "roomgraph/pipeline/visibility.h"
 
 namespace roomgraph {
@@ -44,6 +43,18 @@ void rename(ObjectDecision& decision, LandmarkId removed, LandmarkId kept) {
   }
 }
 
+// Those with depth; the mapper remembers no more of the others than which object they lie on.
+std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& decisions,
+                                            const std::vector<FeatureTrack>& features) {
+  std::set<std::int64_t> on_objects;
+  for (const auto& decision : decisions)
+    on_objects.insert(decision.seen.measurement.features.begin(), decision.seen.measurement.features.end());
+  std::vector<FeatureTrack> out;
+  for (const auto& feature : features)
+    if (feature.depth_m > 0 && on_objects.contains(feature.point)) out.push_back(feature);
+  return out;
+}
+
 }  // namespace
 
 std::vector<ObjectDecision> ObjectMapper::observe(const FrameProposals& seen, const Frame& frame,
@@ -59,7 +70,8 @@ std::vector<ObjectDecision> ObjectMapper::observe(const FrameProposals& seen, co
   }
   missUnseen(decisions, seen.detections, frame);
   if (decisions.empty()) return decisions;
-  frames_.push_back({frame.id, frame.t, frame.robot_from_camera, decisions});
+  frames_.push_back({frame.id, frame.t, frame.camera, frame.robot_from_camera, decisions,
+                     featuresOnObjects(decisions, features)});
   span(frames_.back());
   return decisions;
 }
@@ -108,21 +120,6 @@ void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
     const Pose3 moved = new_from_old * landmark->worldFromObject();
     landmarks().correct(id, moved.translation(), planarPart(moved).yaw, landmark->covariance);
   }
-}
-
-std::vector<LandmarkFactor> ObjectMapper::sightings() const {
-  std::map<std::pair<NodeId, LandmarkId>, std::vector<LandmarkFactor>> groups;
-  for (const auto& frame : frames_) {
-    const KeyPose& node = poses_.nearest(frame.t);
-    const Pose3 node_from_camera = poses_.offset(node, frame.t) * frame.robot_from_camera;
-    for (const auto& decision : frame.decisions)
-      if (const Landmark* landmark = landmarks().find(decision.landmark))
-        groups[{node.id, landmark->id}].push_back(sightingOf(decision, *landmark, node, node_from_camera));
-  }
-  std::vector<LandmarkFactor> out;
-  for (const auto& [key, group] : groups)
-    if (const LandmarkFactor mean = meanSighting(group); mean.weight > 1e-3) out.push_back(mean);
-  return out;
 }
 
 void ObjectMapper::span(const ObjectFrame& frame) {

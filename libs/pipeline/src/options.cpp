@@ -93,6 +93,16 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .unit = "m",
          .min = 0,
          .max = 10});
+  v.add("object_boxes", object_boxes,
+        {.doc = "whether the boxes of objects and their usual sizes are factors of the graph"});
+  v.add("box_sigma_px", box_sigma_px,
+        {.doc = "of the sides of a box against the projected model", .unit = "px", .min = 0.1, .max = 1000});
+  v.add("points_per_landmark", points_per_landmark,
+        {.doc = "tracked points that tie a landmark to the poses that saw them; 0: none",
+         .min = 0,
+         .max = 10000});
+  v.add("point_sigma_px", point_sigma_px,
+        {.doc = "of such a point in the image", .unit = "px", .min = 0.1, .max = 100});
   v.add("landmark_information_share", landmark_information_share,
         {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
          .min = 1e-4,

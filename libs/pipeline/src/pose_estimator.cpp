@@ -90,7 +90,7 @@ bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
   nodes_since_optimization_ = 0;
   surprised_ = false;
   objects.mergeDuplicates();
-  measurements_.sightings = objects.sightings();
+  measurements_.objects = objects.factors();
   LandmarkMap& landmarks = objects.landmarks();
   graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);
   if (!graph_.optimize(options_.max_iterations).usable) return false;

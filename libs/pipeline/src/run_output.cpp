@@ -49,6 +49,8 @@ ordered_json associationsJson(double t, const std::vector<ObjectDecision>& decis
                                     {"landmark", decision.landmark.value},
                                     {"new", !decision.association.landmark.valid()},
                                     {"posterior", posterior},
+                                    {"track", measurement.track.value},
+                                    {"beta", measurement.beta},
                                     {"confidence", measurement.confidence},
                                     {"world", {place.x(), place.y(), place.z()}},
                                     {"source", measurement.proposal.source},

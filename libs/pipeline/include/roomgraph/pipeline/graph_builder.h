@@ -7,13 +7,14 @@
 #include "roomgraph/backend/factor_graph.h"
 #include "roomgraph/observations/landmark.h"
 #include "roomgraph/pipeline/key_poses.h"
+#include "roomgraph/pipeline/object_factors.h"
 
 namespace roomgraph {
 
 /// Everything measured so far that the factor graph is built from.
 struct Measurements {
   std::vector<RelativePose> closures;  ///< between robots at two times
-  std::vector<LandmarkFactor> sightings;
+  ObjectFactors objects;
   std::vector<GroundFactor> grounds;  ///< handheld camera only
   bool planar = true;                 ///< a robot on the floor
 };

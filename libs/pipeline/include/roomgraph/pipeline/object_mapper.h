@@ -6,18 +6,11 @@
 #include <vector>
 
 #include "roomgraph/pipeline/key_poses.h"
+#include "roomgraph/pipeline/object_factors.h"
 #include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
-
-/// The objects measured in one frame, as a run remembers them.
-struct ObjectFrame {
-  FrameId frame;
-  double t = 0;
-  Pose3 robot_from_camera = Pose3::Identity();
-  std::vector<ObjectDecision> decisions;  ///< places in world as of the last E-step
-};
 
 /// When a landmark was measured first and last, s.
 struct SeenSpan {
@@ -41,9 +34,9 @@ class ObjectMapper {
   /// Moves the landmarks that were first seen at that time or later.
   void moveSince(double t, const Pose3& new_from_old);
 
-  /// What the graph is to know: per key pose and landmark one factor, the mean of the sightings there (their
-  /// errors are nearly the same, so that many count like one).
-  std::vector<LandmarkFactor> sightings() const;
+  ObjectFactors factors() const {
+    return objectFactors(frames_, poses_, landmarks().landmarks(), stages_.database, stages_.backend);
+  }
 
   const std::vector<ObjectFrame>& frames() const { return frames_; }
   LandmarkMap& landmarks() { return stages_.landmarks; }

@@ -73,6 +73,9 @@ struct BackendOptions : Configurable {
   double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
   double landmark_information_share = 0.01;
+  bool object_boxes = true;
+  double box_sigma_px = 6, point_sigma_px = 2;
+  int points_per_landmark = 10;
   void declareParameters(ParameterVisitor& v) override;
 };
 

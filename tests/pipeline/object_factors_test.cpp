@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/pipeline/sighting.h"
+#include "roomgraph/pipeline/object_factors.h"
 
 #include <gtest/gtest.h>
 

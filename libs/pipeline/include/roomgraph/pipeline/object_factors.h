@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "roomgraph/backend/factors.h"
+#include "roomgraph/observations/feature_track.h"
+#include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/pipeline/key_poses.h"
+#include "roomgraph/pipeline/options.h"
+#include "roomgraph/pipeline/step_report.h"
+
+namespace roomgraph {
+
+/// The objects measured in one frame, as a run remembers them.
+struct ObjectFrame {
+  FrameId frame;
+  double t = 0;
+  PinholeCamera camera;
+  Pose3 robot_from_camera = Pose3::Identity();
+  std::vector<ObjectDecision> decisions;  ///< places in world as of the last E-step
+  std::vector<FeatureTrack> features;     ///< some with depth that lie on the objects
+};
+
+/// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
+struct ObjectFactors {
+  std::vector<LandmarkFactor> sightings;
+  std::vector<LandmarkBoxFactor> boxes;
+  std::vector<LandmarkSizeFactor> sizes;
+  std::map<PointId, Eigen::Vector3d> points;  ///< in world, as the measured depth has them
+  std::vector<CameraPointFactor> views;
+  std::vector<PointLandmarkFactor> insides;
+};
+
+/// Per key pose and landmark one sighting and one box: the errors of sightings from one place are nearly the
+/// same, so that many count like one. Points that were seen on a landmark from several key poses. Weights are
+/// association probability x selection confidence x initialisation score, scaled by
+/// BackendOptions::landmark_information_share.
+ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
+                            const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
+                            const BackendOptions& options);
+
+/// Factor between a key pose and the landmark a measurement was given to. A yaw that looks the other way than
+/// the landmark's is turned round: front and back of an object are easily confused, its direction is not.
+LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landmark, const KeyPose& node,
+                          const Pose3& node_from_camera);
+
+/// Weighted mean of sightings of one landmark from one key pose; covariance and weight are those of a single
+/// one of them. At least one sighting.
+LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings);
+
+}  // namespace roomgraph
