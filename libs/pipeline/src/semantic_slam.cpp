@@ -15,6 +15,7 @@ namespace {
 using Timing = mrpt::system::CTimeLoggerEntry;
 
 constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
+constexpr double kMovementHorizon_s = 0.15;
 constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 
 // A sensor on a robot has a place on it; a handheld camera has none.
@@ -28,6 +29,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
     : stages_(std::move(stages)),
       timer_(std::make_unique<mrpt::system::CTimeLogger>(true, "", false)),
       front_ends_(*stages_),
+      box_tracker_(stages_->detection.tracker, stages_->database),
       estimator_(stages_->backend, front_ends_.motion()),
       objects_(*stages_, estimator_.poses()),
       object_loops_(stages_->object_loops),
@@ -44,7 +46,7 @@ void SemanticSlam::process(const Record& record) {
 }
 
 StepReport SemanticSlam::step(const Frame& frame) {
-  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id};
+  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id, .image = &frame};
   if (!inOrder(frame.t, last_frame_t_, "frames")) return {};
   ++counts_.frames;
   robot_from_camera_ = frame.robot_from_camera;
@@ -59,6 +61,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   robot_times_.push_back(frame.t);
   camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
   report.world_from_robot = estimator_.poses().at(frame.t);
+  report.seen = &seen_;
   return report;
 }
 
@@ -120,18 +123,30 @@ std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& repo
   if (!stages_->detector) return {};
   const Timing timing(*timer_, "detection");
   const auto found = stages_->detector->detect(frame);
-  if (!found) {
+  report.detector_ran = found.ok();
+  if (found) {
+    box_tracker_.start(*found, frame);
+    report.detections = *found;
+  } else {
     ++counts_.reasons["detection: " + found.reason()];
-    return {};
+    report.detections = box_tracker_.advance(frame, cameraMovement(frame));
+    report.boxes_carried = box_tracker_.active();
+    if (!report.boxes_carried) return {};
   }
-  report.detector_ran = true;
-  report.detections = *found;
   people_.clear();
-  for (const auto& detection : *found) {
+  for (const auto& detection : report.detections) {
     const auto* model = stages_->database.find(detection.class_name);
     if (model && !model->landmark) people_.push_back(detection.box);
   }
-  return *found;
+  return report.detections;
+}
+
+// Since the frame that the box tracker saw last, as far as it is known before this frame is tracked.
+std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
+  if (!box_tracker_.active()) return std::nullopt;
+  const auto moved = front_ends_.motion().movement(box_tracker_.lastTime(), frame.t, kMovementHorizon_s);
+  if (!moved) return std::nullopt;
+  return frame.robot_from_camera.inverse() * *moved * frame.robot_from_camera;
 }
 
 void SemanticSlam::track(const Frame& frame, StepReport& report) {
