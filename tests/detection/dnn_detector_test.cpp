@@ -163,12 +163,12 @@ TEST_F(DnnDetectorTest, SeveralNetworksAndTheLabelsOfTheDatabase) {
       EXPECT_TRUE(std::any_of(both.begin(), both.end(), [&](const Detection& kept) {
         return iou(kept.box, box.box) > 0.5 && kept.score >= box.score;
       }));
-  const auto screens = ObjectDatabase::fromText("[screen]\nlabels = TV, monitor\nshape = planar\n");
-  detector_.setDatabase(screens);
+  const auto flasks = ObjectDatabase::fromText("[flask]\nlabels = Bottle, jar\nshape = cylinder\n");
+  detector_.setDatabase(flasks);
   const auto renamed = detector_.detect(seen);
   ASSERT_TRUE(renamed);
-  ASSERT_FALSE(renamed->empty()) << "the monitors on the desk";
-  for (const auto& box : *renamed) EXPECT_EQ(box.class_name + " " + box.label, "screen tv");
+  ASSERT_FALSE(renamed->empty()) << "the bottles on the desk";
+  for (const auto& box : *renamed) EXPECT_EQ(box.class_name + " " + box.label, "flask bottle");
 }
 
 TEST_F(DnnDetectorTest, AWrongFormatIsRefused) {
