@@ -140,9 +140,11 @@ TEST(Serialization, DetectionsKeepEveryField) {
 // As it was written before boxes had 64 bits and masks.
 TEST(Serialization, DetectionsOfVersion0AreRead) {
   const auto original = detections();
+  mrpt::poses::CPose3D pose;
+  original.getSensorPose(pose);
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
-  archive << original.timestamp << original.sensorLabel << original.sensorPose() << original.image_label
+  archive << original.timestamp << original.sensorLabel << pose << original.image_label
           << original.image_width << original.image_height << original.model << original.model_hash
           << original.score_threshold << original.nms_threshold;
   archive.WriteAs<std::uint32_t>(1);

@@ -96,7 +96,7 @@ TEST_F(RecordingTest, ReplayOfNetworksGivesTheSameMap) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   expectSameRun("live", "again");
   const auto recorded = detectionsIn(copy);
-  EXPECT_EQ(recorded.size(), 20u);
+  EXPECT_EQ(recorded.size(), 21u);
   for (const auto& [t, detections] : recorded) {
     EXPECT_EQ(detections.model, "nanodet-plus-m_1.5x-320+deeplabv3_mnv2_ade20k_256x256");
     EXPECT_EQ(detections.model_hash.size(), 16u + 1 + 16);
