@@ -7,8 +7,8 @@
 
 Writes OUT/detectors.md and OUT/detectors.json (OUT: out/bench). A network runs once over a sequence; what it found stays in
 OUT/detectors and is used again (--again: run the networks again). For every k-th frame the recorded boxes of the other frames
-are taken away and RecordedDetector replays what is left. --meshes adds worlds/lab_meshes.json with NanoDet (simulated here;
-worlds/extract_meshes.sh must have run).
+are taken away and RecordedDetector replays what is left, once for each of the first k frames to begin with. --meshes adds
+worlds/lab_meshes.json with NanoDet (simulated here; worlds/extract_meshes.sh must have run).
 """
 import argparse
 import json
@@ -62,22 +62,34 @@ class Sequence:
         figures["per_class"]["all"] = {key: value for key, value in figures.items() if key != "per_class"}
         return figures
 
-    def sparse(self, network, recorded, every):
-        """The network on every k-th frame; the boxes of the frames between are carried."""
+    def sparse(self, network, recorded, every, first):
+        """The network on every k-th frame from one on; the boxes of the frames between are carried."""
         lines = (recorded / "detections.jsonl").read_text().splitlines()
         file = self.out / f"{self.name}_{network}_every_{every}.jsonl"
-        file.write_text("".join(line + "\n" for line in lines[::every]))
+        file.write_text("".join(line + "\n" for line in lines[first::every]))
         return self.run(f"{network}_every_{every}",
                         ["detection.class=RecordedDetector", f"detection.file={file}",
                          f"detection.max_carried_frames={max(5, every - 1)}"])
+
+
+def total(reports):
+    """Counts of several reports together, per class, with recall and precision."""
+    out = {}
+    for name in sorted({name for report in reports for name in report["per_class"]}):
+        found = [report["per_class"].get(name, {}) for report in reports]
+        correct, wrong, missed = (sum(f.get(key, 0) for f in found) for key in ("correct", "false_alarms", "missed"))
+        out[name] = {"correct": correct, "false_alarms": wrong, "missed": missed,
+                     "recall": correct / max(1, correct + missed), "precision": correct / max(1, correct + wrong)}
+    return {"per_class": out}
 
 
 def measure(sequence, network, weights, every, again):
     recorded = sequence.record(network, weights, again)
     rows = []
     for step in [1, *every]:
-        folder = recorded if step == 1 else sequence.sparse(network, recorded, step)
-        rows.append({"sequence": sequence.name, "network": network, "every": step, **sequence.figures(folder)})
+        reports = [sequence.figures(recorded if step == 1 else sequence.sparse(network, recorded, step, first))
+                   for first in range(step)]
+        rows.append({"sequence": sequence.name, "network": network, "every": step, **total(reports)})
     return rows
 
 
@@ -96,8 +108,9 @@ def cell(row, first, name):
 def page(rows):
     lines = ["# Detectors", "",
              "Made by `bench/detectors.py`. Recall / precision per class at IoU .5, score ≥ .35, over true boxes with more than half "
-             "of the object visible and higher than 40 px. Networks on every frame, and on every k-th with the boxes tracked in "
-             "between, judged over all frames; in brackets the change in points. Rendered input.", "",
+             "of the object visible and higher than 40 px; \"all\" also holds the classes that the network does not know. Networks "
+             "on every frame, and on every k-th with the boxes tracked in between, judged over all frames and all k frames to "
+             "begin with; in brackets the change in points. Rendered or simulated input.", "",
              "| sequence, network | runs on | " + " | ".join(CLASSES) + " | all |",
              "| --- | --- | " + " | ".join("---" for _ in CLASSES) + " | --- |"]
     for row in rows:

@@ -33,8 +33,9 @@ std::map<double, CObservationDetections> detectionsIn(const fs::path& rawlog) {
   std::map<double, CObservationDetections> out;
   RawlogReader reader(rawlog);
   while (const auto record = reader.next())
-    if (const auto* detections = std::get_if<std::shared_ptr<CObservationDetections>>(&*record))
+    if (const auto* detections = std::get_if<std::shared_ptr<CObservationDetections>>(&*record)) {
       EXPECT_TRUE(out.emplace(timeOf(*record), **detections).second) << "two records at one time";
+    }
   EXPECT_EQ(reader.statistics().warning, "");
   return out;
 }
