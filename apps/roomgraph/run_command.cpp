@@ -13,8 +13,10 @@
 #include "commands.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/run_output.h"
+#include "roomgraph/rendering/debug_picture.h"
 #include "roomgraph/rendering/snapshot.h"
 #include "shared_files.h"
 
@@ -24,7 +26,7 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
 struct RunOptions {
-  std::string input, output, config;
+  std::string input, output, config, recording, pictures;
   std::vector<std::string> overrides;
   int threads = 0;
   double from_s = 0, until_s = 0;
@@ -77,8 +79,29 @@ Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sor
   return done;
 }
 
+// Sinks that the command line asks for, besides the run's own files.
+struct ExtraSinks {
+  std::shared_ptr<DetectionRecording> recording;
+  std::shared_ptr<DebugPictures> pictures;
+};
+
+ExtraSinks addSinks(const RunOptions& options, Stages& stages) {
+  ExtraSinks sinks;
+  if (!options.recording.empty()) {
+    if (!stages.detector)
+      throw ConfigError("--record-detections needs a detector; [detection] enabled is false");
+    sinks.recording =
+        std::make_shared<DetectionRecording>(options.input, options.recording, *stages.detector);
+  }
+  if (!options.pictures.empty()) {
+    stages.proposal_generator->keepTraces(true);
+    sinks.pictures = std::make_shared<DebugPictures>(options.pictures, stages.database);
+  }
+  return sinks;
+}
+
 void printSummary(const RunOptions& options, const Replay& replayed, const SlamResult& result,
-                  double seconds) {
+                  const std::string& detector_warning, double seconds) {
   const auto& counts = result.counts;
   const double span = replayed.last_t - replayed.first_t;
   std::cout << counts.frames << " frames (" << counts.frames_lost << " not tracked), " << counts.scans
@@ -89,7 +112,8 @@ void printSummary(const RunOptions& options, const Replay& replayed, const SlamR
   for (const auto& [reason, count] : counts.reasons) std::cout << "  " << count << " x " << reason << "\n";
   for (const auto& [reason, count] : replayed.read.skipped)
     std::cout << "  skipped " << count << " x " << reason << "\n";
-  if (!replayed.read.warning.empty()) std::cerr << "roomgraph: warning: " << replayed.read.warning << "\n";
+  for (const std::string& warning : {replayed.read.warning, detector_warning})
+    if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
   if (replayed.stopped) std::cerr << "roomgraph: interrupted; the results cover what was replayed\n";
   std::cout << "results in " << options.output << "\n";
 }
@@ -109,14 +133,18 @@ void run(const RunOptions& options) {
   RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
                                       stages->lidar.enabled, stages->odometry.enabled});
   RecordSorter sorter(stages->general.lookahead_s);
-  SemanticSlam slam(std::move(stages));
   auto output = std::make_shared<RunOutput>(options.output);
+  const ExtraSinks extra = addSinks(options, *stages);
+  SemanticSlam slam(std::move(stages));
   slam.addSink(output);
+  if (extra.recording) slam.addSink(extra.recording);
+  if (extra.pictures) slam.addSink(extra.pictures);
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
 
   const auto started = std::chrono::steady_clock::now();
   const Replay replayed = replay(options, reader, sorter, slam);
+  if (extra.recording) extra.recording->finish();
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -129,7 +157,8 @@ void run(const RunOptions& options) {
                      ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
   if (!options.no_snapshot)
     renderSnapshot(result.map, database, {.title = result.map.origin}, output->folder() / "snapshot.png");
-  printSummary(options, replayed, result, seconds);
+  const auto& detector = slam.stages().detector;
+  printSummary(options, replayed, result, detector ? detector->warning() : "", seconds);
 }
 
 }  // namespace
@@ -148,6 +177,11 @@ void addRunCommand(CLI::App& app) {
   command
       ->add_option("--until", options->until_s, "stop this many seconds after the first record; 0: the end")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--record-detections", options->recording,
+                      "also write this rawlog: the input with what the detector found; to be replayed with "
+                      "--set detection.class=RecordedDetector");
+  command->add_option("--debug-images", options->pictures,
+                      "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command->add_flag("--quiet", options->quiet, "no progress");
   command->add_flag("--no-snapshot", options->no_snapshot, "do not render snapshot.png");
   command->footer(
@@ -155,6 +189,12 @@ void addRunCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab\n"
       "  roomgraph run lab.rawlog -o out/lidar --set tracking.enabled=false --set detection.enabled=false\n"
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m_1.5x-416.onnx\n"
+      "  roomgraph run lab.rawlog -o out/fast --set detection.models=nanodet-plus-m_1.5x-416.onnx \\\n"
+      "      --set detection.every_nth_frame=3 --debug-images out/fast/pictures\n"
+      "Run the network once, then as often as you like without it:\n"
+      "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m_1.5x-416.onnx \\\n"
+      "      --record-detections lab_boxes.rawlog\n"
+      "  roomgraph run lab_boxes.rawlog -o out/again --set detection.class=RecordedDetector\n"
       "Ctrl-C ends the replay; the results then cover what was replayed.");
   command->callback([options] { run(*options); });
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "roomgraph/core/class_registry.h"
@@ -28,9 +29,13 @@ const ObjectDatabase& database() {
   return db;
 }
 
-fs::path modelFolder() {
+fs::path dataFolder() {
   const char* env = std::getenv("ROOMGRAPH_DATA");
-  return (env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data") / "models";
+  return env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+fs::path modelFolder() {
+  return dataFolder() / "models";
 }
 
 class DnnDetectorTest : public ::testing::Test {
@@ -74,7 +79,8 @@ TEST_F(DnnDetectorTest, WithoutNetworkTheReasonNamesSuitableOnes) {
   prepare("");
   const auto found = detector_.detect(frame(0));
   ASSERT_FALSE(found);
-  EXPECT_THAT(found.reason(), AllOf(HasSubstr("[detection] models"), HasSubstr("NanoDet-Plus-m-1.5x")));
+  EXPECT_THAT(found.reason(), AllOf(HasSubstr("[detection] models"), HasSubstr("NanoDet-Plus-m-1.5x"),
+                                    HasSubstr("github.com/")));
 }
 
 TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
@@ -119,6 +125,50 @@ TEST_F(DnnDetectorTest, KnownNetworksRun) {
     gray.color.release();
     EXPECT_THAT(detector_.detect(gray).reason(), HasSubstr("no colour image"));
   }
+}
+
+bool sameBoxes(const std::vector<Detection>& a, const std::vector<Detection>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Detection& x, const Detection& y) {
+    return x.box == y.box && x.score == y.score && x.class_name == y.class_name && x.label == y.label;
+  });
+}
+
+// A real photo with two chairs: boxes of several networks are merged, and the labels that count are those of
+// the object database.
+TEST_F(DnnDetectorTest, SeveralNetworksAndTheLabelsOfTheDatabase) {
+  const fs::path photo = dataFolder() / "rgbd/fr3_office_10hz/rgb/1341847980.722988.jpg";
+  const std::string nanodet = (modelFolder() / "nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-416.onnx").string();
+  const std::string yolox = (modelFolder() / "yolox-nano/yolox_nano.onnx").string();
+  if (!fs::exists(photo) || !fs::exists(nanodet) || !fs::exists(yolox))
+    GTEST_SKIP() << "no " << photo << " or networks in " << modelFolder();
+  Frame seen = frame(0);
+  seen.color = cv::imread(photo.string());
+  const auto found = [&](const std::string& models) {
+    prepare("models = " + models);
+    const auto out = detector_.detect(seen);
+    EXPECT_TRUE(out) << out.reason();
+    return *out;
+  };
+  const auto one = found(nanodet), other = found(yolox), both = found(nanodet + ", " + yolox);
+  EXPECT_THAT(detector_.identity().model, "nanodet-plus-m_1.5x-416+yolox_nano");
+  ASSERT_GE(one.size(), 2u);
+  EXPECT_TRUE(sameBoxes(found(nanodet + ", " + nanodet), one)) << "the same box twice is one";
+  for (const auto& box : both) {
+    EXPECT_EQ(box.class_name, "swivel_chair");
+    EXPECT_EQ(box.label, "chair");
+  }
+  // Every box of either network is there, or one that overlaps it much and is better.
+  for (const auto* single : {&one, &other})
+    for (const auto& box : *single)
+      EXPECT_TRUE(std::any_of(both.begin(), both.end(), [&](const Detection& kept) {
+        return iou(kept.box, box.box) > 0.5 && kept.score >= box.score;
+      }));
+  const auto flasks = ObjectDatabase::fromText("[flask]\nlabels = Bottle, jar\nshape = cylinder\n");
+  detector_.setDatabase(flasks);
+  const auto renamed = detector_.detect(seen);
+  ASSERT_TRUE(renamed);
+  ASSERT_FALSE(renamed->empty()) << "the bottles on the desk";
+  for (const auto& box : *renamed) EXPECT_EQ(box.class_name + " " + box.label, "flask bottle");
 }
 
 TEST_F(DnnDetectorTest, AWrongFormatIsRefused) {

@@ -43,7 +43,7 @@ CObservationDetections detections() {
   out.model_hash = "abc123";
   out.score_threshold = 0.25f;
   out.nms_threshold = 0.5f;
-  out.items = {{"chair", 0.75f, 1, 2, 30.5f, 40, 7}, {"door", 0.5f, -3, 0, 10, 20, -1}};
+  out.items = {{"chair", 0.75, 1, 2, 30.5, 40, 7}, {"door", 0.1, -3, 0, 1 / 3.0, 20, -1, {3, 2, {1, 5}}}};
   return out;
 }
 
@@ -129,7 +129,35 @@ TEST(Serialization, DetectionsKeepEveryField) {
   ASSERT_EQ(back->items.size(), 2u);
   EXPECT_EQ(back->items[0].track, 7);
   EXPECT_EQ(back->items[1].u_min, -3);
+  EXPECT_EQ(back->items[1].u_max, 1 / 3.0) << "bit by bit";
+  EXPECT_EQ(back->items[1].score, 0.1);
+  EXPECT_TRUE(back->items[0].mask.runs.empty());
+  EXPECT_EQ(back->items[1].mask.width, 3u);
+  EXPECT_EQ(back->items[1].mask.runs, original.items[1].mask.runs);
   EXPECT_THAT(describe(*back), ::testing::HasSubstr("chair 0.75 [1, 2, 30.5, 40] track 7"));
+}
+
+// As it was written before boxes had 64 bits and masks.
+TEST(Serialization, DetectionsOfVersion0AreRead) {
+  const auto original = detections();
+  mrpt::poses::CPose3D pose;
+  original.getSensorPose(pose);
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << original.timestamp << original.sensorLabel << pose << original.image_label
+          << original.image_width << original.image_height << original.model << original.model_hash
+          << original.score_threshold << original.nms_threshold;
+  archive.WriteAs<std::uint32_t>(1);
+  archive << std::string("chair") << 0.75f << 1.f << 2.f << 30.5f << 40.f << std::int64_t{7};
+  stream.Seek(0);
+  struct Opened : CObservationDetections {
+    using CObservationDetections::serializeFrom;
+  } back;
+  back.serializeFrom(archive, 0);
+  EXPECT_EQ(stream.getPosition(), stream.getTotalBytesCount());
+  ASSERT_EQ(back.items.size(), 1u);
+  EXPECT_THAT(describe(back), ::testing::HasSubstr("chair 0.75 [1, 2, 30.5, 40] track 7"));
+  EXPECT_EQ(back.model_hash, "abc123");
 }
 
 TEST(Serialization, MapKeepsItsCells) {

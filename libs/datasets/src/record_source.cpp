@@ -150,6 +150,12 @@ std::optional<RecordSource::Item> RecordSource::stepOver(Item item) {
   return std::nullopt;
 }
 
+std::string RecordSource::bytesSince(std::uint64_t offset) {
+  const auto count = static_cast<std::size_t>(stream_.position() - offset);
+  const std::uint8_t* bytes = stream_.peek(offset, count);
+  return bytes ? std::string(reinterpret_cast<const char*>(bytes), count) : "";
+}
+
 std::optional<RecordSource::Item> RecordSource::next() {
   if (!truncation_.empty()) return std::nullopt;
   stream_.mark();

@@ -31,6 +31,9 @@ class RecordSource {
   /// Nothing at the end of the file; truncation() then says whether the end came too early.
   std::optional<Item> next();
 
+  /// The bytes from an offset up to the end of the item that next() gave last, which must have an object.
+  std::string bytesSince(std::uint64_t offset);
+
   const std::string& truncation() const { return truncation_; }
   double progress() const;
 

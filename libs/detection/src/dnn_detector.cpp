@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 #include "network.h"
+#include "roomgraph/core/suggest.h"
+#include "roomgraph/detection/detection_record.h"
 
 namespace roomgraph {
 
@@ -27,6 +30,14 @@ std::vector<int> classOfLabel(const Network& network, const ObjectDatabase& data
   }
   return classes;
 }
+
+// What to do without a network; everything but objects works all the same.
+const char* const kNoNetwork =
+    "no network, so no objects: name a weights file, with labels.txt beside it, as [detection] models "
+    "(--set detection.models=FILE); suitable: NanoDet-Plus-m-1.5x (github.com/RangiLyu/nanodet), YOLOX-Nano "
+    "(github.com/Megvii-BaseDetection/YOLOX), Yolo-Fastest-1.1-xl (github.com/dog-qiuqiu/Yolo-Fastest); for "
+    "doors "
+    "DeepLabV3-MobileNetV2 trained on ADE20K (github.com/mlcommons/mobile_models)";
 
 cv::Mat maskOver(const Box2& box, const cv::Mat& cells) {
   cv::Mat mask;
@@ -65,20 +76,25 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
 
 void DnnDetector::prepare() {
   networks_.clear();
+  std::vector<std::string> names, hashes;
   for (const std::string& text : models_) {
     NetworkSpec spec = parseNetworkSpec(text);
     spec.labels_file = labels_file_;
     spec.input_size_px = input_size_px_;
     networks_.push_back(std::make_shared<Network>(spec));
+    names.push_back(std::filesystem::path(spec.file).stem().string());
+    hashes.push_back(fileHash(spec.file));
   }
+  identity_ = {join(names, "+"), join(hashes, "+"), score_threshold_, nms_threshold_};
+}
+
+DetectorIdentity DnnDetector::identity() const {
+  return identity_;
 }
 
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
-  if (networks_.empty() || !database_)
-    return Result::failure(
-        "no network: set [detection] models; suitable: NanoDet-Plus-m-1.5x, YOLOX-Nano, "
-        "Yolo-Fastest-1.1-xl, and DeepLabV3-MobileNetV2 (ADE20K) for doors");
+  if (networks_.empty() || !database_) return Result::failure(kNoNetwork);
   if (frame.id.valid() && frame.id.value % every_nth_frame_ != 0)
     return Result::failure("the networks run once in " + std::to_string(every_nth_frame_) + " frames");
   if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <sstream>
+
+#include "roomgraph/detection/detection_record.h"
 
 namespace roomgraph {
 
@@ -24,20 +27,25 @@ void RecordedDetector::declareParameters(ParameterVisitor& v) {
 
 void RecordedDetector::prepare() {
   records_.clear();
-  if (!file_.empty()) records_ = readDetectionFile(file_);
+  warning_.clear();
+  identity_ = {"", "", score_threshold_, 0};
+  if (file_.empty()) return;
+  records_ = readDetectionFile(file_);
+  identity_.model = std::filesystem::path(file_).filename().string();
+  identity_.hash = fileHash(file_);
 }
 
 void RecordedDetector::feed(const CObservationDetections& recorded) {
-  RecordedBoxes record;
-  record.image_label = recorded.image_label;
-  for (const auto& item : recorded.items)
-    record.boxes.push_back({{item.u_min, item.v_min, item.u_max, item.v_max},
-                            "",
-                            item.label,
-                            item.score,
-                            {},
-                            TrackId{item.track}});
-  records_.emplace(mrpt::Clock::toDouble(recorded.timestamp), record);
+  records_.emplace(mrpt::Clock::toDouble(recorded.timestamp),
+                   RecordedBoxes{recorded.image_label, detectionsOf(recorded)});
+  const double recorded_threshold = static_cast<double>(recorded.score_threshold);
+  identity_ = {recorded.model, recorded.model_hash, std::max(score_threshold_, recorded_threshold),
+               static_cast<double>(recorded.nms_threshold)};
+  if (recorded_threshold <= score_threshold_ + 1e-6 || !warning_.empty()) return;
+  std::ostringstream text;
+  text << "the recorded detections (" << recorded.model << ") hold no score below " << recorded_threshold
+       << "; [detection] score_threshold = " << score_threshold_ << " asks for more: run the network again";
+  warning_ = text.str();
 }
 
 const RecordedBoxes* RecordedDetector::nearest(const Frame& frame, double& distance_s) const {

@@ -3,6 +3,7 @@
 #include "roomgraph/observations/CObservationDetections.h"
 
 #include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/stl_serialization.h>
 
 #include <ostream>
 
@@ -10,25 +11,43 @@ namespace roomgraph {
 
 IMPLEMENTS_SERIALIZABLE(CObservationDetections, mrpt::obs::CObservation, roomgraph)
 
+namespace {
+
+// Version 0 had 32-bit boxes and no masks.
+template <class Number>
+void readItem(mrpt::serialization::CArchive& in, CObservationDetections::Item& item) {
+  in >> item.label;
+  for (double* value : {&item.score, &item.u_min, &item.v_min, &item.u_max, &item.v_max})
+    *value = static_cast<double>(in.ReadAs<Number>());
+  in >> item.track;
+}
+
+}  // namespace
+
 std::uint8_t CObservationDetections::serializeGetVersion() const {
-  return 0;
+  return 1;
 }
 
 void CObservationDetections::serializeTo(mrpt::serialization::CArchive& out) const {
   out << timestamp << sensorLabel << sensor_pose_ << image_label << image_width << image_height << model
       << model_hash << score_threshold << nms_threshold;
   out.WriteAs<std::uint32_t>(items.size());
-  for (const auto& item : items)
+  for (const auto& item : items) {
     out << item.label << item.score << item.u_min << item.v_min << item.u_max << item.v_max << item.track;
+    out << item.mask.width << item.mask.height << item.mask.runs;
+  }
 }
 
 void CObservationDetections::serializeFrom(mrpt::serialization::CArchive& in, std::uint8_t version) {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> timestamp >> sensorLabel >> sensor_pose_ >> image_label >> image_width >> image_height >> model >>
       model_hash >> score_threshold >> nms_threshold;
   items.resize(in.ReadAs<std::uint32_t>());
-  for (auto& item : items)
-    in >> item.label >> item.score >> item.u_min >> item.v_min >> item.u_max >> item.v_max >> item.track;
+  for (auto& item : items) {
+    version == 0 ? readItem<float>(in, item) : readItem<double>(in, item);
+    item.mask = {};
+    if (version > 0) in >> item.mask.width >> item.mask.height >> item.mask.runs;
+  }
 }
 
 void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
@@ -38,7 +57,7 @@ void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
       << ", NMS " << nms_threshold << ": " << items.size() << " boxes\n";
   for (const auto& item : items)
     out << "  " << item.label << " " << item.score << " [" << item.u_min << ", " << item.v_min << ", "
-        << item.u_max << ", " << item.v_max << "]"
+        << item.u_max << ", " << item.v_max << "]" << (item.mask.runs.empty() ? "" : " with mask")
         << (item.track < 0 ? "" : " track " + std::to_string(item.track)) << "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "roomgraph/association/reassociation.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/pipeline/visibility.h"
 
@@ -68,7 +69,6 @@ std::vector<ObjectDecision> ObjectMapper::observe(const FrameProposals& seen, co
     decision.seen.measurement.detection.mask = cv::Mat();  // large, and not needed any more
     decisions.push_back(std::move(decision));
   }
-  missUnseen(decisions, seen.detections, frame);
   if (decisions.empty()) return decisions;
   frames_.push_back({frame.id, frame.t, frame.camera, frame.robot_from_camera, decisions,
                      featuresOnObjects(decisions, features)});
@@ -101,16 +101,58 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   for (const auto id : missed) landmarks().miss(id);
 }
 
-void ObjectMapper::mergeDuplicates() {
+void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
+  for (const Landmark& landmark : std::vector<Landmark>(landmarks().landmarks())) {
+    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot);
+    if (rays.inside > 0) {
+      landmarks().supported(landmark.id, rays.inside);
+    } else if (rays.through > 0) {
+      landmarks().seenThrough(landmark.id, rays.through);
+    }
+  }
+}
+
+void ObjectMapper::tidy() {
+  landmarks().splitMixed();
   const auto merged = landmarks().mergeDuplicates();
   for (const auto& [removed, kept] : merged) {
     stages_.associator->merged(removed, kept);
     for (auto& frame : frames_)
       for (auto& decision : frame.decisions) rename(decision, removed, kept);
   }
-  if (merged.empty()) return;
-  spans_.clear();
-  for (const auto& frame : frames_) span(frame);
+  if (!merged.empty()) respan();
+}
+
+std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() const {
+  std::vector<std::vector<WorldMeasurement>> out;
+  for (const auto& frame : frames_) {
+    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+    out.emplace_back();
+    for (const auto& decision : frame.decisions)
+      out.back().push_back(
+          toWorld(decision.seen.measurement, world_from_camera, stages_.backend.pose_sigma_m));
+  }
+  return out;
+}
+
+bool ObjectMapper::reassociate() {
+  const AssociationModel* model = stages_.associator->model();
+  if (!model || frames_.empty()) return false;
+  const auto by_frame = measurementsInWorld();
+  const Reassociation result =
+      roomgraph::reassociate(by_frame, landmarks().landmarks(), *model, landmarks().duplicates());
+  landmarks().adopt(by_frame, result);
+  bool changed = false;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
+      ObjectDecision& decision = frames_[f].decisions[k];
+      const BatchDecision& now = result.decisions[f][k];
+      changed |= decision.landmark != now.landmark;
+      decision = {by_frame[f][k], now.association, now.landmark};
+    }
+  }
+  respan();
+  return changed;
 }
 
 void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
@@ -120,6 +162,11 @@ void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
     const Pose3 moved = new_from_old * landmark->worldFromObject();
     landmarks().correct(id, moved.translation(), planarPart(moved).yaw, landmark->covariance);
   }
+}
+
+void ObjectMapper::respan() {
+  spans_.clear();
+  for (const auto& frame : frames_) span(frame);
 }
 
 void ObjectMapper::span(const ObjectFrame& frame) {

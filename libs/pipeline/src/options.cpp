@@ -44,6 +44,7 @@ void OdometryOptions::declareParameters(ParameterVisitor& v) {
 void ObjectOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "detect and map objects"});
   v.add("class", detector, {.doc = "implementation of Detector"});
+  tracker.declareParameters(v);
 }
 
 void StageChoice::declareParameters(ParameterVisitor& v) {

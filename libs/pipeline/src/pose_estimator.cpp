@@ -89,7 +89,7 @@ bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
   if (poses_.empty()) return true;
   nodes_since_optimization_ = 0;
   surprised_ = false;
-  objects.mergeDuplicates();
+  objects.tidy();
   measurements_.objects = objects.factors();
   LandmarkMap& landmarks = objects.landmarks();
   graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);

@@ -29,9 +29,11 @@ void writeStamped(std::ostream& out, double t, const Pose3& pose) {
 
 ordered_json detectionsJson(const StepReport& report) {
   ordered_json line{{"timestamp", report.t}, {"boxes", ordered_json::array()}};
-  for (const auto& detection : report.detections)
+  for (const auto& detection : report.detections) {
     line["boxes"].push_back(
         {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
+    if (detection.carried) line["boxes"].back()["carried"] = true;
+  }
   return line;
 }
 
@@ -117,7 +119,7 @@ std::ofstream RunOutput::open(const std::string& name) const {
 void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   writeStamped(live_, report.t, report.world_from_robot);
-  if (report.detector_ran) detections_ << detectionsJson(report) << '\n';
+  if (report.detector_ran || report.boxes_carried) detections_ << detectionsJson(report) << '\n';
   if (!report.decisions.empty()) associations_ << associationsJson(report.t, report.decisions) << '\n';
 }
 

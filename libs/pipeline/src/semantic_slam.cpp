@@ -15,6 +15,8 @@ namespace {
 using Timing = mrpt::system::CTimeLoggerEntry;
 
 constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
+constexpr double kMovementHorizon_s = 0.15;
+constexpr int kMaxDescents = 5;
 constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 
 // A sensor on a robot has a place on it; a handheld camera has none.
@@ -28,6 +30,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
     : stages_(std::move(stages)),
       timer_(std::make_unique<mrpt::system::CTimeLogger>(true, "", false)),
       front_ends_(*stages_),
+      box_tracker_(stages_->detection.tracker, stages_->database),
       estimator_(stages_->backend, front_ends_.motion()),
       objects_(*stages_, estimator_.poses()),
       object_loops_(stages_->object_loops),
@@ -44,7 +47,7 @@ void SemanticSlam::process(const Record& record) {
 }
 
 StepReport SemanticSlam::step(const Frame& frame) {
-  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id};
+  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id, .image = &frame};
   if (!inOrder(frame.t, last_frame_t_, "frames")) return {};
   ++counts_.frames;
   robot_from_camera_ = frame.robot_from_camera;
@@ -59,6 +62,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   robot_times_.push_back(frame.t);
   camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
   report.world_from_robot = estimator_.poses().at(frame.t);
+  report.seen = &seen_;
   return report;
 }
 
@@ -81,6 +85,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   }
   stages_->mapper.add(clean);
   localize(scan.t);
+  objects_.observe(clean, estimator_.poses().at(scan.t));
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
@@ -120,18 +125,30 @@ std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& repo
   if (!stages_->detector) return {};
   const Timing timing(*timer_, "detection");
   const auto found = stages_->detector->detect(frame);
-  if (!found) {
+  report.detector_ran = found.ok();
+  if (found) {
+    box_tracker_.start(*found, frame);
+    report.detections = *found;
+  } else {
     ++counts_.reasons["detection: " + found.reason()];
-    return {};
+    report.detections = box_tracker_.advance(frame, cameraMovement(frame));
+    report.boxes_carried = box_tracker_.active();
+    if (!report.boxes_carried) return {};
   }
-  report.detector_ran = true;
-  report.detections = *found;
   people_.clear();
-  for (const auto& detection : *found) {
+  for (const auto& detection : report.detections) {
     const auto* model = stages_->database.find(detection.class_name);
     if (model && !model->landmark) people_.push_back(detection.box);
   }
-  return *found;
+  return report.detections;
+}
+
+// Since the frame that the box tracker saw last, as far as it is known before this frame is tracked.
+std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
+  if (!box_tracker_.active()) return std::nullopt;
+  const auto moved = front_ends_.motion().movement(box_tracker_.lastTime(), frame.t, kMovementHorizon_s);
+  if (!moved) return std::nullopt;
+  return frame.robot_from_camera.inverse() * *moved * frame.robot_from_camera;
 }
 
 void SemanticSlam::track(const Frame& frame, StepReport& report) {
@@ -199,9 +216,10 @@ void SemanticSlam::level(const Frame& frame) {
 }
 
 void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
-  if (!report.detector_ran || !seen_.ground) return;
+  if (!(report.detector_ran || report.boxes_carried) || !seen_.ground) return;
   const Timing timing(*timer_, "selection and association");
   report.decisions = objects_.observe(seen_, frame, features_);
+  if (report.detector_ran) objects_.missUnseen(report.decisions, report.detections, frame);
 }
 
 // Returns inside the wedge of a person's box, at the person's depth (sec. 5).
@@ -229,6 +247,9 @@ SlamResult SemanticSlam::finish() {
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
   }
   estimator_.optimizeAll(objects_);
+  // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
+  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round)
+    estimator_.optimizeAll(objects_);
   return collect();
 }
 

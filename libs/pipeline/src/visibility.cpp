@@ -2,12 +2,15 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/visibility.h"
 
+#include <cmath>
+
 #include "roomgraph/geometry/projection.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
+constexpr double kMiddle = 0.5;  // share of the footprint's smaller half that the covariance cannot reach
 constexpr double kSamePlace =
     0.3;  // IoU with a detection, of whatever label, that says that something is there
 
@@ -41,6 +44,33 @@ bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& wor
     if (iou(detection.box, shape->visible) > kSamePlace) return false;
   const double margin = 0.3 + std::max(landmark.shape.width, landmark.shape.depth) / 2;
   return hiddenShare(frame, shape->visible, distance, margin) < kMaxHidden;
+}
+
+RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot) {
+  RayEvidence out;
+  const Pose3 object_from_lidar =
+      landmark.worldFromObject().inverse() * world_from_robot * scan.robot_from_lidar;
+  const Eigen::Vector3d origin = object_from_lidar.translation();
+  const double reach = std::hypot(landmark.shape.width, landmark.shape.depth) / 2,
+               away = origin.head<2>().norm();
+  if (origin.z() > landmark.shape.height || away > scan.max_range_m || away < reach) return out;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (!scan.valid[i]) continue;
+    const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad,
+                 range = scan.ranges_m[i];
+    const Eigen::Vector3d beam =
+        object_from_lidar.linear() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    const double nearest = -origin.head<2>().dot(beam.head<2>());  // of the beam to the object's middle
+    if (nearest < 0 || range < away - reach) continue;
+    const Eigen::Vector3d end = origin + range * beam;
+    if (distanceOutside(landmark.shape, end)[0] <= 0) {
+      ++out.inside;
+    } else if (landmark.shape.kind == ShapeKind::kCuboid && range > away + reach) {
+      const double beside = (origin + nearest * beam).head<2>().norm();
+      out.through += beside < kMiddle * std::min(landmark.shape.width, landmark.shape.depth) / 2;
+    }
+  }
+  return out;
 }
 
 }  // namespace roomgraph

@@ -30,9 +30,9 @@ float scoreOf(double visible, Random& random) {
 }
 
 void clip(CObservationDetections::Item& item, const PinholeCamera& camera) {
-  const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-  item.u_min = std::clamp(item.u_min, 0.f, width - 2);
-  item.v_min = std::clamp(item.v_min, 0.f, height - 2);
+  const double width = camera.width, height = camera.height;
+  item.u_min = std::clamp(item.u_min, 0.0, width - 2);
+  item.v_min = std::clamp(item.v_min, 0.0, height - 2);
   item.u_max = std::clamp(item.u_max, item.u_min + 1, width);
   item.v_max = std::clamp(item.v_max, item.v_min + 1, height);
 }

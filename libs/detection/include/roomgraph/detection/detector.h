@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "roomgraph/core/outcome.h"
@@ -12,6 +13,13 @@
 #include "roomgraph/observations/object_database.h"
 
 namespace roomgraph {
+
+/// Who made detections: enough to tell whether recorded ones may be used again.
+struct DetectorIdentity {
+  std::string model;  ///< names of the networks, joined by "+"; or what made the recording
+  std::string hash;   ///< of the weights files (fileHash(), joined by "+"); empty when there are none
+  double score_threshold = 0, nms_threshold = 0;
+};
 
 /// Frame in, detections out (method.md sec. 1.1).
 class Detector : public Stage {
@@ -24,6 +32,9 @@ class Detector : public Stage {
   /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
   /// ("every 4th frame only", "no record at this time").
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
+  virtual DetectorIdentity identity() const { return {}; }
+  /// What the user should know about the detections of this run; empty when there is nothing.
+  virtual std::string warning() const { return {}; }
 };
 
 }  // namespace roomgraph

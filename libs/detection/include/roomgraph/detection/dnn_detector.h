@@ -21,6 +21,7 @@ class DnnDetector : public Detector {
   /// Loads the networks. Throws InputError with the file and the cause.
   void prepare() override;
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  DetectorIdentity identity() const override;
 
  private:
   std::vector<std::string> models_;
@@ -34,6 +35,7 @@ class DnnDetector : public Detector {
 
   const ObjectDatabase* database_ = nullptr;
   std::vector<std::shared_ptr<Network>> networks_;
+  DetectorIdentity identity_;
 };
 
 }  // namespace roomgraph

@@ -34,6 +34,10 @@ class RecordedDetector : public Detector {
   /// The records nearest in time to the frame (and of its camera), when within the tolerance. Records that
   /// stand after the frame in the rawlog are found when they have been fed before this call.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  /// Of the records read last: the file's name and hash, or what stands in the rawlog.
+  DetectorIdentity identity() const override { return identity_; }
+  /// When records were made with a stricter threshold than the configured one.
+  std::string warning() const override { return warning_; }
 
  private:
   const RecordedBoxes* nearest(const Frame& frame, double& distance_s) const;
@@ -44,6 +48,8 @@ class RecordedDetector : public Detector {
 
   const ObjectDatabase* database_ = nullptr;
   DetectionRecords records_;
+  DetectorIdentity identity_;
+  std::string warning_;
 };
 
 }  // namespace roomgraph

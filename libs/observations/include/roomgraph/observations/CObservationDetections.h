@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/observations/mask_runs.h"
+
 namespace roomgraph {
 
 /// Boxes of a 2D object detector for one image, as a record of a rawlog. Refers to the image by time stamp
@@ -16,9 +18,10 @@ class CObservationDetections : public mrpt::obs::CObservation {
  public:
   struct Item {
     std::string label;
-    float score = 0;
-    float u_min = 0, v_min = 0, u_max = 0, v_max = 0;  ///< px
-    std::int64_t track = -1;                           ///< id given by the source, -1: none
+    double score = 0;
+    double u_min = 0, v_min = 0, u_max = 0, v_max = 0;  ///< px
+    std::int64_t track = -1;                            ///< id given by the source, -1: none
+    MaskRuns mask{};                                    ///< over the box, or empty
   };
   std::string image_label;  ///< sensorLabel of the camera
   std::uint32_t image_width = 0, image_height = 0;

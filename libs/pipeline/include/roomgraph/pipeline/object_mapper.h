@@ -28,8 +28,19 @@ class ObjectMapper {
   std::vector<ObjectDecision> observe(const FrameProposals& seen, const Frame& frame,
                                       const std::vector<FeatureTrack>& features);
 
-  /// Joins landmarks that turned out to be one object, in the memory too.
-  void mergeDuplicates();
+  /// Lowers the existence of landmarks in good view where the detector, on this frame, found nothing.
+  void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
+                  const Frame& frame);
+
+  /// What a scan says of the landmarks it crosses.
+  void observe(const Scan& scan, const Pose3& world_from_robot);
+
+  /// Joins landmarks that turned out to be one object, in the memory too; parts those that are two.
+  void tidy();
+
+  /// E-step over everything measured so far, with the poses as they are now (method.md sec. 4); whether a
+  /// decision changed. Does nothing with an associator whose decisions are final.
+  bool reassociate();
 
   /// Moves the landmarks that were first seen at that time or later.
   void moveSince(double t, const Pose3& new_from_old);
@@ -46,11 +57,11 @@ class ObjectMapper {
  private:
   std::vector<WorldMeasurement> select(const FrameProposals& seen, const Frame& frame,
                                        const std::vector<FeatureTrack>& features) const;
-  void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
-                  const Frame& frame);
 
   Stages& stages_;
   const KeyPoses& poses_;
+  std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
+  void respan();
   void span(const ObjectFrame& frame);
   std::vector<ObjectFrame> frames_;
   std::map<LandmarkId, SeenSpan> spans_;

@@ -7,6 +7,7 @@
 
 #include "roomgraph/association/constellation.h"
 #include "roomgraph/core/parameters.h"
+#include "roomgraph/detection/box_tracker.h"
 
 namespace roomgraph {
 
@@ -53,6 +54,7 @@ struct OdometryOptions : Configurable {
 struct ObjectOptions : Configurable {
   bool enabled = true;
   std::string detector = "DnnDetector";
+  BoxTrackerOptions tracker;
   void declareParameters(ParameterVisitor& v) override;
 };
 

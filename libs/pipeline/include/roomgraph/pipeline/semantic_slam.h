@@ -68,6 +68,7 @@ class SemanticSlam {
 
   bool inOrder(double t, double& last, const std::string& source);
   std::vector<Detection> detect(const Frame& frame, StepReport& report);
+  std::optional<Pose3> cameraMovement(const Frame& frame) const;
   void track(const Frame& frame, StepReport& report);
   void localize(double t);
   void propose(const Frame& frame, const std::vector<Detection>& detections);
@@ -81,6 +82,7 @@ class SemanticSlam {
   std::unique_ptr<mrpt::system::CTimeLogger> timer_;
 
   FrontEnds front_ends_;     ///< trajectories of the sources
+  BoxTracker box_tracker_;   ///< boxes of the last detection, on the frames after it
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
   ObjectLoopCloser object_loops_;

@@ -8,6 +8,7 @@
 
 #include "roomgraph/association/associator.h"
 #include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
 
@@ -26,9 +27,12 @@ struct StepReport {
   FrameId frame;                               ///< frames only
   Pose3 world_from_robot = Pose3::Identity();  ///< as known now, without hindsight
   bool detector_ran = false;
-  std::vector<Detection> detections;
+  bool boxes_carried = false;         ///< it did not: `detections` were tracked from the frames before
+  std::vector<Detection> detections;  ///< what the detector found, or what was carried
   std::vector<ObjectDecision> decisions;
-  std::string note;  ///< "lost: too few inliers", …; empty when all is well
+  std::string note;                      ///< "lost: too few inliers", …; empty when all is well
+  const Frame* image = nullptr;          ///< frames only; valid during Sink::onStep()
+  const FrameProposals* seen = nullptr;  ///< frames only; valid during Sink::onStep()
 };
 
 /// Whoever watches a run. The pipeline never knows who.

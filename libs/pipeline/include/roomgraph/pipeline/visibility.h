@@ -7,6 +7,7 @@
 #include "roomgraph/observations/detection.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
 
@@ -15,5 +16,15 @@ namespace roomgraph {
 /// where it stands (one with another label is a confusion, not a miss).
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
+
+/// Beams of a scan that speak for or against a landmark.
+struct RayEvidence {
+  int inside = 0;   ///< ended in its footprint
+  int through = 0;  ///< passed through the middle of it and ended behind
+};
+
+/// Only cuboids are solid at the height of a scan: beams pass between the legs of a chair and through an open
+/// door, so that these count beams inside only.
+RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot);
 
 }  // namespace roomgraph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <vector>
+
+#include "roomgraph/core/parameters.h"
+#include "roomgraph/geometry/pose.h"
+#include "roomgraph/observations/detection.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph {
+
+/// Keys of [detection] that concern frames on which the detector did not run.
+struct BoxTrackerOptions : Configurable {
+  bool enabled = true;
+  int max_carried_frames = 5;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// Carries the boxes of the last detection through the frames on which the detector does not run.
+///
+/// Corners on the object (by depth, where there is depth) are followed by pyramidal Lucas-Kanade with a
+/// forward-backward check; the median of their distance ratios is the box's scale, the median of what is left
+/// its shift (Kalal et al., "Forward-Backward Error", ICPR 2010). Corners are compared with where they were
+/// when they were chosen, so that rounding does not add up from frame to frame. A box of a class that does
+/// not move by itself, with too few corners, goes where the camera's movement and its depth put it, as long
+/// as the depth image agrees. What has neither support, or has left the image, ends.
+class BoxTracker {
+ public:
+  /// The database outlives the tracker; it says which classes move by themselves (landmark = false).
+  BoxTracker(const BoxTrackerOptions& options, const ObjectDatabase& database)
+      : options_(options), database_(&database) {}
+
+  /// The detector ran on this frame: forgets everything before.
+  void start(const std::vector<Detection>& detections, const Frame& frame);
+  /// The boxes in the next frame, marked as carried, in the order they were started in; those that ended are
+  /// left out. `previous_from_current`: movement of the camera since the last frame given to start() or
+  /// advance(), optical frames; nothing when it is not known.
+  std::vector<Detection> advance(const Frame& frame, const std::optional<Pose3>& previous_from_current);
+  /// Whether start() was called and its boxes are not too old.
+  bool active() const { return active_; }
+  /// Time of the last frame seen, s.
+  double lastTime() const { return last_t_; }
+
+ private:
+  struct Track {
+    Detection detection;
+    Box2 anchor;         ///< box when the corners were chosen, px; may reach outside the image
+    Box2 box;            ///< now; may reach outside the image
+    double depth_m = 0;  ///< of the object now, along the optical axis; 0: not measured
+    std::vector<cv::Point2f> anchor_points, points;  ///< corners then and now, pairwise
+    std::size_t chosen = 0;                          ///< corners at the anchor
+  };
+  struct Flow {
+    std::vector<cv::Point2f> points;
+    std::vector<char> good;
+  };
+
+  bool moves(const Detection& detection) const;
+  void chooseCorners(Track& track, const Frame& frame) const;
+  cv::Mat cornerMask(const Track& track, const Frame& frame, const cv::Rect& region) const;
+  Flow follow(const std::vector<cv::Mat>& pyramid) const;
+  bool moveByCorners(Track& track, const Flow& flow, std::size_t first) const;
+  bool moveByCamera(Track& track, const Frame& frame,
+                    const std::optional<Pose3>& previous_from_current) const;
+  bool settle(Track& track, const Frame& frame) const;
+
+  BoxTrackerOptions options_;
+  const ObjectDatabase* database_;
+  bool active_ = false;
+  int age_ = 0;  ///< frames since the detector ran
+  double last_t_ = 0;
+  std::vector<Track> tracks_;
+  std::vector<cv::Mat> pyramid_;  ///< of the last frame
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "roomgraph/detection/detector.h"
+
+namespace roomgraph {
+
+/// What the detector found on a frame, as a record of a rawlog: replayed with RecordedDetector it gives the
+/// same detections, bit for bit.
+CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>& detections,
+                                const DetectorIdentity& identity);
+/// The boxes of a record; class_name is not filled in, the object database knows it by the label.
+std::vector<Detection> detectionsOf(const CObservationDetections& record);
+
+/// 64-bit FNV-1a hash of a file's bytes as 16 hexadecimal digits. Throws InputError when it cannot be read.
+std::string fileHash(const std::string& file);
+
+}  // namespace roomgraph

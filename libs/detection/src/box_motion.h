@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <opencv2/core/types.hpp>
+#include <optional>
+#include <vector>
+
+#include "roomgraph/geometry/box.h"
+#include "roomgraph/geometry/camera.h"
+#include "roomgraph/geometry/pose.h"
+#include "roomgraph/observations/frame.h"
+
+namespace roomgraph {
+
+/// now = scale * then + shift, px.
+struct BoxMotion {
+  double scale = 1, shift_u = 0, shift_v = 0;
+  std::vector<std::size_t> inliers;  ///< pairs that agree
+  Box2 apply(const Box2& box) const;
+};
+
+/// Scale and shift of point pairs by medians (bears almost half of them wrong); nothing with fewer than four
+/// pairs that agree to about 2 % of `size_px`.
+std::optional<BoxMotion> fitMotion(const std::vector<cv::Point2f>& then, const std::vector<cv::Point2f>& now,
+                                   double size_px);
+
+/// Depth of what a box shows: nearer than most of the valid pixels of its middle. 0 when there are none.
+double objectDepth(const Box2& box, const Frame& frame);
+
+struct PlacedBox {
+  Box2 box;
+  double depth_m = 0;
+};
+/// The box of something that stands still, after the camera moved; nothing when it comes to lie behind it.
+std::optional<PlacedBox> carriedByCamera(const Box2& box, double depth_m, const PinholeCamera& camera,
+                                         const Pose3& current_from_previous);
+
+/// `box` with those sides on (or beyond) the image's border that were there in `before`: how far an object
+/// that is cut by the border goes on is not known.
+Box2 stayingCut(const Box2& box, const Box2& before, int width, int height);
+
+}  // namespace roomgraph

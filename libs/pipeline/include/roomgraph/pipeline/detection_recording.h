@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+
+#include "roomgraph/datasets/rawlog_copy.h"
+#include "roomgraph/detection/detector.h"
+#include "roomgraph/pipeline/step_report.h"
+
+namespace roomgraph {
+
+/// Writes a copy of the input that also holds what the detector finds (docs/formats.md). Boxes that were only
+/// carried are not written: the replay carries them again.
+class DetectionRecording : public Sink {
+ public:
+  /// The detector outlives the recording. Throws like RawlogCopy.
+  DetectionRecording(const std::filesystem::path& input, const std::filesystem::path& output,
+                     const Detector& detector)
+      : copy_(input, output), detector_(detector) {}
+
+  void onStep(const StepReport& report) override;
+  /// Copies the rest of the input. Throws RunError when writing failed.
+  void finish() { copy_.finish(); }
+
+ private:
+  RawlogCopy copy_;
+  const Detector& detector_;
+};
+
+}  // namespace roomgraph

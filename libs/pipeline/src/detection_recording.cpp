@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/detection_recording.h"
+
+#include "roomgraph/detection/detection_record.h"
+
+namespace roomgraph {
+
+void DetectionRecording::onStep(const StepReport& report) {
+  if (report.image && report.detector_ran)
+    copy_.insert(toRecord(*report.image, report.detections, detector_.identity()));
+}
+
+}  // namespace roomgraph

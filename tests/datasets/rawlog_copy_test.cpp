@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/datasets/rawlog_copy.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include "rawlog_maker.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/rawlog_reader.h"
+
+namespace roomgraph {
+namespace {
+
+using namespace test;
+
+std::shared_ptr<CObservationDetections> detectionsAt(double t, const std::string& label = "chair") {
+  auto out = std::make_shared<CObservationDetections>();
+  out->timestamp = mrpt::Clock::fromDouble(t);
+  out->items.push_back({label, 0.5, 1, 2, 3, 4, 7});
+  return out;
+}
+
+std::string unzipped(const std::filesystem::path& file) {
+  gzFile in = gzopen(file.c_str(), "rb");
+  std::string bytes;
+  char block[4096];
+  for (int got = 0; (got = gzread(in, block, sizeof block)) > 0;)
+    bytes.append(block, static_cast<std::size_t>(got));
+  EXPECT_EQ(gzclose(in), Z_OK);
+  return bytes;
+}
+
+std::string joined(const std::vector<Object>& objects) {
+  std::string bytes;
+  for (const auto& object : objects) bytes += bytesOf(object);
+  return bytes;
+}
+
+class RawlogCopyTest : public ::testing::Test {
+ protected:
+  TemporaryFolder folder;
+  std::filesystem::path in = folder / "x.rawlog", out = folder / "y.rawlog";
+};
+
+TEST_F(RawlogCopyTest, BytesStayAndDetectionsComeBeforeTheirImage) {
+  const std::vector<Object> input{makeOdometry(1, 0, 0, 0), makeImages(1.1), makeScan(1.15), makeImages(1.2),
+                                  makeScan(1.3)};
+  for (const bool gz : {true, false}) {
+    writeRawlog(in, input, gz);
+    RawlogCopy copy(in, out);
+    copy.insert(*detectionsAt(1.1));
+    copy.insert(*detectionsAt(1.2, "sofa"));
+    copy.finish();
+    // Pictures are compressed when they are written: only a copy of the bytes is the same.
+    EXPECT_EQ(unzipped(out), joined({input[0], detectionsAt(1.1), input[1], input[2],
+                                     detectionsAt(1.2, "sofa"), input[3], input[4]}));
+  }
+}
+
+TEST_F(RawlogCopyTest, OldDetectionsAreReplaced) {
+  const auto scan = makeScan(1.05);
+  writeRawlog(in, {detectionsAt(1), scan, detectionsAt(1.1)});
+  RawlogCopy(in, out).insert(*detectionsAt(1.02, "sofa"));  // the destructor finishes
+  EXPECT_EQ(unzipped(out), joined({detectionsAt(1.02, "sofa"), scan}));
+}
+
+TEST_F(RawlogCopyTest, SensoryFramesAndTheEndOfTheInput) {
+  const std::vector<Object> input{makeAction(1, 1, 0, 0), makeSensoryFrame({makeImages(1.1)}),
+                                  makeAction(2, 1, 0, 0), makeSensoryFrame({makeImages(2.1), makeScan(2.2)})};
+  writeRawlog(in, input);
+  RawlogCopy copy(in, out);
+  for (const double t : {1.1, 2.1, 9.0}) copy.insert(*detectionsAt(t));
+  copy.finish();
+  EXPECT_EQ(unzipped(out), joined({input[0], detectionsAt(1.1), input[1], input[2], detectionsAt(2.1),
+                                   input[3], detectionsAt(9)}));
+}
+
+TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {
+  std::filesystem::create_directories(folder / "x_Images");
+  auto images = makeImages(1);
+  images->rangeImage_convertToExternalStorage("depth.bin", (folder / "x_Images").string() + "/");
+  writeRawlog(in, {images});
+  std::filesystem::create_directories(folder / "elsewhere");
+  for (const auto& copy : {out, folder / "elsewhere" / "z.rawlog.gz"}) {
+    RawlogCopy(in, copy).finish();
+    RawlogReader reader(copy);
+    const auto record = reader.next();
+    ASSERT_TRUE(record) << copy;
+    EXPECT_NEAR(std::get<Frame>(*record).depth.at<float>(3, 5), 1.05f, 1e-4);
+  }
+  RawlogCopy(in, out).finish();  // over an older copy: the link is there already
+}
+
+TEST_F(RawlogCopyTest, WrongFilesAreRefused) {
+  writeRawlog(in, {makeScan(1)});
+  EXPECT_THROW(RawlogCopy(in, in), RunError);
+  EXPECT_THROW(RawlogCopy(folder / "none.rawlog", out), InputError);
+  EXPECT_THROW(RawlogCopy(in, folder / "no" / "such" / "folder.rawlog"), RunError);
+  RawlogReader reader(in);
+  EXPECT_TRUE(reader.next()) << "the input is as it was";
+}
+
+}  // namespace
+}  // namespace roomgraph
