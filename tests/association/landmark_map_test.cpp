@@ -201,5 +201,100 @@ TEST(LandmarkMap, CorrectionSetsWhatTheGraphFound) {
   EXPECT_EQ(map.find(id)->covariance(2, 2), 0.5);
 }
 
+WorldMeasurement inFrame(WorldMeasurement seen, std::int64_t frame) {
+  seen.measurement.frame = FrameId{frame};
+  return seen;
+}
+
+// Half a width apart: one object when seen in turns, two when seen together.
+TEST(LandmarkMap, NeighboursSeenTogetherStayApart) {
+  for (const bool together : {false, true}) {
+    LandmarkMap map;
+    const LandmarkId a = born(map, inFrame(sightingAt(0, 0), 0));
+    const LandmarkId b = born(map, inFrame(sightingAt(0.33, 0), together ? 0 : 1));
+    for (int i = 1; i < 10; ++i) {
+      map.update(inFrame(sightingAt(0, 0), 2 * i), belongsTo(a));
+      map.update(inFrame(sightingAt(0.33, 0), 2 * i + !together), belongsTo(b));
+    }
+    EXPECT_EQ(map.mergeDuplicates().size(), together ? 0u : 1u);
+  }
+}
+
+TEST(LandmarkMap, TwoGroupsOfSightingsAreTwoObjects) {
+  LandmarkMap map;
+  const LandmarkId mixed = born(map, sightingAt(0, 0));
+  for (int i = 1; i < 20; ++i)
+    map.update(sightingAt(i % 2 ? 0.02 * (i % 5) : 0.7 + 0.02 * (i % 5), 0), belongsTo(mixed));
+  const auto parted = map.splitMixed();
+  ASSERT_EQ(parted.size(), 1u);
+  EXPECT_EQ(parted[0].first, mixed);
+  const Landmark *a = map.find(mixed), *b = map.find(parted[0].second);
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(std::abs(a->position.x() - b->position.x()), 0.7, 0.05);
+  EXPECT_EQ(a->observations + b->observations, 20);
+  EXPECT_TRUE(map.splitMixed().empty());
+}
+
+TEST(LandmarkMap, OneGroupIsOneObject) {
+  LandmarkMap map;
+  const LandmarkId id = born(map, sightingAt(0, 0));
+  for (int i = 1; i < 20; ++i) map.update(sightingAt(0.3 * std::sin(i), 0.3 * std::cos(i)), belongsTo(id));
+  EXPECT_TRUE(map.splitMixed().empty());
+}
+
+// exp(-0.1) a ray; at most twenty rays of a scan count.
+TEST(LandmarkMap, RaysSpeakForAndAgainst) {
+  LandmarkMap map = mapWith("birth_existence = 0.5\nray_gain = 0.1");
+  const LandmarkId id = born(map, sightingAt(0, 0));
+  map.seenThrough(id, 10);
+  EXPECT_NEAR(map.find(id)->existence, 1 / (1 + std::exp(1.0)), 1e-12);
+  map.supported(id, 10);
+  EXPECT_NEAR(map.find(id)->existence, 0.5, 1e-12);
+  map.seenThrough(id, 1000);
+  EXPECT_NEAR(map.find(id)->existence, 1 / (1 + std::exp(2.0)), 1e-12);
+  map.seenThrough(LandmarkId{77}, 3);  // unknown: nothing happens
+}
+
+TEST(LandmarkMap, FrontIsDecidedByVote) {
+  LandmarkMap map;
+  const LandmarkId id = born(map, sightingAt(0, 0, 0.3));
+  for (int i = 0; i < 3; ++i) map.update(sightingAt(0, 0, 0.3 + M_PI), belongsTo(id));
+  EXPECT_NEAR(map.find(id)->yaw, wrapAngle(0.3 + M_PI), 1e-6);
+  for (int i = 0; i < 6; ++i) map.update(sightingAt(0, 0, 0.3), belongsTo(id));
+  EXPECT_NEAR(map.find(id)->yaw, 0.3, 1e-6);
+}
+
+TEST(LandmarkMap, LabelsVoteForTheClass) {
+  LandmarkMap map;
+  const LandmarkId id = born(map, sightingAt(0, 0));
+  const WorldMeasurement sofa = sightingAt(1, 0, 0, 0.1, "sofa");
+  map.update(sofa, belongsTo(id));
+  EXPECT_EQ(map.find(id)->class_name, "chair");
+  EXPECT_EQ(map.find(id)->position.x(), 0) << "another class says nothing about the place";
+  EXPECT_NEAR(map.find(id)->class_posterior.at("chair"), 0.5, 1e-12);
+  for (int i = 0; i < 3; ++i) map.update(sofa, belongsTo(id));
+  EXPECT_EQ(map.find(id)->class_name, "sofa");
+  EXPECT_EQ(map.find(id)->position.x(), 1);
+  EXPECT_NEAR(map.find(id)->class_posterior.at("sofa"), 4.5 / 6, 1e-12);
+}
+
+TEST(LandmarkMap, CutAndCarriedBoxesCountLess) {
+  LandmarkMap map;
+  WorldMeasurement wide = sightingAt(0, 0), cut = sightingAt(0, 0);
+  wide.measurement.proposal.shape.width = 1;
+  cut.measurement.proposal.shape.width = 0.4;
+  cut.measurement.proposal.projected.full = {0, 0, 100, 100};
+  cut.measurement.proposal.projected.visible = {0, 0, 50, 100};
+  const LandmarkId id = born(map, wide);
+  map.update(cut, belongsTo(id));
+  EXPECT_NEAR(map.find(id)->shape.width, (1 + 0.5 * 0.4) / 1.5, 1e-12);
+  LandmarkMap other = mapWith("birth_existence = 0.5\nscore_gain = 1\nneutral_score = 0");
+  const LandmarkId seen = born(other, sightingAt(0, 0));
+  WorldMeasurement carried = sightingAt(0, 0);
+  carried.measurement.detection.carried = true;
+  other.update(carried, belongsTo(seen));
+  EXPECT_NEAR(other.find(seen)->existence, 1 / (1 + std::exp(-0.3)), 1e-12);
+}
+
 }  // namespace
 }  // namespace roomgraph::testing

@@ -38,7 +38,7 @@ TEST(Plugin, IsLoadedAndItsStageRuns) {
   association::registerClasses();
   EXPECT_THAT(implementationsOf(CLASS_ID(Associator)), Not(Contains(kName)));
   EXPECT_THAT(messageOf<ConfigError>([] { createStage<Associator>(kName, "[association] class"); }),
-              HasSubstr("known: GatedAssociator"));
+              HasSubstr("known: MaximumLikelihoodAssociator"));
 
   loadPlugin(EXAMPLE_PLUGIN);
   loadPlugin(EXAMPLE_PLUGIN);  // twice is once

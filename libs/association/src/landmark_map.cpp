@@ -8,74 +8,15 @@
 namespace roomgraph {
 namespace {
 
-Landmark born(const WorldMeasurement& seen, LandmarkId id, double existence) {
-  const auto& proposal = seen.measurement.proposal;
-  Landmark landmark;
-  landmark.id = id;
-  landmark.class_name = proposal.class_name;
-  landmark.model = proposal.model;
-  landmark.shape = proposal.shape;
-  landmark.position = seen.world_from_object.translation();
-  landmark.yaw = planarPart(seen.world_from_object).yaw;
-  landmark.has_yaw = proposal.has_yaw;
-  landmark.covariance = seen.covariance;
-  landmark.existence = existence;
-  landmark.class_posterior[proposal.class_name] = 1;
-  landmark.observations = 1;
-  return landmark;
+constexpr int kMaxRays = 20;
+constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
+
+double widthOf(const ObjectShape& shape) {
+  return std::max(shape.width, shape.depth);
 }
 
-// Kalman update of (x, y, z, yaw) with a direct measurement of it.
-void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
-  const bool use_yaw = seen.measurement.proposal.has_yaw && landmark.has_yaw;
-  const double yaw = planarPart(seen.world_from_object).yaw;
-  Eigen::Vector4d innovation;
-  innovation.head<3>() = seen.world_from_object.translation() - landmark.position;
-  innovation[3] = use_yaw ? wrapAngle(yaw - landmark.yaw) : 0;
-  // A measurement far off in yaw is the other reading of a symmetric shape: it says nothing about the fine
-  // angle.
-  const bool fine = use_yaw && std::abs(innovation[3]) < M_PI / 4;
-  if (!fine) innovation[3] = 0;
-  Eigen::Matrix4d noise = seen.covariance;
-  if (!fine) {
-    noise.row(3).setZero();
-    noise.col(3).setZero();
-    noise(3, 3) = 1e6;
-  }
-  const Eigen::Matrix4d gain = landmark.covariance * (landmark.covariance + noise).inverse();
-  const Eigen::Vector4d step = gain * innovation;
-  landmark.position += step.head<3>();
-  landmark.yaw = wrapAngle(landmark.yaw + step[3]);
-  landmark.covariance = ((Eigen::Matrix4d::Identity() - gain) * landmark.covariance).eval();
-  // Measurements of one object share errors (same view, same model): a floor keeps the estimate open to new
-  // views.
-  for (int i = 0; i < 4; ++i) landmark.covariance(i, i) = std::max(landmark.covariance(i, i), 1e-4);
-  if (!landmark.has_yaw && seen.measurement.proposal.has_yaw) {
-    landmark.yaw = yaw;
-    landmark.has_yaw = true;
-    landmark.covariance(3, 3) = seen.covariance(3, 3);
-  }
-}
-
-void fuseSize(Landmark& landmark, const ObjectShape& seen) {
-  const double share = 1.0 / std::min(landmark.observations + 1, 50);
-  landmark.shape.width += share * (seen.width - landmark.shape.width);
-  landmark.shape.depth += share * (seen.depth - landmark.shape.depth);
-  landmark.shape.height += share * (seen.height - landmark.shape.height);
-}
-
-std::vector<Eigen::Vector2d> footprintInWorld(const Landmark& landmark) {
-  std::vector<Eigen::Vector2d> corners = footprint(landmark.shape);
-  const Pose2 pose{landmark.position.x(), landmark.position.y(), landmark.yaw};
-  for (auto& corner : corners) corner = pose * corner;
-  return corners;
-}
-
-// Common ground area over the smaller footprint.
-double footprintOverlap(const Landmark& a, const Landmark& b) {
-  const auto base_a = footprintInWorld(a), base_b = footprintInWorld(b);
-  const double smaller = std::min(polygonArea(base_a), polygonArea(base_b));
-  return smaller > 0 ? polygonArea(intersectConvex(base_a, base_b)) / smaller : 0;
+bool opposite(double a, double b) {
+  return std::abs(wrapAngle(a - b)) > M_PI / 2;
 }
 
 }  // namespace
@@ -100,8 +41,11 @@ void LandmarkMap::declareParameters(ParameterVisitor& v) {
         {.doc = "share of a footprint under another landmark above which only the better seen one is kept",
          .min = 0,
          .max = 1});
-  v.add("merge_overlap", merge_overlap_,
-        {.doc = "3D IoU above which two landmarks of a class are one object", .min = 0.01, .max = 1});
+  v.add("ray_gain", ray_gain_,
+        {.doc = "log of the likelihood ratio of existence per ray that ends in the object, or passes through",
+         .min = 0,
+         .max = 10});
+  duplicates_.declare(v);
 }
 
 const Landmark* LandmarkMap::find(LandmarkId id) const {
@@ -114,19 +58,61 @@ Landmark* LandmarkMap::get(LandmarkId id) {
   return const_cast<Landmark*>(find(id));
 }
 
-LandmarkId LandmarkMap::update(const WorldMeasurement& measurement, const Association& association) {
+// A carried box repeats what was seen before.
+double LandmarkMap::likelihoodRatio(const ObjectMeasurement& measurement) const {
+  const double share =
+      measurement.proposal.score > 0 ? sightingWeight(measurement) / measurement.proposal.score : 1;
+  return std::exp(score_gain_ * share * (measurement.proposal.score - neutral_score_));
+}
+
+LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& association) {
+  const ObjectMeasurement& measurement = seen.measurement;
   Landmark* landmark = get(association.landmark);
-  if (!landmark) {
-    landmarks_.push_back(born(measurement, LandmarkId{next_id_++}, birth_existence_));
-    evidence_[landmarks_.back().id] = measurement.measurement.proposal.score;
-    return landmarks_.back().id;
+  const bool fresh = landmark == nullptr;
+  if (fresh) {
+    landmarks_.push_back(bornFrom(seen, LandmarkId{next_id_++}, birth_existence_));
+    landmark = &landmarks_.back();
   }
-  fusePlace(*landmark, measurement);
-  fuseSize(*landmark, measurement.measurement.proposal.shape);
-  weigh(*landmark, std::exp(score_gain_ * (measurement.measurement.proposal.score - neutral_score_)));
-  evidence_[landmark->id] += measurement.measurement.proposal.score;
-  ++landmark->observations;
+  LandmarkRecord& record = records_[landmark->id];
+  voteLabel(*landmark, record, measurement);
+  const std::string& label = measurement.proposal.class_name;
+  if (label != landmark->class_name) {
+    if (record.labels[label] <= kClearMajority * record.labels[landmark->class_name]) return landmark->id;
+    const Landmark before = *landmark;
+    *landmark = bornFrom(seen, before.id, before.existence);
+    landmark->class_posterior = before.class_posterior;
+    landmark->observations = before.observations;
+  } else if (!fresh) {
+    fusePlace(*landmark, seen);
+    weigh(*landmark, likelihoodRatio(measurement));
+    ++landmark->observations;
+  }
+  fuseSize(*landmark, record, measurement);
+  voteYaw(*landmark, record, seen);
+  remember(record, seen);
+  record.evidence += sightingWeight(measurement);
+  countTogether(measurement.frame, landmark->id);
   return landmark->id;
+}
+
+void LandmarkMap::countTogether(FrameId frame, LandmarkId id) {
+  if (frame != frame_ || !frame.valid()) in_frame_.clear();
+  frame_ = frame;
+  const Landmark& landmark = *find(id);
+  for (const auto other_id : in_frame_) {
+    const Landmark* other = find(other_id);
+    if (!other || other_id == id) continue;
+    // Pairs far apart need no counting: they never come into question as duplicates.
+    const double near = 2 * std::max(widthOf(landmark.shape), widthOf(other->shape));
+    if ((other->position - landmark.position).head<2>().norm() < near)
+      ++together_[{std::min(id, other_id), std::max(id, other_id)}];
+  }
+  in_frame_.push_back(id);
+}
+
+int LandmarkMap::together(LandmarkId a, LandmarkId b) const {
+  const auto found = together_.find({std::min(a, b), std::max(a, b)});
+  return found == together_.end() ? 0 : found->second;
 }
 
 // Bayes' rule with the likelihood ratio of "exists" against "does not".
@@ -137,44 +123,125 @@ void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
 }
 
 void LandmarkMap::miss(LandmarkId id) {
-  Landmark* landmark = get(id);
-  if (!landmark) return;
-  weigh(*landmark, (1 - detection_probability_) / (1 - false_alarm_probability_));
+  if (Landmark* landmark = get(id))
+    weigh(*landmark, (1 - detection_probability_) / (1 - false_alarm_probability_));
+}
+
+void LandmarkMap::seenThrough(LandmarkId id, int rays) {
+  if (Landmark* landmark = get(id)) weigh(*landmark, std::exp(-ray_gain_ * std::clamp(rays, 0, kMaxRays)));
+}
+
+void LandmarkMap::supported(LandmarkId id, int rays) {
+  if (Landmark* landmark = get(id)) weigh(*landmark, std::exp(ray_gain_ * std::clamp(rays, 0, kMaxRays)));
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
                           const Eigen::Matrix4d& covariance) {
   Landmark* landmark = get(id);
   if (!landmark) return;
+  LandmarkRecord& record = records_[id];
+  for (auto& sighting : record.recent) sighting.place += (position - landmark->position).head<2>();
+  if (opposite(yaw, landmark->yaw)) std::swap(record.front, record.back);
   landmark->position = position;
   landmark->yaw = yaw;
   landmark->covariance = covariance;
+}
+
+// The one seen more often says where it is and how large.
+void LandmarkMap::join(Landmark& kept, const Landmark& removed) {
+  const LandmarkId id = kept.id;
+  const double existence = 1 - (1 - kept.existence) * (1 - removed.existence);
+  const int observations = kept.observations + removed.observations;
+  joinRecords(records_[id], records_[removed.id], opposite(kept.yaw, removed.yaw));
+  if (removed.observations > kept.observations) {
+    if (opposite(kept.yaw, removed.yaw)) std::swap(records_[id].front, records_[id].back);
+    kept = removed;
+  }
+  kept.id = id;
+  kept.existence = existence;
+  kept.observations = observations;
+  records_.erase(removed.id);
+  SeenTogether renamed;
+  for (const auto& [pair, count] : together_) {
+    const LandmarkId a = pair.first == removed.id ? id : pair.first;
+    const LandmarkId b = pair.second == removed.id ? id : pair.second;
+    if (a != b) renamed[{std::min(a, b), std::max(a, b)}] += count;
+  }
+  together_ = std::move(renamed);
 }
 
 std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
   std::vector<std::pair<LandmarkId, LandmarkId>> merged;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     for (std::size_t j = i + 1; j < landmarks_.size();) {
-      Landmark &a = landmarks_[i], &b = landmarks_[j];
-      const bool same = a.class_name == b.class_name &&
-                        iou3d(a.shape, a.worldFromObject(), b.shape, b.worldFromObject()) > merge_overlap_;
-      if (!same) {
+      if (!duplicates_.same(landmarks_[i], landmarks_[j], together(landmarks_[i].id, landmarks_[j].id))) {
         ++j;
         continue;
       }
-      merged.emplace_back(b.id, a.id);
-      const LandmarkId kept = a.id;
-      const double existence = 1 - (1 - a.existence) * (1 - b.existence);
-      const int observations = a.observations + b.observations;
-      if (b.observations > a.observations) a = b;
-      a.id = kept;
-      a.existence = existence;
-      a.observations = observations;
-      evidence_[kept] += evidence_[merged.back().first];
+      merged.emplace_back(landmarks_[j].id, landmarks_[i].id);
+      join(landmarks_[i], Landmark(landmarks_[j]));
       landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(j));
     }
   }
   return merged;
+}
+
+std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
+  std::vector<std::pair<LandmarkId, LandmarkId>> parted;
+  const std::size_t known = landmarks_.size();
+  for (std::size_t i = 0; i < known; ++i) {
+    Landmark& landmark = landmarks_[i];
+    LandmarkRecord& record = records_[landmark.id];
+    const std::vector<PlaceSketch> sightings(record.recent.begin(), record.recent.end());
+    const auto split = findSplit(sightings, duplicates_.splitDistance(landmark.shape));
+    if (!split) continue;
+    Landmark made = landmark;
+    made.id = LandmarkId{next_id_++};
+    landmark.position.head<2>() = split->first;
+    made.position.head<2>() = split->second;
+    made.observations = static_cast<int>(std::lround(split->second_share * landmark.observations));
+    landmark.observations -= made.observations;
+    LandmarkRecord& other = records_[made.id] = record;
+    other.evidence *= split->second_share;
+    record.evidence -= other.evidence;
+    record.recent.clear(), other.recent.clear();
+    for (std::size_t k = 0; k < sightings.size(); ++k)
+      (split->is_second[k] ? other : record).recent.push_back(sightings[k]);
+    parted.emplace_back(landmark.id, made.id);
+    landmarks_.push_back(made);
+  }
+  return parted;
+}
+
+void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
+                        const Reassociation& result) {
+  std::map<LandmarkId, double> existence;
+  for (const auto& landmark : landmarks_) existence[landmark.id] = landmark.existence;
+  for (const auto& [removed, kept] : result.merged)
+    if (existence.contains(removed) && existence.contains(kept))
+      existence[kept] = 1 - (1 - existence[kept]) * (1 - existence[removed]);
+  // Replayed as if seen for the first time, for the votes; then place and size as re-estimated.
+  landmarks_ = result.landmarks;
+  for (auto& landmark : landmarks_) {
+    landmark.existence = birth_existence_;
+    landmark.observations = 0;
+    next_id_ = std::max(next_id_, landmark.id.value + 1);
+  }
+  records_.clear(), together_.clear(), in_frame_.clear();
+  for (std::size_t f = 0; f < by_frame.size(); ++f)
+    for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
+      Association known = result.decisions[f][k].association;
+      known.landmark = result.decisions[f][k].landmark;
+      update(by_frame[f][k], known);
+    }
+  for (const auto& estimate : result.landmarks) {
+    Landmark& landmark = *get(estimate.id);
+    if (landmark.class_name == estimate.class_name) {
+      correct(landmark.id, estimate.position, estimate.yaw, estimate.covariance);
+      landmark.shape = estimate.shape;
+    }
+    if (existence.contains(landmark.id)) landmark.existence = existence[landmark.id];
+  }
 }
 
 std::vector<Landmark> LandmarkMap::confirmed() const {
@@ -185,12 +252,13 @@ std::vector<Landmark> LandmarkMap::confirmed() const {
   // Two things cannot be in one place: of overlapping landmarks (a sofa now and then labelled chair) the
   // better seen stays.
   std::stable_sort(sure.begin(), sure.end(), [this](const Landmark& a, const Landmark& b) {
-    return evidence_.at(a.id) > evidence_.at(b.id);
+    return records_.at(a.id).evidence > records_.at(b.id).evidence;
   });
   std::vector<Landmark> kept;
   for (const auto& landmark : sure) {
     const bool free = std::none_of(kept.begin(), kept.end(), [&](const Landmark& other) {
-      return footprintOverlap(landmark, other) > exclusive_overlap_;
+      return footprintOverlap(landmark.shape, landmark.worldFromObject(), other.shape,
+                              other.worldFromObject()) > exclusive_overlap_;
     });
     if (free) kept.push_back(landmark);
   }

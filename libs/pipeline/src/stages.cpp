@@ -20,7 +20,7 @@ namespace {
 const std::map<std::string, std::string> kDefaultClass = {{"scan_loop_closing", "SubmapLoopCloser"},
                                                           {"proposals", "GeometricProposalGenerator"},
                                                           {"selection", "UnarySelector"},
-                                                          {"association", "GatedAssociator"}};
+                                                          {"association", "SoftAssociator"}};
 
 template <class Interface>
 void addImplementations(ConfigSchema& schema, const std::string& section) {

@@ -6,19 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "roomgraph/association/world_measurement.h"
 #include "roomgraph/core/stage.h"
-#include "roomgraph/observations/landmark.h"
-#include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
 
-/// A measurement brought into world with the robot's current pose.
-struct WorldMeasurement {
-  ObjectMeasurement measurement;
-  Pose3 world_from_object = Pose3::Identity();
-  /// Of (x, y, z, yaw) in world: proposal and pose together.
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
-};
+struct AssociationModel;
 
 /// Decision for one measurement (method.md sec. 4, E-step).
 struct Association {
@@ -41,6 +34,9 @@ class Associator : public Stage {
   }
   /// Tells that two landmarks turned out to be one object.
   virtual void merged(LandmarkId removed, LandmarkId kept) { (void)removed, (void)kept; }
+  /// What re-association of a whole run (reassociate()) weighs measurements with; null: this associator's
+  /// decisions are final.
+  virtual const AssociationModel* model() const { return nullptr; }
 };
 
 }  // namespace roomgraph

@@ -6,31 +6,49 @@
 #include <vector>
 
 #include "roomgraph/association/associator.h"
-#include "roomgraph/geometry/camera.h"
+#include "roomgraph/association/landmark_fusion.h"
+#include "roomgraph/association/landmark_rules.h"
+#include "roomgraph/association/reassociation.h"
 
 namespace roomgraph {
 
-/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place and
-/// size, Bernoulli filter for existence, merging of duplicates. The one owner of landmarks while a run goes
-/// on.
+/// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place,
+/// weighted mean of the size, votes for class and front, Bernoulli filter for existence, merging and
+/// splitting. The one owner of landmarks while a run goes on.
 class LandmarkMap : public Configurable {
  public:
   void declareParameters(ParameterVisitor& visitor) override;
 
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   const Landmark* find(LandmarkId id) const;
+  const DuplicateRule& duplicates() const { return duplicates_; }
 
-  /// Fuses a measurement into its landmark, or makes a new one; returns the landmark's id.
+  /// Fuses a measurement into its landmark, or makes a new one; returns the landmark's id. A measurement of
+  /// another class than its landmark's only votes for its label; when that label has far more votes, the
+  /// landmark becomes what it says.
   LandmarkId update(const WorldMeasurement& measurement, const Association& association);
 
   /// Lowers the existence of a landmark that should have been detected and was not.
   void miss(LandmarkId id);
 
+  /// Rays of a sensor that passed through the landmark's volume, or ended inside its footprint: evidence
+  /// against and for it. Rays of one scan hit the same thing, so only the first ones count.
+  void seenThrough(LandmarkId id, int rays);
+  void supported(LandmarkId id, int rays);
+
   /// Sets place, yaw and covariance after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
 
-  /// Joins landmarks of one class that overlap; returns (removed, kept) pairs.
+  /// Joins landmarks of one class that are one object; returns (removed, kept) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> mergeDuplicates();
+
+  /// Parts landmarks whose recent sightings form two groups farther apart than one object allows; returns
+  /// (parted, made) pairs.
+  std::vector<std::pair<LandmarkId, LandmarkId>> splitMixed();
+
+  /// Takes over the outcome of a re-association of all measurements; existence is kept for the landmarks
+  /// that were known.
+  void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
 
   /// Landmarks sure enough to be shown: existence and number of observations reach the configured limits.
   std::vector<Landmark> confirmed() const;
@@ -38,14 +56,22 @@ class LandmarkMap : public Configurable {
  private:
   Landmark* get(LandmarkId id);
   void weigh(Landmark& landmark, double ratio) const;
+  double likelihoodRatio(const ObjectMeasurement& measurement) const;
+  void countTogether(FrameId frame, LandmarkId id);
+  void join(Landmark& kept, const Landmark& removed);
+  int together(LandmarkId a, LandmarkId b) const;
 
   std::vector<Landmark> landmarks_;
-  std::map<LandmarkId, double> evidence_;  ///< sum of the sightings' scores
+  std::map<LandmarkId, LandmarkRecord> records_;
+  SeenTogether together_;
+  FrameId frame_;
+  std::vector<LandmarkId> in_frame_;
   std::int64_t next_id_ = 0;
   double birth_existence_ = 0.3, detection_probability_ = 0.6, false_alarm_probability_ = 0.15;
-  double score_gain_ = 5, neutral_score_ = 0.3;
-  double confirm_existence_ = 0.9, merge_overlap_ = 0.2, exclusive_overlap_ = 0.3;
+  double score_gain_ = 5, neutral_score_ = 0.3, ray_gain_ = 0.1;
+  double confirm_existence_ = 0.9, exclusive_overlap_ = 0.3;
   int confirm_observations_ = 6;
+  DuplicateRule duplicates_;
 };
 
 }  // namespace roomgraph

@@ -6,10 +6,10 @@
 
 namespace roomgraph {
 
-/// Gaussian likelihood of the horizontal distance with the joint covariance (method.md sec. 4, p(b|x,l))
-/// against a constant floor for "new"; measurements are served in the order of their most probable landmark.
-class GatedAssociator : public Associator {
-  DEFINE_MRPT_OBJECT(GatedAssociator, roomgraph)
+/// Gaussian likelihood of the horizontal distance with the joint covariance against a constant floor for
+/// "new"; every frame for itself, the most probable pair first. For comparison with SoftAssociator.
+class MaximumLikelihoodAssociator : public Associator {
+  DEFINE_MRPT_OBJECT(MaximumLikelihoodAssociator, roomgraph)
  public:
   void declareParameters(ParameterVisitor& visitor) override;
   std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/gated_associator.h"
+#include "roomgraph/association/maximum_likelihood_associator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
+
+#include "roomgraph/association/greedy_assignment.h"
 
 namespace roomgraph {
 
-IMPLEMENTS_MRPT_OBJECT(GatedAssociator, Associator, roomgraph)
+IMPLEMENTS_MRPT_OBJECT(MaximumLikelihoodAssociator, Associator, roomgraph)
 
 namespace {
-
-struct Candidate {
-  std::size_t measurement;
-  LandmarkId landmark;
-  double probability;
-};
 
 // Unnormalised posterior of one measurement over the landmarks of its class in gate, and "new" (invalid id).
 std::vector<std::pair<LandmarkId, double>> likelihoods(const WorldMeasurement& seen,
@@ -51,7 +46,7 @@ void normalize(std::vector<std::pair<LandmarkId, double>>& posterior) {
 
 }  // namespace
 
-void GatedAssociator::declareParameters(ParameterVisitor& v) {
+void MaximumLikelihoodAssociator::declareParameters(ParameterVisitor& v) {
   v.add("gate_sigma", gate_sigma_, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
   v.add("max_distance_ratio", max_distance_ratio_,
         {.doc = "largest centre distance of one object's measurements, relative to its width",
@@ -64,30 +59,14 @@ void GatedAssociator::declareParameters(ParameterVisitor& v) {
          .max = 100});
 }
 
-std::vector<Association> GatedAssociator::associate(const std::vector<WorldMeasurement>& measurements,
-                                                    const std::vector<Landmark>& landmarks) {
-  std::vector<Association> result(measurements.size());
-  std::vector<Candidate> candidates;
-  for (std::size_t k = 0; k < measurements.size(); ++k) {
-    result[k].measurement = k;
-    result[k].posterior =
-        likelihoods(measurements[k], landmarks, gate_sigma_, max_distance_ratio_, new_density_per_m2_);
-    normalize(result[k].posterior);
-    for (const auto& [id, probability] : result[k].posterior) candidates.push_back({k, id, probability});
+std::vector<Association> MaximumLikelihoodAssociator::associate(
+    const std::vector<WorldMeasurement>& measurements, const std::vector<Landmark>& landmarks) {
+  std::vector<std::vector<std::pair<LandmarkId, double>>> posteriors;
+  for (const auto& seen : measurements) {
+    posteriors.push_back(likelihoods(seen, landmarks, gate_sigma_, max_distance_ratio_, new_density_per_m2_));
+    normalize(posteriors.back());
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.probability > b.probability; });
-  std::set<LandmarkId> taken;
-  std::vector<char> served(measurements.size(), 0);
-  for (const auto& candidate : candidates) {
-    if (served[candidate.measurement] || (candidate.landmark.valid() && taken.contains(candidate.landmark)))
-      continue;
-    served[candidate.measurement] = 1;
-    taken.insert(candidate.landmark);
-    result[candidate.measurement].landmark = candidate.landmark;
-    result[candidate.measurement].probability = candidate.probability;
-  }
-  return result;
+  return assignGreedily(posteriors);
 }
 
 }  // namespace roomgraph

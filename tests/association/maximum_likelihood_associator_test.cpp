@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/gated_associator.h"
+#include "roomgraph/association/maximum_likelihood_associator.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr double kGate = 3, kReach = 0.75 * 0.6, kNewDensity = 0.05;
 
 std::vector<Association> associate(const std::vector<WorldMeasurement>& seen,
                                    const std::vector<Landmark>& landmarks, const std::string& config = "") {
-  GatedAssociator associator;
+  MaximumLikelihoodAssociator associator;
   Config::fromText("[association]\n" + config).read("association", associator);
   return associator.associate(seen, landmarks);
 }
@@ -54,7 +54,7 @@ std::map<LandmarkId, double> bruteForce(const WorldMeasurement& seen,
   return posterior;
 }
 
-TEST(GatedAssociator, PosteriorIsBayesRuleOverGateAndNew) {
+TEST(MaximumLikelihoodAssociator, PosteriorIsBayesRuleOverGateAndNew) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     Random random(seed);
     std::vector<Landmark> landmarks;
@@ -89,27 +89,27 @@ TEST(GatedAssociator, PosteriorIsBayesRuleOverGateAndNew) {
   }
 }
 
-TEST(GatedAssociator, NearestOfTwoMeasurementsGetsTheLandmark) {
+TEST(MaximumLikelihoodAssociator, NearestOfTwoMeasurementsGetsTheLandmark) {
   const auto result = associate({sightingAt(0.2, 0), sightingAt(0.02, 0)}, {landmarkAt(4, 0, 0)});
   EXPECT_FALSE(result[0].landmark.valid());
   EXPECT_EQ(result[1].landmark, LandmarkId{4});
 }
 
-TEST(GatedAssociator, LoserTakesItsSecondChoice) {
+TEST(MaximumLikelihoodAssociator, LoserTakesItsSecondChoice) {
   const auto result =
       associate({sightingAt(0.05, 0), sightingAt(0, 0)}, {landmarkAt(1, 0, 0), landmarkAt(2, 0.3, 0)});
   EXPECT_EQ(result[1].landmark, LandmarkId{1});
   EXPECT_EQ(result[0].landmark, LandmarkId{2});
 }
 
-TEST(GatedAssociator, AnotherClassIsNoCandidate) {
+TEST(MaximumLikelihoodAssociator, AnotherClassIsNoCandidate) {
   const auto result = associate({sightingAt(0, 0)}, {landmarkAt(1, 0, 0, 0.1, "sofa")});
   EXPECT_FALSE(result[0].landmark.valid());
   EXPECT_EQ(result[0].posterior.size(), 1u);
   EXPECT_DOUBLE_EQ(result[0].probability, 1);
 }
 
-TEST(GatedAssociator, SigmaGateShutsOutWhatIsFarForItsCovariance) {
+TEST(MaximumLikelihoodAssociator, SigmaGateShutsOutWhatIsFarForItsCovariance) {
   // Joint sigma 0.1 sqrt(2) = 0.141 m; gate 3 sigma = 0.424 m.
   EXPECT_TRUE(associate({sightingAt(0.42, 0)}, {landmarkAt(1, 0, 0)})[0].posterior.size() == 2);
   EXPECT_TRUE(associate({sightingAt(0.43, 0)}, {landmarkAt(1, 0, 0)})[0].posterior.size() == 1);
@@ -117,14 +117,14 @@ TEST(GatedAssociator, SigmaGateShutsOutWhatIsFarForItsCovariance) {
               2);
 }
 
-TEST(GatedAssociator, ObjectsDoNotStandInEachOtherHoweverLooseTheCovariance) {
+TEST(MaximumLikelihoodAssociator, ObjectsDoNotStandInEachOtherHoweverLooseTheCovariance) {
   // Width 0.6 m, ratio 0.75: 0.45 m.
   const std::vector<Landmark> vague{landmarkAt(1, 0, 0, 2)};
   EXPECT_EQ(associate({sightingAt(0.44, 0)}, vague)[0].posterior.size(), 2u);
   EXPECT_EQ(associate({sightingAt(0.46, 0)}, vague)[0].posterior.size(), 1u);
 }
 
-TEST(GatedAssociator, NewLandmarkWhenNothingFitsWellEnough) {
+TEST(MaximumLikelihoodAssociator, NewLandmarkWhenNothingFitsWellEnough) {
   // Density at the centre of a joint sigma of 1.414 m: 1 / (2 pi 2) = 0.08 per m2.
   const std::vector<Landmark> vague{landmarkAt(1, 0, 0, 1)};
   const std::vector<WorldMeasurement> seen{sightingAt(0, 0, 0, 1)};
@@ -134,14 +134,14 @@ TEST(GatedAssociator, NewLandmarkWhenNothingFitsWellEnough) {
   EXPECT_NEAR(fresh[0].probability, 0.09 / (0.09 + 1 / (4 * M_PI)), 1e-12);
 }
 
-TEST(GatedAssociator, NothingInNothingOut) {
+TEST(MaximumLikelihoodAssociator, NothingInNothingOut) {
   EXPECT_TRUE(associate({}, {landmarkAt(1, 0, 0)}).empty());
 }
 
-TEST(GatedAssociator, IsMadeByName) {
+TEST(MaximumLikelihoodAssociator, IsMadeByName) {
   association::registerClasses();
   association::registerClasses();
-  EXPECT_TRUE(createStage<Associator>("GatedAssociator", "test"));
+  EXPECT_TRUE(createStage<Associator>("MaximumLikelihoodAssociator", "test"));
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/association/associator.h"
+#include "roomgraph/association/measurement_model.h"
+
+namespace roomgraph {
+
+/// Weight of everything one measurement may be; of any scale.
+struct WeightedAlternatives {
+  WeightedLandmarks exclusive;  ///< landmarks that serve one measurement of a frame only
+  WeightedLandmarks others;     ///< the rest, "new" (invalid id) among it; sum > 0
+};
+
+/// Most probable joint assignment of a frame, with the exact marginal of each decision and the whole
+/// posterior.
+std::vector<Association> decideFrame(const std::vector<WeightedAlternatives>& measurements);
+
+}  // namespace roomgraph

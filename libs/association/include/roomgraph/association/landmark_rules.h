@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "roomgraph/association/world_measurement.h"
+#include "roomgraph/core/parameters.h"
+
+namespace roomgraph {
+
+/// The landmark that a first sighting makes.
+Landmark bornFrom(const WorldMeasurement& seen, LandmarkId id, double existence);
+
+/// How much a sighting says about the object, in [0, 1]: its score, less when features carried the box here.
+double sightingWeight(const ObjectMeasurement& measurement);
+
+/// Share of the projected model that lies inside the image, in [0, 1]: cut boxes say little about the size.
+double wholeness(const ObjectMeasurement& measurement);
+
+/// In how many frames two landmarks were seen side by side; the smaller id first.
+using SeenTogether = std::map<std::pair<LandmarkId, LandmarkId>, int>;
+
+/// When two landmarks of a class are one object, and when one is two.
+struct DuplicateRule {
+  double merge_overlap = 0.2;
+  double merge_distance_ratio = 0.6;
+  double apart_share = 0.1;
+  double split_distance_ratio = 0.7;
+
+  void declare(ParameterVisitor& visitor);
+
+  /// Their volumes overlap as those of two objects cannot, or their centres are too close for two; where
+  /// frames show both (`together` of the sightings of the one seen less), only if they cover each other.
+  bool same(const Landmark& a, const Landmark& b, int together) const;
+
+  /// Distance of two groups of a landmark's sightings from which on they are two objects, m.
+  double splitDistance(const ObjectShape& shape) const {
+    return split_distance_ratio * std::max(shape.width, shape.depth);
+  }
+};
+
+}  // namespace roomgraph

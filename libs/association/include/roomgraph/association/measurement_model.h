@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "roomgraph/association/world_measurement.h"
+#include "roomgraph/core/parameters.h"
+#include "roomgraph/observations/landmark.h"
+
+namespace roomgraph {
+
+using WeightedLandmarks = std::vector<std::pair<LandmarkId, double>>;
+
+/// What a measurement may be, each with its density in 1/m^2 (not normalised).
+struct Alternatives {
+  WeightedLandmarks same_class;   ///< landmarks of its class in gate, in the order of the map
+  WeightedLandmarks other_class;  ///< landmarks of another class that stand where it is: its label is wrong
+  double fresh = 0;               ///< an object that has no landmark yet
+};
+
+/// p(b | x, l) and omega of method.md sec. 4: how well a measurement fits the landmarks around it.
+struct MeasurementModel {
+  double gate_sigma = 5;
+  double new_density_per_m2 = 0.05;
+  double shared_error_m = 0.06;
+  double tail_degrees = 3;
+  double wrong_label = 0.05;
+  double wrong_depth = 0.5;
+
+  void declare(ParameterVisitor& visitor);
+
+  /// Squared Mahalanobis distance on the ground, with the covariance of both and the error that all sightings
+  /// from one side share.
+  double squaredDistance(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  /// Whether the measurement can be the landmark: class, and gate or viewing ray.
+  bool inGate(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail
+  /// now and then by more than their covariance says; and, for those whose depth came from something in front
+  /// or behind (the likelier the lower their score), a stripe along the viewing ray.
+  double density(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  /// The Student t alone.
+  double placeDensity(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  /// Probability that the measured depth is the landmark's own, given that the measurement is the landmark.
+  double depthTrust(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  Alternatives alternatives(const WorldMeasurement& seen, const std::vector<Landmark>& landmarks) const;
+};
+
+}  // namespace roomgraph

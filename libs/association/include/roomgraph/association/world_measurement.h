@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/proposal.h"
+
+namespace roomgraph {
+
+/// A measurement brought into world with the robot's current pose.
+struct WorldMeasurement {
+  ObjectMeasurement measurement;
+  Pose3 world_from_object = Pose3::Identity();
+  /// Of (x, y, z, yaw) in world: proposal and pose together.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
+};
+
+/// Common ground area of two standing shapes over the smaller footprint, in [0, 1].
+double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b,
+                        const Pose3& world_from_b);
+
+}  // namespace roomgraph

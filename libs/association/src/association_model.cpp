@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/association/association_model.h"
+
+#include <cmath>
+
+namespace roomgraph {
+
+void AssociationModel::declare(ParameterVisitor& v) {
+  measurement.declare(v);
+  v.add("forgetting", forgetting,
+        {.doc = "share of a track's past that is lost from one frame to the next", .min = 1e-4, .max = 1});
+  v.add("tempering", tempering,
+        {.doc = "exponent of one frame's evidence: sightings of a track share their errors",
+         .min = 0.01,
+         .max = 1});
+  v.add("neutral_features", neutral_features,
+        {.doc = "feature points of unknown owner that stand beside the known ones of a measurement",
+         .min = 0.1,
+         .max = 1000});
+}
+
+std::vector<LandmarkId> idsOf(const Alternatives& alternatives) {
+  std::vector<LandmarkId> out;
+  for (const auto& [id, weight] : alternatives.same_class) out.push_back(id);
+  out.emplace_back();
+  return out;
+}
+
+WeightedAlternatives weigh(const Alternatives& alternatives, const AssociationModel& model,
+                           const std::vector<double>& prior, const std::vector<double>& shares) {
+  WeightedAlternatives out;
+  const auto evidence = [&](std::size_t i, double density) {
+    return prior[i] * std::pow(shares[i] * density, model.tempering);
+  };
+  std::size_t i = 0;
+  for (const auto& [id, density] : alternatives.same_class) {
+    out.exclusive.emplace_back(id, evidence(i, density));
+    ++i;
+  }
+  for (const auto& [id, density] : alternatives.other_class)
+    out.others.emplace_back(id, evidence(i, density));
+  out.others.emplace_back(LandmarkId{}, evidence(i, alternatives.fresh));
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/association/measurement_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kSamePlace = 0.5;      // share of the smaller footprint
+constexpr double kNeverCertain = 0.98;  // existence that shuts out another thing in the same place
+constexpr double kRayLength_m = 8;
+constexpr double kLeastRange_m = 0.3;  // nearer: no viewing ray
+
+double width(const ObjectShape& shape) {
+  return std::max(shape.width, shape.depth);
+}
+
+Eigen::Vector2d apart(const WorldMeasurement& seen, const Landmark& landmark) {
+  return (seen.world_from_object.translation() - landmark.position).head<2>();
+}
+
+Eigen::Matrix2d jointCovariance(const WorldMeasurement& seen, const Landmark& landmark, double shared) {
+  return seen.covariance.topLeftCorner<2, 2>() + landmark.covariance.topLeftCorner<2, 2>() +
+         shared * shared * Eigen::Matrix2d::Identity();
+}
+
+// Density of a place anywhere on the viewing ray that passes the landmark, 1/m^2; 0 off the ray.
+double rayDensity(const WorldMeasurement& seen, const Landmark& landmark, double shared, double gate) {
+  const Pose3 world_from_camera =
+      seen.world_from_object * seen.measurement.proposal.camera_from_object.inverse();
+  const Eigen::Vector2d camera = world_from_camera.translation().head<2>();
+  const Eigen::Vector2d ray = seen.world_from_object.translation().head<2>() - camera;
+  const double range = ray.norm();
+  if (range < kLeastRange_m) return 0;
+  const Eigen::Vector2d along = ray / range, across(-along.y(), along.x());
+  const Eigen::Vector2d gap = landmark.position.head<2>() - camera;
+  const double landmark_range = along.dot(gap);
+  if (landmark_range < kLeastRange_m || landmark_range > kRayLength_m) return 0;
+  const double variance = across.dot(jointCovariance(seen, landmark, shared) * across) *
+                          std::max(1.0, std::pow(landmark_range / range, 2));
+  const double squared = std::pow(across.dot(gap), 2) / variance;
+  if (squared > gate * gate) return 0;
+  return std::exp(-squared / 2) / std::sqrt(2 * std::numbers::pi * variance) / kRayLength_m;
+}
+
+}  // namespace
+
+double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b,
+                        const Pose3& world_from_b) {
+  auto base_a = footprint(a), base_b = footprint(b);
+  for (auto& corner : base_a) corner = planarPart(world_from_a) * corner;
+  for (auto& corner : base_b) corner = planarPart(world_from_b) * corner;
+  const double smaller = std::min(polygonArea(base_a), polygonArea(base_b));
+  return smaller > 0 ? polygonArea(intersectConvex(base_a, base_b)) / smaller : 0;
+}
+
+void MeasurementModel::declare(ParameterVisitor& v) {
+  v.add("gate_sigma", gate_sigma, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
+  v.add("new_density_per_m2", new_density_per_m2,
+        {.doc = "floor likelihood of a new landmark: expected objects of a class per area",
+         .unit = "1/m^2",
+         .min = 1e-6,
+         .max = 100});
+  v.add("shared_error_m", shared_error_m,
+        {.doc = "error of a place that all sightings from one side share", .unit = "m", .min = 0, .max = 2});
+  v.add("tail_degrees", tail_degrees,
+        {.doc = "degrees of freedom of the Student t of a measured place; small: narrow core, heavy tails",
+         .min = 2.1,
+         .max = 1000});
+  v.add("wrong_label", wrong_label,
+        {.doc = "probability that the detector names an object of another class", .min = 1e-6, .max = 0.5});
+  v.add("wrong_depth", wrong_depth,
+        {.doc = "probability that a proposal of score 0 has the depth of something in front or behind",
+         .min = 0,
+         .max = 0.99});
+}
+
+double MeasurementModel::squaredDistance(const WorldMeasurement& seen, const Landmark& landmark) const {
+  const Eigen::Vector2d gap = apart(seen, landmark);
+  return gap.dot(jointCovariance(seen, landmark, shared_error_m).inverse() * gap);
+}
+
+bool MeasurementModel::inGate(const WorldMeasurement& seen, const Landmark& landmark) const {
+  if (landmark.class_name != seen.measurement.proposal.class_name) return false;
+  return squaredDistance(seen, landmark) <= gate_sigma * gate_sigma ||
+         (wrong_depth > 0 && rayDensity(seen, landmark, shared_error_m, gate_sigma) > 0);
+}
+
+double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landmark& landmark) const {
+  // The t distribution that has the joint covariance: its scale matrix is smaller by this factor.
+  const double scale = (tail_degrees - 2) / tail_degrees;
+  const double squared = squaredDistance(seen, landmark) / scale;
+  const double determinant = jointCovariance(seen, landmark, shared_error_m).determinant();
+  return std::pow(1 + squared / tail_degrees, -(tail_degrees + 2) / 2) /
+         (2 * std::numbers::pi * scale * std::sqrt(determinant));
+}
+
+double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark) const {
+  const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
+  return (1 - failed) * placeDensity(seen, landmark) +
+         failed * rayDensity(seen, landmark, shared_error_m, gate_sigma);
+}
+
+double MeasurementModel::depthTrust(const WorldMeasurement& seen, const Landmark& landmark) const {
+  const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
+  const double whole = density(seen, landmark);
+  return whole > 0 ? (1 - failed) * placeDensity(seen, landmark) / whole : 1 - failed;
+}
+
+Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
+                                            const std::vector<Landmark>& landmarks) const {
+  const auto& proposal = seen.measurement.proposal;
+  Alternatives out;
+  out.fresh = new_density_per_m2;
+  for (const auto& landmark : landmarks) {
+    if (landmark.class_name == proposal.class_name) {
+      if (inGate(seen, landmark)) out.same_class.emplace_back(landmark.id, density(seen, landmark));
+      continue;
+    }
+    const double size = width(proposal.shape) + width(landmark.shape);
+    if (apart(seen, landmark).norm() > size) continue;
+    const double overlap =
+        footprintOverlap(proposal.shape, seen.world_from_object, landmark.shape, landmark.worldFromObject());
+    if (overlap < kSamePlace) continue;
+    // Two things cannot stand in one place: what is surely there leaves little room for something new.
+    const double area = std::max(0.1, landmark.shape.width * landmark.shape.depth);
+    out.other_class.emplace_back(landmark.id, wrong_label * landmark.existence / area);
+    out.fresh *= 1 - kNeverCertain * landmark.existence;
+  }
+  return out;
+}
+
+}  // namespace roomgraph

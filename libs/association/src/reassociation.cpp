@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/association/reassociation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "roomgraph/association/frame_decision.h"
+#include "roomgraph/association/landmark_fusion.h"
+#include "roomgraph/association/track_memory.h"
+
+namespace roomgraph {
+namespace {
+
+using Frames = std::vector<std::vector<WorldMeasurement>>;
+using Decisions = std::vector<std::vector<BatchDecision>>;
+constexpr double kBatchExistence = 0.3;  // of a landmark made from what nobody claimed
+
+using Priors = std::vector<std::vector<std::vector<double>>>;  // by frame, measurement, alternative
+
+// Everything of the E-step that does not change with the direction of time.
+struct Evidence {
+  std::vector<std::vector<Alternatives>> alternatives;
+  Priors shares;  // p0
+};
+
+// Sightings of every feature point, by landmark.
+using FeatureVotes = std::map<std::int64_t, std::map<LandmarkId, int>>;
+
+FeatureVotes voteFeatures(const Frames& frames, const Decisions& decisions) {
+  FeatureVotes votes;
+  for (std::size_t f = 0; f < decisions.size(); ++f)
+    for (std::size_t k = 0; k < decisions[f].size(); ++k)
+      for (const auto feature : frames[f][k].measurement.features) ++votes[feature][decisions[f][k].landmark];
+  return votes;
+}
+
+// p0 by the other sightings of the points: a measurement does not vote for itself.
+std::vector<double> featureShares(const ObjectMeasurement& measurement, LandmarkId own,
+                                  const std::vector<LandmarkId>& ids, const FeatureVotes& votes,
+                                  double neutral) {
+  std::map<LandmarkId, double> owned;
+  double total = neutral;
+  for (const auto feature : measurement.features) {
+    const auto found = votes.find(feature);
+    if (found == votes.end()) continue;
+    double sum = 0;
+    for (const auto& [id, count] : found->second) sum += count - (id == own);
+    if (sum <= 0) continue;
+    total += 1;
+    for (const auto& [id, count] : found->second) owned[id] += (count - (id == own)) / sum;
+  }
+  std::vector<double> out;
+  for (const auto id : ids) out.push_back((owned[id] + neutral / static_cast<double>(ids.size())) / total);
+  return out;
+}
+
+Evidence gather(const Frames& frames, const Decisions& last, const std::vector<Landmark>& landmarks,
+                const AssociationModel& model) {
+  const FeatureVotes votes = voteFeatures(frames, last);
+  Evidence out;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    out.alternatives.emplace_back();
+    out.shares.emplace_back();
+    for (std::size_t k = 0; k < frames[f].size(); ++k) {
+      out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks));
+      const LandmarkId own = last.empty() ? LandmarkId{} : last[f][k].landmark;
+      out.shares[f].push_back(featureShares(frames[f][k].measurement, own, idsOf(out.alternatives[f][k]),
+                                            votes, model.neutral_features));
+    }
+  }
+  return out;
+}
+
+std::vector<Association> decide(const Evidence& evidence, std::size_t f, const AssociationModel& model,
+                                const std::vector<std::vector<double>>& priors) {
+  std::vector<WeightedAlternatives> frame;
+  for (std::size_t k = 0; k < priors.size(); ++k)
+    frame.push_back(weigh(evidence.alternatives[f][k], model, priors[k], evidence.shares[f][k]));
+  return decideFrame(frame);
+}
+
+// What the tracks know before each frame; backwards: what they know from after it.
+Priors filter(const Frames& frames, const Evidence& evidence, const AssociationModel& model, bool backwards) {
+  TrackMemory tracks;
+  Priors out(frames.size());
+  for (std::size_t step = 0; step < frames.size(); ++step) {
+    const std::size_t f = backwards ? frames.size() - 1 - step : step;
+    for (std::size_t k = 0; k < frames[f].size(); ++k)
+      out[f].push_back(
+          tracks.prior(frames[f][k].measurement, idsOf(evidence.alternatives[f][k]), model.forgetting));
+    for (const auto& association : decide(evidence, f, model, out[f]))
+      tracks.remember(frames[f][association.measurement].measurement, association.posterior);
+  }
+  return out;
+}
+
+std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidence& evidence,
+                                             const AssociationModel& model) {
+  Priors both = filter(frames, evidence, model, false);
+  const Priors later = filter(frames, evidence, model, true);
+  std::vector<std::vector<Association>> out;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t k = 0; k < both[f].size(); ++k)
+      for (std::size_t i = 0; i < both[f][k].size(); ++i) both[f][k][i] *= later[f][k][i];
+    out.push_back(decide(evidence, f, model, both[f]));
+  }
+  return out;
+}
+
+// Measurements without a landmark keep the one they had in `last`; without that they make new ones, in
+// order of time, and later ones in gate join them.
+Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
+                   const Decisions& last, std::vector<Landmark>& landmarks, std::int64_t& next_id,
+                   const MeasurementModel& model) {
+  const std::size_t known = landmarks.size();
+  Decisions out;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    out.emplace_back();
+    std::set<LandmarkId> taken;
+    for (const auto& association : associations[f]) {
+      out[f].push_back({association, association.landmark});
+      LandmarkId& id = out[f].back().landmark;
+      if (!id.valid() && !last.empty()) id = last[f][association.measurement].landmark;
+      if (id.valid()) continue;
+      const WorldMeasurement& seen = frames[f][association.measurement];
+      double best = model.new_density_per_m2;
+      for (std::size_t j = known; j < landmarks.size(); ++j) {
+        if (!model.inGate(seen, landmarks[j]) || taken.contains(landmarks[j].id)) continue;
+        const double density = kBatchExistence * model.density(seen, landmarks[j]);
+        if (density > best) best = density, id = landmarks[j].id;
+      }
+      if (!id.valid()) {
+        id = LandmarkId{next_id++};
+        landmarks.push_back(bornFrom(seen, id, kBatchExistence));
+      }
+      taken.insert(id);
+    }
+  }
+  return out;
+}
+
+struct Sightings {
+  std::vector<const WorldMeasurement*> seen;
+  std::vector<double> weights;
+};
+
+std::map<LandmarkId, Sightings> byLandmark(const Frames& frames, const Decisions& decisions) {
+  std::map<LandmarkId, Sightings> out;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t k = 0; k < frames[f].size(); ++k) {
+      auto& sightings = out[decisions[f][k].landmark];
+      sightings.seen.push_back(&frames[f][k]);
+      sightings.weights.push_back(sightingWeight(frames[f][k].measurement) *
+                                  decisions[f][k].association.probability);
+    }
+  }
+  return out;
+}
+
+std::optional<Split> twoObjects(const Landmark& landmark, const Sightings& sightings,
+                                const DuplicateRule& rule) {
+  std::vector<PlaceSketch> places;
+  for (std::size_t i = 0; i < sightings.seen.size(); ++i) {
+    const auto& seen = *sightings.seen[i];
+    if (seen.measurement.proposal.class_name != landmark.class_name) continue;
+    places.push_back({seen.world_from_object.translation().head<2>(),
+                      std::sqrt(std::max(seen.covariance(0, 0), seen.covariance(1, 1))),
+                      sightings.weights[i]});
+  }
+  return findSplit(places, rule.splitDistance(landmark.shape));
+}
+
+// Places every landmark by its sightings; those without any go.
+void replace(const Frames& frames, const Decisions& decisions, std::vector<Landmark>& landmarks,
+             const MeasurementModel& model) {
+  const auto by_landmark = byLandmark(frames, decisions);
+  std::erase_if(landmarks, [&](const Landmark& l) { return !by_landmark.contains(l.id); });
+  for (auto& landmark : landmarks) {
+    const Sightings& sightings = by_landmark.at(landmark.id);
+    estimateLandmark(landmark, sightings.seen, sightings.weights, model);
+  }
+}
+
+// Landmarks of two objects become two, for the next round to sort out whose sightings are whose.
+void partMixed(const Frames& frames, const Decisions& decisions, std::vector<Landmark>& landmarks,
+               std::int64_t& next_id, const DuplicateRule& rule) {
+  const auto by_landmark = byLandmark(frames, decisions);
+  const std::size_t known = landmarks.size();
+  for (std::size_t j = 0; j < known; ++j) {
+    const auto split = twoObjects(landmarks[j], by_landmark.at(landmarks[j].id), rule);
+    if (!split) continue;
+    Landmark other = landmarks[j];
+    other.id = LandmarkId{next_id++};
+    landmarks[j].position.head<2>() = split->first;
+    other.position.head<2>() = split->second;
+    landmarks.push_back(other);
+  }
+}
+
+SeenTogether countTogether(const Decisions& decisions) {
+  SeenTogether out;
+  for (const auto& frame : decisions)
+    for (const auto& a : frame)
+      for (const auto& b : frame)
+        if (a.landmark < b.landmark) ++out[{a.landmark, b.landmark}];
+  return out;
+}
+
+// Joins duplicates: the one seen more often stays where it is and takes the other's sightings.
+void joinDuplicates(const DuplicateRule& rule, Decisions& decisions, std::vector<Landmark>& landmarks,
+                    std::vector<std::pair<LandmarkId, LandmarkId>>& merged) {
+  const SeenTogether together = countTogether(decisions);
+  std::map<LandmarkId, LandmarkId> kept_of;
+  std::stable_sort(landmarks.begin(), landmarks.end(),
+                   [](const Landmark& a, const Landmark& b) { return a.observations > b.observations; });
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    for (std::size_t j = i + 1; j < landmarks.size();) {
+      const auto pair = std::minmax(landmarks[i].id, landmarks[j].id);
+      const auto count = together.find({pair.first, pair.second});
+      if (!rule.same(landmarks[i], landmarks[j], count == together.end() ? 0 : count->second)) {
+        ++j;
+        continue;
+      }
+      kept_of[landmarks[j].id] = landmarks[i].id;
+      merged.emplace_back(landmarks[j].id, landmarks[i].id);
+      landmarks[i].existence = 1 - (1 - landmarks[i].existence) * (1 - landmarks[j].existence);
+      landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+  for (auto& frame : decisions)
+    for (auto& decision : frame)
+      if (const auto found = kept_of.find(decision.landmark); found != kept_of.end())
+        decision.landmark = found->second;
+  std::sort(landmarks.begin(), landmarks.end(),
+            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
+}
+
+bool sameLandmarks(const Decisions& a, const Decisions& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                      [](const auto& p, const auto& q) { return p.landmark == q.landmark; });
+  });
+}
+
+// Posterior over what is left after merging; `first`: of the landmark's first sighting, which made it.
+void rename(BatchDecision& decision, const std::map<LandmarkId, LandmarkId>& kept_of, bool first) {
+  auto& association = decision.association;
+  association.landmark = first ? LandmarkId{} : decision.landmark;
+  WeightedLandmarks posterior;
+  for (auto [id, probability] : association.posterior) {
+    for (auto kept = kept_of.find(id); kept != kept_of.end(); kept = kept_of.find(id)) id = kept->second;
+    // What was new when it was decided is the landmark that was made of it.
+    if (!id.valid() || id == decision.landmark) id = association.landmark;
+    const auto same = std::find_if(posterior.begin(), posterior.end(),
+                                   [&](const auto& entry) { return entry.first == id; });
+    if (same == posterior.end()) {
+      posterior.emplace_back(id, probability);
+    } else {
+      same->second += probability;
+    }
+  }
+  association.posterior = posterior;
+  for (const auto& [id, probability] : posterior)
+    if (id == association.landmark) association.probability = probability;
+}
+
+// As the decisions would have been written down at the time.
+void nameFirstSightings(Reassociation& result) {
+  std::map<LandmarkId, LandmarkId> kept_of(result.merged.begin(), result.merged.end());
+  std::set<LandmarkId> known;
+  for (auto& frame : result.decisions) {
+    std::set<LandmarkId> now;
+    for (auto& decision : frame) {
+      rename(decision, kept_of, !known.contains(decision.landmark));
+      now.insert(decision.landmark);
+    }
+    known.merge(now);
+  }
+}
+
+}  // namespace
+
+Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
+                          const AssociationModel& model, const DuplicateRule& duplicates, int max_rounds) {
+  Reassociation out;
+  out.landmarks = std::move(initial);
+  std::int64_t next_id = 0;
+  for (const auto& landmark : out.landmarks) next_id = std::max(next_id, landmark.id.value + 1);
+  while (out.rounds < max_rounds && !out.settled) {
+    ++out.rounds;
+    const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
+    // Landmarks come and go in the first half of the rounds only: then places and decisions must settle.
+    const bool open = out.rounds <= (max_rounds + 1) / 2;
+    Decisions decisions =
+        complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions,
+                 out.landmarks, next_id, model.measurement);
+    replace(by_frame, decisions, out.landmarks, model.measurement);
+    if (open) joinDuplicates(duplicates, decisions, out.landmarks, out.merged);
+    out.settled = sameLandmarks(decisions, out.decisions);
+    out.decisions = std::move(decisions);
+    if (open && !out.settled) partMixed(by_frame, out.decisions, out.landmarks, next_id, duplicates);
+  }
+  nameFirstSightings(out);
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/association/soft_associator.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(SoftAssociator, Associator, roomgraph)
+
+std::vector<Association> SoftAssociator::associate(const std::vector<WorldMeasurement>& measurements,
+                                                   const std::vector<Landmark>& landmarks) {
+  std::vector<WeightedAlternatives> frame;
+  for (const auto& seen : measurements) {
+    const Alternatives alternatives = model_.measurement.alternatives(seen, landmarks);
+    const auto ids = idsOf(alternatives);
+    frame.push_back(weigh(alternatives, model_, tracks_.prior(seen.measurement, ids, model_.forgetting),
+                          features_.shares(seen.measurement.features, ids, model_.neutral_features)));
+  }
+  std::vector<Association> out = decideFrame(frame);
+  for (const auto& association : out)
+    tracks_.remember(measurements[association.measurement].measurement, association.posterior);
+  return out;
+}
+
+void SoftAssociator::assigned(const WorldMeasurement& measurement, LandmarkId landmark) {
+  tracks_.named(measurement.measurement, landmark);
+  features_.own(measurement.measurement.features, landmark);
+}
+
+void SoftAssociator::merged(LandmarkId removed, LandmarkId kept) {
+  tracks_.merged(removed, kept);
+  features_.merged(removed, kept);
+}
+
+}  // namespace roomgraph
