@@ -9,6 +9,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kMaxRays = 20;
+constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
 
 double widthOf(const ObjectShape& shape) {
   return std::max(shape.width, shape.depth);
@@ -76,7 +77,7 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& 
   voteLabel(*landmark, record, measurement);
   const std::string& label = measurement.proposal.class_name;
   if (label != landmark->class_name) {
-    if (record.labels[label] <= record.labels[landmark->class_name]) return landmark->id;
+    if (record.labels[label] <= kClearMajority * record.labels[landmark->class_name]) return landmark->id;
     const Landmark before = *landmark;
     *landmark = bornFrom(seen, before.id, before.existence);
     landmark->class_posterior = before.class_posterior;

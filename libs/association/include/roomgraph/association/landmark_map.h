@@ -24,8 +24,8 @@ class LandmarkMap : public Configurable {
   const DuplicateRule& duplicates() const { return duplicates_; }
 
   /// Fuses a measurement into its landmark, or makes a new one; returns the landmark's id. A measurement of
-  /// another class than its landmark's only votes for its label; when that label has more votes, the landmark
-  /// becomes what it says.
+  /// another class than its landmark's only votes for its label; when that label has far more votes, the
+  /// landmark becomes what it says.
   LandmarkId update(const WorldMeasurement& measurement, const Association& association);
 
   /// Lowers the existence of a landmark that should have been detected and was not.
