@@ -14,6 +14,8 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 
 namespace {
 
+constexpr double kDoubtful = 0.5;  // quality below which other explanations of the depth are tried
+
 // Along the viewing ray the error grows with z² (disparity), across it with z; a cut box, few points or none
 // make the place less certain. Turned into the ground frame's axes.
 Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e) {
@@ -46,6 +48,22 @@ std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const Generator
     default:
       return cuboidHypotheses(evidence, limits);
   }
+}
+
+// With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
+// been taken for the object.
+std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
+                                      const Frame& frame, const GeneratorLimits& limits) {
+  const auto masks = explanations(evidence.all, evidence.box, *evidence.model, evidence.camera.fx, 2);
+  std::vector<PlacedShape> all = std::move(first);
+  for (const DepthMask& mask : {masks.size() > 1 ? masks[1] : DepthMask{}, DepthMask{}}) {
+    const auto more = hypotheses(withMask(evidence, mask, frame), limits);
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
+  if (static_cast<int>(all.size()) > limits.max_count) all.resize(limits.max_count);
+  return all;
 }
 
 }  // namespace
@@ -104,7 +122,10 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   if (!model || clipped(detection.box, frame.camera.width, frame.camera.height).empty()) return;
   const BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
   const InitialScore start = initialScore(frame, detection, evidence.mask.valid_ratio);
-  for (const PlacedShape& placed : hypotheses(evidence, limits_)) {
+  auto found = hypotheses(evidence, limits_);
+  if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
+    found = reconsidered(std::move(found), evidence, frame, limits_);
+  for (const PlacedShape& placed : found) {
     const auto projected = project(placed, evidence);
     if (!projected) continue;
     Proposal proposal;

@@ -34,4 +34,9 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
 /// size.
 DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px);
 
+/// The clusters that explain the box, best first, at most `max_count`: when an occluder was taken for the
+/// object, the object is the next.
+std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
+                                    double focal_px, int max_count);
+
 }  // namespace roomgraph

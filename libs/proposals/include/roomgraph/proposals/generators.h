@@ -10,6 +10,11 @@
 
 namespace roomgraph {
 
+/// A flag for every side of a box.
+struct BoxSides {
+  bool left = false, top = false, right = false, bottom = false;
+};
+
 /// What a generator knows about one detection.
 struct BoxEvidence {
   PinholeCamera camera;
@@ -17,7 +22,8 @@ struct BoxEvidence {
   Pose3 camera_from_ground = Pose3::Identity();
   Box2 box;
   bool cut_left = false, cut_top = false, cut_right = false,
-       cut_bottom = false;  ///< box side at the image border
+       cut_bottom = false;  ///< box side at the image border or at a nearer object: the model may go on
+  BoxSides hidden;          ///< of these, the sides at a nearer object
   DepthMask mask;           ///< of the object; may be empty
   DepthMask all;            ///< everything in the box
   const ObjectModel* model = nullptr;
@@ -25,6 +31,8 @@ struct BoxEvidence {
 
 BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const ObjectModel& model,
                            const Plane& ground);
+/// The same box with other points taken for the object: what hides its sides is looked for anew.
+BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const Frame& frame);
 
 /// An upright model on the ground.
 struct PlacedShape {
@@ -38,7 +46,8 @@ struct PlacedShape {
 
 Pose3 groundFromObject(const PlacedShape& placed);
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
-/// IoU of the projected model with the box, both cut by the image border; 0 when it is out of view.
+/// IoU of the projected model with the box, both cut by the image border, the model also by hidden box sides;
+/// 0 when it is out of view.
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence);
 /// Where the middle of the box's bottom side meets the ground (paper Eq. 2), ground frame; nothing when that
 /// side is at the image border or above the horizon.
