@@ -207,15 +207,16 @@ double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>
     middle.push_back(q);
     heights.push_back(q.z());
   }
-  const double high = 0.8 * quantile(heights, 0.97);
-  double sum = 0;
-  int count = 0;
+  const double high = 0.8 * quantile(heights, 0.97), low = 0.6 * high;
+  double high_sum = 0, low_sum = 0;
+  int high_count = 0, low_count = 0;
   for (const auto& q : middle) {
-    if (q.z() < high) continue;
-    sum += std::clamp(-2 * q.x() / placed.shape.depth, -1.0, 1.0);
-    ++count;
+    if (q.z() >= high) high_sum += q.x(), ++high_count;
+    if (q.z() <= low) low_sum += q.x(), ++low_count;
   }
-  return count >= 5 ? sum / count : 0;
+  if (high_count < 5) return 0;
+  const double back = high_sum / high_count, seat = low_count < 5 ? back : low_sum / low_count;
+  return std::clamp((seat - 2 * back) / (placed.shape.depth / 2), -1.0, 1.0);
 }
 
 void judge(PlacedShape& placed, const BoxEvidence& evidence) {

@@ -15,6 +15,8 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 namespace {
 
 constexpr double kDoubtful = 0.5;  // quality below which other explanations of the depth are tried
+constexpr double kUnsupported =
+    0.7;  // on the quality of what no depth point speaks for, where there are some
 
 // Along the viewing ray the error grows with z² (disparity), across it with z; a cut box, few points or none
 // make the place less certain. Turned into the ground frame's axes.
@@ -57,8 +59,10 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
   const auto masks = explanations(evidence.all, evidence.box, *evidence.model, evidence.camera.fx, 2);
   std::vector<PlacedShape> all = std::move(first);
   for (const DepthMask& mask : {masks.size() > 1 ? masks[1] : DepthMask{}, DepthMask{}}) {
-    const auto more = hypotheses(withMask(evidence, mask, frame), limits);
-    all.insert(all.end(), more.begin(), more.end());
+    for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
+      if (mask.points.empty()) placed.quality *= kUnsupported;
+      all.push_back(std::move(placed));
+    }
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
