@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "roomgraph/proposals/initial_score.h"
+#include "roomgraph/proposals/proposal_covariance.h"
 
 namespace roomgraph {
 
@@ -14,31 +14,15 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 
 namespace {
 
-constexpr double kDoubtful = 0.5;  // quality below which other explanations of the depth are tried
+constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
+constexpr double kPredictedVariance = 1e-4;  // rad², m²: of a ground plane that was not seen
 constexpr double kUnsupported =
     0.7;  // on the quality of what no depth point speaks for, where there are some
 
-// Along the viewing ray the error grows with z² (disparity), across it with z; a cut box, few points or none
-// make the place less certain. Turned into the ground frame's axes.
-Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e) {
-  const double range = std::hypot(placed.x, placed.y);
-  double along = 0.04 + 0.012 * range * range, across = 0.03 + 0.006 * range, yaw = 0.12;
-  const bool few = e.mask.points.size() < 60;
-  if (e.mask.points.empty()) along += 0.08 * range;
-  if (few) along *= 1.5, across *= 1.3, yaw *= 2;
-  if (e.cut_left || e.cut_right) across *= 2, along *= 1.3, yaw *= 1.5;
-  if (e.cut_bottom) along *= 1.3;
-  if (placed.shape.kind != ShapeKind::kCylinder) along *= 1.5, across *= 1.5;
-  if (!placed.has_yaw) yaw = std::numbers::pi;
-  const double bearing = std::atan2(placed.y, placed.x);
-  Eigen::Matrix2d turn;
-  turn << std::cos(bearing), -std::sin(bearing), std::sin(bearing), std::cos(bearing);
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance.topLeftCorner<2, 2>() =
-      turn * Eigen::Vector2d(along * along, across * across).asDiagonal() * turn.transpose();
-  covariance(2, 2) = 0.02 * 0.02;
-  covariance(3, 3) = yaw * yaw;
-  return covariance;
+// Largest standard deviation of the ground's normal.
+double tiltSigma(const GroundEstimate& ground) {
+  const Eigen::Matrix3d covariance = ground.covariance.topLeftCorner<3, 3>();
+  return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
 }
 
 std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
@@ -60,7 +44,8 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
   std::vector<PlacedShape> all = std::move(first);
   for (const DepthMask& mask : {masks.size() > 1 ? masks[1] : DepthMask{}, DepthMask{}}) {
     for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
-      if (mask.points.empty()) placed.quality *= kUnsupported;
+      placed.supported = !mask.points.empty();
+      if (!placed.supported) placed.quality *= kUnsupported;
       all.push_back(std::move(placed));
     }
   }
@@ -113,7 +98,7 @@ FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
   } else {
     out.ground_reason = found.reason();
     if (expected_ground)
-      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * 1e-3, false};
+      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * kPredictedVariance, false};
   }
   if (!out.ground || !database_) return out;
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
@@ -137,7 +122,7 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
     proposal.model = proposal.class_name = model->class_name;
     proposal.shape = placed.shape;
     proposal.camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
-    proposal.covariance = covarianceOf(placed, evidence);
+    proposal.covariance = covarianceOf(placed, evidence, tiltSigma(*out.ground));
     proposal.has_yaw = placed.has_yaw;
     proposal.projected = *projected;
     proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);

@@ -41,6 +41,7 @@ struct PlacedShape {
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
   bool has_yaw = false;
+  bool supported = true;  ///< false: the evidence's depth points do not speak for it
   std::string source;
 };
 
