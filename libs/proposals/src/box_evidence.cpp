@@ -66,6 +66,7 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.camera_from_ground = cameraFromGround(ground);
   e.box = clipped(detection.box, frame.camera.width, frame.camera.height);
   e.model = &model;
+  e.edges = findEdges(frame, e.box);
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
   return withMask(e, explainBox(e.all, e.box, model, frame.camera.fx), frame);
 }
@@ -74,6 +75,7 @@ BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const F
   BoxEvidence e = evidence;
   e.mask = mask;
   e.hidden = {};
+  e.edges.segments = supportedSegments(e.edges.segments, mask, e.box);
   markBorder(e);
   markHidden(e, frame);
   return e;
@@ -83,8 +85,15 @@ Pose3 groundFromObject(const PlacedShape& placed) {
   return toPose3(Pose2{placed.x, placed.y, placed.yaw});
 }
 
+Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence) {
+  const Pose3 camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
+  if (placed.roll == 0 && placed.pitch == 0) return camera_from_object;
+  const Eigen::Matrix3d& axes = evidence.camera_from_ground.linear();
+  return Pose3(expSO3(axes * Eigen::Vector3d(placed.roll, placed.pitch, 0))) * camera_from_object;
+}
+
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence) {
-  return projectShape(placed.shape, evidence.camera_from_ground * groundFromObject(placed), evidence.camera);
+  return projectShape(placed.shape, cameraFromObject(placed, evidence), evidence.camera);
 }
 
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence) {

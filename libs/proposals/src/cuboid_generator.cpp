@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "roomgraph/proposals/cuboid_corners.h"
 #include "roomgraph/proposals/fit_shape.h"
 #include "roomgraph/proposals/generators.h"
 #include "roomgraph/proposals/rectangle_fit.h"
@@ -88,28 +89,62 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   return out;
 }
 
-bool sameAs(const PlacedShape& a, const PlacedShape& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < 0.05 && std::abs(wrapAngle(a.yaw - b.yaw)) < 0.1;
+// Neither depth nor a visible bottom: as far as the usual width looks as wide as the box, front to the
+// camera.
+std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
+  if (e.cut_left || e.cut_right || halfAngleOf(e) < 1e-3) return {};
+  const double bearing = bearingOf(e),
+               range = e.model->width_m / 2 / std::tan(halfAngleOf(e)) + e.model->depth_m / 2;
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  placed.x = range * std::cos(bearing);
+  placed.y = range * std::sin(bearing);
+  placed.yaw = wrapAngle(bearing + std::numbers::pi);
+  placed.has_yaw = true;
+  placed.source = "size";
+  return {placed};
+}
+
+std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
+  if (!e.mask.points.empty()) return guessesFromDepth(e);
+  auto guesses = cuboidsFromCorners(e);
+  for (const auto& more : {guessesFromContact(e), guessFromSize(e)})
+    guesses.insert(guesses.end(), more.begin(), more.end());
+  return guesses;
+}
+
+bool sameAs(const PlacedShape& a, const PlacedShape& b, double distance, double angle) {
+  return std::hypot(a.x - b.x, a.y - b.y) < distance && std::abs(wrapAngle(a.yaw - b.yaw)) < angle;
+}
+
+// Best first, without those much like a better one.
+std::vector<PlacedShape> distinct(std::vector<PlacedShape> all, double distance, double angle,
+                                  std::size_t most) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
+  std::vector<PlacedShape> kept;
+  for (const PlacedShape& placed : all) {
+    if (kept.size() == most) break;
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const PlacedShape& k) { return sameAs(k, placed, distance, angle); });
+    if (!known) kept.push_back(placed);
+  }
+  return kept;
 }
 
 }  // namespace
 
 std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  auto guesses = evidence.mask.points.empty() ? guessesFromContact(evidence) : guessesFromDepth(evidence);
+  const auto most = static_cast<std::size_t>(limits.max_count);
+  auto guesses = initialGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
-  const auto better = [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; };
-  std::stable_sort(guesses.begin(), guesses.end(), better);
-  if (static_cast<int>(guesses.size()) > limits.max_count + 1) guesses.resize(limits.max_count + 1);
-  std::vector<PlacedShape> kept;
-  for (const PlacedShape& guess : guesses) {
-    const PlacedShape fitted = fitShape(guess, evidence);
-    const bool known =
-        std::any_of(kept.begin(), kept.end(), [&](const PlacedShape& k) { return sameAs(k, fitted); });
-    if (!known && fitted.box_iou >= limits.min_iou) kept.push_back(fitted);
+  const bool blind = evidence.mask.points.empty();
+  std::vector<PlacedShape> fitted;
+  for (const PlacedShape& guess : distinct(guesses, blind ? 0.15 : 0, blind ? 0.2 : 0, most + 1)) {
+    fitted.push_back(fitShape(guess, evidence));
+    if (fitted.back().box_iou < limits.min_iou) fitted.pop_back();
   }
-  std::stable_sort(kept.begin(), kept.end(), better);
-  if (static_cast<int>(kept.size()) > limits.max_count) kept.resize(limits.max_count);
-  return kept;
+  return distinct(fitted, 0.05, 0.1, most);
 }
 
 }  // namespace roomgraph

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unsupported/Eigen/NonLinearOptimization>
 
+#include "roomgraph/proposals/edge_agreement.h"
 #include "roomgraph/proposals/plane_fit.h"
 
 namespace roomgraph {
@@ -219,6 +220,17 @@ double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>
   return std::clamp((seat - 2 * back) / (placed.shape.depth / 2), -1.0, 1.0);
 }
 
+namespace {
+
+// Which side is the front: as the back rest says; where no depth tells, furniture rather faces the viewer
+// than the wall behind it.
+double frontAgreement(const PlacedShape& placed, const BoxEvidence& evidence) {
+  if (!evidence.mask.points.empty()) return backRestAgreement(placed, evidence.mask.points);
+  return -0.3 * std::cos(placed.yaw - std::atan2(placed.y, placed.x));
+}
+
+}  // namespace
+
 void judge(PlacedShape& placed, const BoxEvidence& evidence) {
   const ObjectModel& m = *evidence.model;
   placed.box_iou = boxIou(placed, evidence);
@@ -229,8 +241,10 @@ void judge(PlacedShape& placed, const BoxEvidence& evidence) {
                       unusual(placed.shape.depth, m.depth_m, m.depth_sigma_m) +
                       unusual(placed.shape.height, m.height_m, m.height_sigma_m);
   placed.quality = placed.box_iou * std::exp(-meanOutside(placed, evidence.mask.points) / 0.15 - 0.08 * size);
+  if (evidence.mask.points.empty())
+    if (const auto edges = edgeAgreement(placed, evidence)) placed.quality *= 0.4 + 0.6 * *edges;
   if (m.symmetry == 1 && placed.shape.kind == ShapeKind::kCuboid)
-    placed.quality *= 0.55 + 0.45 * backRestAgreement(placed, evidence.mask.points);
+    placed.quality *= 0.55 + 0.45 * frontAgreement(placed, evidence);
 }
 
 PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence) {

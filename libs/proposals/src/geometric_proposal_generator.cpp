@@ -109,8 +109,9 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   const Detection& detection = out.detections[index];
   const ObjectModel* model = database_->find(detection.class_name);
   if (!model || clipped(detection.box, frame.camera.width, frame.camera.height).empty()) return;
-  const BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
-  const InitialScore start = initialScore(frame, detection, evidence.mask.valid_ratio);
+  BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
+  if (!out.ground->from_depth) evidence.ground_tilt_sigma = tiltSigma(*out.ground);
+  const InitialScore start = initialScore(evidence);
   auto found = hypotheses(evidence, limits_);
   if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
     found = reconsidered(std::move(found), evidence, frame, limits_);
@@ -121,7 +122,7 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
     proposal.detection = index;
     proposal.model = proposal.class_name = model->class_name;
     proposal.shape = placed.shape;
-    proposal.camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
+    proposal.camera_from_object = cameraFromObject(placed, evidence);
     proposal.covariance = covarianceOf(placed, evidence, tiltSigma(*out.ground));
     proposal.has_yaw = placed.has_yaw;
     proposal.projected = *projected;

@@ -6,6 +6,7 @@
 
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/observations/proposal.h"
+#include "roomgraph/proposals/box_edges.h"
 #include "roomgraph/proposals/depth_mask.h"
 
 namespace roomgraph {
@@ -22,10 +23,12 @@ struct BoxEvidence {
   Pose3 camera_from_ground = Pose3::Identity();
   Box2 box;
   bool cut_left = false, cut_top = false, cut_right = false,
-       cut_bottom = false;  ///< box side at the image border or at a nearer object: the model may go on
-  BoxSides hidden;          ///< of these, the sides at a nearer object
-  DepthMask mask;           ///< of the object; may be empty
-  DepthMask all;            ///< everything in the box
+       cut_bottom = false;       ///< box side at the image border or at a nearer object: the model may go on
+  BoxSides hidden;               ///< of these, the sides at a nearer object
+  DepthMask mask;                ///< of the object; may be empty
+  DepthMask all;                 ///< everything in the box
+  BoxEdges edges;                ///< its segments: those the mask supports
+  double ground_tilt_sigma = 0;  ///< rad, of the ground's normal; 0: it was seen, nothing to correct
   const ObjectModel* model = nullptr;
 };
 
@@ -38,6 +41,7 @@ BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const F
 struct PlacedShape {
   ObjectShape shape;
   double x = 0, y = 0, yaw = 0;  ///< ground frame
+  double roll = 0, pitch = 0;    ///< rad, small correction of the local ground's normal, about the camera
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
   bool has_yaw = false;
@@ -45,7 +49,10 @@ struct PlacedShape {
   std::string source;
 };
 
+/// On the ground as it was given, without the correction of its normal.
 Pose3 groundFromObject(const PlacedShape& placed);
+/// With it.
+Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence);
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
 /// IoU of the projected model with the box, both cut by the image border, the model also by hidden box sides;
 /// 0 when it is out of view.
