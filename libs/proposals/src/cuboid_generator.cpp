@@ -113,38 +113,17 @@ std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
   return guesses;
 }
 
-bool sameAs(const PlacedShape& a, const PlacedShape& b, double distance, double angle) {
-  return std::hypot(a.x - b.x, a.y - b.y) < distance && std::abs(wrapAngle(a.yaw - b.yaw)) < angle;
-}
-
-// Best first, without those much like a better one.
-std::vector<PlacedShape> distinct(std::vector<PlacedShape> all, double distance, double angle,
-                                  std::size_t most) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
-  std::vector<PlacedShape> kept;
-  for (const PlacedShape& placed : all) {
-    if (kept.size() == most) break;
-    const bool known = std::any_of(kept.begin(), kept.end(),
-                                   [&](const PlacedShape& k) { return sameAs(k, placed, distance, angle); });
-    if (!known) kept.push_back(placed);
-  }
-  return kept;
-}
-
 }  // namespace
 
 std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  const auto most = static_cast<std::size_t>(limits.max_count);
   auto guesses = initialGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
   const bool blind = evidence.mask.points.empty();
+  const GeneratorLimits starts{limits.max_count + 1, 0, nullptr};
   std::vector<PlacedShape> fitted;
-  for (const PlacedShape& guess : distinct(guesses, blind ? 0.15 : 0, blind ? 0.2 : 0, most + 1)) {
+  for (const PlacedShape& guess : keepBest(guesses, blind ? 0.15 : 0, blind ? 0.2 : 0, starts))
     fitted.push_back(fitShape(guess, evidence));
-    if (fitted.back().box_iou < limits.min_iou) fitted.pop_back();
-  }
-  return distinct(fitted, 0.05, 0.1, most);
+  return keepBest(fitted, 0.05, 0.1, limits);
 }
 
 }  // namespace roomgraph

@@ -15,9 +15,10 @@ namespace {
 constexpr int kPoints = 80;           // of the mask, used in the fit
 constexpr double kPointsWeight = 16;  // all of them together count like so many independent points
 
+constexpr double kMostTilt = 3;    // standard deviations the ground's normal is corrected by
 constexpr double kPointScale = 4;  // standard deviations at which a point's pull levels off
 
-constexpr int kFixed = 9;  // residuals: box sides, sizes, near side, yaw
+constexpr int kFixed = 12;  // residuals: box sides, sizes, near side, yaw, leg, roll and pitch of the ground
 
 // Large residuals level off (Geman-McClure): wrong mask points and box sides cut by an occluder.
 double saturated(double r, double scale) {
@@ -78,16 +79,17 @@ class FitProblem {
     point_weight_ = points_.empty() ? 0 : std::sqrt(kPointsWeight / static_cast<double>(points_.size()));
   }
 
-  int inputs() const { return round() ? 4 : 6; }
+  int inputs() const { return (round() ? 4 : 6) + (tilts() ? 2 : 0); }
   int values() const { return kFixed + static_cast<int>(points_.size()); }
 
   Eigen::VectorXd vectorOf(const PlacedShape& p) const {
     Eigen::VectorXd x(inputs());
     if (round()) {
-      x << p.x, p.y, 2 * p.shape.radius(), p.shape.height;
+      x.head<4>() << p.x, p.y, 2 * p.shape.radius(), p.shape.height;
     } else {
-      x << p.x, p.y, p.yaw, p.shape.width, p.shape.depth, p.shape.height;
+      x.head<6>() << p.x, p.y, p.yaw, p.shape.width, p.shape.depth, p.shape.height;
     }
+    if (tilts()) x.tail<2>() << p.roll, p.pitch;
     return x;
   }
 
@@ -99,6 +101,11 @@ class FitProblem {
     p.shape.width = std::max(0.05, x[round() ? 2 : 3]);
     p.shape.depth = std::max(0.05, x[round() ? 2 : 4]);
     p.shape.height = std::max(0.05, x[round() ? 3 : 5]);
+    if (tilts()) {
+      const double most = kMostTilt * e_.ground_tilt_sigma;
+      p.roll = std::clamp(x[inputs() - 2], -most, most);
+      p.pitch = std::clamp(x[inputs() - 1], -most, most);
+    }
     return p;
   }
 
@@ -153,7 +160,21 @@ class FitProblem {
     r[7] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (2 * sigma_point_), 3) : 0;
     // The directions of the sides, found in the points, say more about yaw than the box does.
     r[8] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / (points_.empty() ? 0.4 : 0.08);
+    r[9] = besideLeg(p);
+    r[10] = tilts() ? p.roll / e_.ground_tilt_sigma : 0;
+    r[11] = tilts() ? p.pitch / e_.ground_tilt_sigma : 0;
     return r;
+  }
+
+  // The local ground's normal is corrected when it was not seen: the box's sides, which the bottom and the
+  // top circle or face reach, then disagree with the usual size (paper sec. IV.A).
+  bool tilts() const { return points_.empty() && e_.ground_tilt_sigma > 0; }
+
+  // How far the axis' foot is beside the leg, which was extended to the box's bottom line.
+  double besideLeg(const PlacedShape& p) const {
+    const Eigen::Vector3d foot = cameraFromObject(p, e_).translation();
+    if (!p.leg_column || foot.z() <= 0) return 0;
+    return saturated((e_.camera.project(foot).x() - *p.leg_column) / (3 + 0.04 * e_.box.width()), 3);
   }
 
   // What lies outside the image may be nearer than all that is seen.

@@ -49,10 +49,43 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
       all.push_back(std::move(placed));
     }
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
-  if (static_cast<int>(all.size()) > limits.max_count) all.resize(limits.max_count);
-  return all;
+  return keepBest(all, 0.05, 0.1, limits);
+}
+
+// Nothing when it is out of view.
+std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence& evidence,
+                                   const InitialScore& start, double tilt_sigma) {
+  const auto projected = project(placed, evidence);
+  if (!projected) return std::nullopt;
+  Proposal proposal;
+  proposal.model = proposal.class_name = evidence.model->class_name;
+  proposal.shape = placed.shape;
+  proposal.camera_from_object = cameraFromObject(placed, evidence);
+  proposal.covariance = covarianceOf(placed, evidence, tilt_sigma);
+  proposal.has_yaw = placed.has_yaw;
+  proposal.projected = *projected;
+  proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
+  proposal.box_iou = placed.box_iou;
+  proposal.source = placed.source;
+  char fit[96];
+  std::snprintf(fit, sizeof fit, "; fit %.2f, IoU with the box %.2f, %zu depth points", placed.quality,
+                placed.box_iou, placed.supported ? evidence.mask.points.size() : 0);
+  proposal.reasons = start.text() + fit;
+  return proposal;
+}
+
+ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore& start,
+                      const std::vector<PlacedShape>& rejected, double tilt_sigma) {
+  ProposalTrace trace;
+  for (const MaskPoint& p : evidence.mask.points) trace.mask_pixels.emplace_back(p.u, p.v);
+  trace.segments = evidence.edges.segments;
+  for (const PlacedShape& placed : rejected)
+    if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
+      proposal->detection = index;
+      proposal->reasons = placed.reason;
+      trace.rejected.push_back(std::move(*proposal));
+    }
+  return trace;
 }
 
 }  // namespace
@@ -100,6 +133,7 @@ FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
     if (expected_ground)
       out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * kPredictedVariance, false};
   }
+  if (keep_traces_) out.traces.resize(detections.size());
   if (!out.ground || !database_) return out;
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
   return out;
@@ -112,29 +146,19 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
   if (!out.ground->from_depth) evidence.ground_tilt_sigma = tiltSigma(*out.ground);
   const InitialScore start = initialScore(evidence);
-  auto found = hypotheses(evidence, limits_);
+  GeneratorLimits limits = limits_;
+  std::vector<PlacedShape> rejected;
+  if (keep_traces_) limits.rejected = &rejected;
+  auto found = hypotheses(evidence, limits);
   if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
-    found = reconsidered(std::move(found), evidence, frame, limits_);
-  for (const PlacedShape& placed : found) {
-    const auto projected = project(placed, evidence);
-    if (!projected) continue;
-    Proposal proposal;
-    proposal.detection = index;
-    proposal.model = proposal.class_name = model->class_name;
-    proposal.shape = placed.shape;
-    proposal.camera_from_object = cameraFromObject(placed, evidence);
-    proposal.covariance = covarianceOf(placed, evidence, tiltSigma(*out.ground));
-    proposal.has_yaw = placed.has_yaw;
-    proposal.projected = *projected;
-    proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
-    proposal.box_iou = placed.box_iou;
-    proposal.source = placed.source;
-    char fit[64];
-    std::snprintf(fit, sizeof fit, "; fit %.2f, %zu depth points", placed.quality,
-                  evidence.mask.points.size());
-    proposal.reasons = start.text() + fit;
-    out.proposals.push_back(proposal);
-  }
+    found = reconsidered(std::move(found), evidence, frame, limits);
+  const double tilt_sigma = tiltSigma(*out.ground);
+  for (const PlacedShape& placed : found)
+    if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
+      proposal->detection = index;
+      out.proposals.push_back(std::move(*proposal));
+    }
+  if (keep_traces_) out.traces[index] = traceOf(index, evidence, start, rejected, tilt_sigma);
 }
 
 }  // namespace roomgraph

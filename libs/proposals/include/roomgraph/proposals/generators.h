@@ -44,9 +44,11 @@ struct PlacedShape {
   double roll = 0, pitch = 0;    ///< rad, small correction of the local ground's normal, about the camera
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
+  std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
   bool supported = true;  ///< false: the evidence's depth points do not speak for it
   std::string source;
+  std::string reason;  ///< why it was dropped
 };
 
 /// On the ground as it was given, without the correction of its normal.
@@ -71,7 +73,12 @@ double quantile(std::vector<double> values, double ratio);
 struct GeneratorLimits {
   int max_count = 4;
   double min_iou = 0.3;
+  std::vector<PlacedShape>* rejected = nullptr;  ///< dropped hypotheses go here, when set
 };
+/// Best quality first, at most as many as allowed, none like a better one (nearer than `distance` m and
+/// turned by less than `angle` rad).
+std::vector<PlacedShape> keepBest(std::vector<PlacedShape> all, double distance, double angle,
+                                  const GeneratorLimits& limits);
 std::vector<PlacedShape> cylinderHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
 std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
 std::vector<PlacedShape> doorHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits = {});
