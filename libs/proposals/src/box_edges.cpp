@@ -44,7 +44,14 @@ double BoxEdges::distanceAt(const Eigen::Vector2d& pixel) const {
   return (distance.at<float>(y, x) + (beyond > 1 ? beyond : 0)) / scale;
 }
 
-double BoxEdges::segmentLength() const {
+void addDistances(BoxEdges& edges) {
+  if (edges.pixels.empty() || !edges.distance.empty()) return;
+  cv::Mat inverse;
+  cv::bitwise_not(edges.pixels, inverse);
+  cv::distanceTransform(inverse, edges.distance, cv::DIST_L2, 3);
+}
+
+double totalLength(const std::vector<Segment2>& segments) {
   double sum = 0;
   for (const Segment2& s : segments) sum += lengthOf(s);
   return sum;
@@ -60,14 +67,12 @@ BoxEdges findEdges(const Frame& frame, const Box2& box) {
     return out;
   const cv::Rect roi(cv::Point(static_cast<int>(rimmed.u_min), static_cast<int>(rimmed.v_min)),
                      cv::Point(static_cast<int>(rimmed.u_max), static_cast<int>(rimmed.v_max)));
-  cv::Mat part = grayPart(frame, roi), edges, inverse;
+  cv::Mat part = grayPart(frame, roi);
   out.scale = std::min(1.0, static_cast<double>(kSide) / std::max(roi.width, roi.height));
   out.origin = {roi.x, roi.y};
   if (out.scale < 1) cv::resize(part, part, cv::Size(), out.scale, out.scale, cv::INTER_AREA);
-  cv::Canny(part, edges, 50, 120);
-  findSegments(edges, out);
-  cv::bitwise_not(edges, inverse);
-  cv::distanceTransform(inverse, out.distance, cv::DIST_L2, 3);
+  cv::Canny(part, out.pixels, 50, 120);
+  findSegments(out.pixels, out);
   return out;
 }
 

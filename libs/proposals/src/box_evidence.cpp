@@ -68,14 +68,19 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.model = &model;
   e.edges = findEdges(frame, e.box);
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
-  return withMask(e, explainBox(e.all, e.box, model, frame.camera.fx), frame);
+  auto masks = explanations(e.all, e.box, model, frame.camera.fx, 2);
+  masks.resize(2);
+  masks[0].valid_ratio = e.all.valid_ratio;
+  e.other_mask = std::move(masks[1]);
+  return withMask(e, masks[0], frame);
 }
 
 BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const Frame& frame) {
   BoxEvidence e = evidence;
   e.mask = mask;
   e.hidden = {};
-  e.edges.segments = supportedSegments(e.edges.segments, mask, e.box);
+  e.segments = supportedSegments(e.edges.segments, mask, e.box);
+  if (mask.points.empty()) addDistances(e.edges);
   markBorder(e);
   markHidden(e, frame);
   return e;

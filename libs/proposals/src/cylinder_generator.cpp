@@ -57,7 +57,7 @@ std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
   constexpr double kStep = 0.04;  // of the box's height
   std::vector<PlacedShape> out;
   if (e.cut_bottom || !e.model->rests_on_ground) return out;
-  const LegLine leg = findLeg(e.edges.segments, e.box);
+  const LegLine leg = findLeg(e.segments, e.box);
   const auto place = [&](double u, double v, double beyond, const char* source) {
     if (const auto p = onGround(u, v, e)) {
       out.push_back(placeAt(std::atan2(p->y(), p->x()), p->norm() + beyond, e, source));

@@ -127,7 +127,7 @@ std::optional<PlacedShape> rectangleOn(const BoxEvidence& e, const VerticalPlane
 
 // The frame's edge near a side of the box: the longest steep segment there; else the side itself.
 double frameEdge(const BoxEvidence& e, double side) {
-  for (const Segment2& s : e.edges.segments) {  // longest first
+  for (const Segment2& s : e.segments) {  // longest first
     const Eigen::Vector2d along = s.b - s.a;
     if (std::abs(along.x()) < 0.15 * std::abs(along.y()) && along.norm() > 0.3 * e.box.height() &&
         std::abs((s.a.x() + s.b.x()) / 2 - side) < 0.12 * e.box.width())

@@ -69,7 +69,7 @@ double angleTo(const Segment2& s, const Eigen::Vector3d& vanishing) {
 double segmentAgreement(const PlacedShape& placed, const BoxEvidence& e) {
   const auto points = vanishingPoints(placed, e);
   double sum = 0, total = 0;
-  for (const Segment2& s : e.edges.segments) {
+  for (const Segment2& s : e.segments) {
     const double length = (s.b - s.a).norm();
     double angle = 10;
     for (const auto& p : points) angle = std::min(angle, angleTo(s, p));
@@ -87,7 +87,7 @@ std::array<Eigen::Vector3d, 3> vanishingPoints(const PlacedShape& placed, const 
 }
 
 std::optional<double> edgeAgreement(const PlacedShape& placed, const BoxEvidence& evidence) {
-  if (evidence.edges.empty() || placed.shape.kind == ShapeKind::kCylinder) return std::nullopt;
+  if (evidence.edges.distance.empty() || placed.shape.kind == ShapeKind::kCylinder) return std::nullopt;
   return 0.5 * outlineAgreement(placed, evidence) + 0.5 * segmentAgreement(placed, evidence);
 }
 

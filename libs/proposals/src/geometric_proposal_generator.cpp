@@ -40,9 +40,8 @@ std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const Generator
 // been taken for the object.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
                                       const Frame& frame, const GeneratorLimits& limits) {
-  const auto masks = explanations(evidence.all, evidence.box, *evidence.model, evidence.camera.fx, 2);
   std::vector<PlacedShape> all = std::move(first);
-  for (const DepthMask& mask : {masks.size() > 1 ? masks[1] : DepthMask{}, DepthMask{}}) {
+  for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
     for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
       placed.supported = !mask.points.empty();
       if (!placed.supported) placed.quality *= kUnsupported;
@@ -78,7 +77,7 @@ ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore
                       const std::vector<PlacedShape>& rejected, double tilt_sigma) {
   ProposalTrace trace;
   for (const MaskPoint& p : evidence.mask.points) trace.mask_pixels.emplace_back(p.u, p.v);
-  trace.segments = evidence.edges.segments;
+  trace.segments = evidence.segments;
   for (const PlacedShape& placed : rejected)
     if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
       proposal->detection = index;

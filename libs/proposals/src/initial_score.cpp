@@ -25,7 +25,7 @@ InitialScore initialScore(const BoxEvidence& evidence) {
   if (box.empty()) return out;
   out.area =
       std::min(1.0, std::sqrt(box.area() / (kFullArea * evidence.camera.width * evidence.camera.height)));
-  out.edges = std::min(1.0, evidence.edges.segmentLength() / (2 * (box.width() + box.height())));
+  out.edges = std::min(1.0, totalLength(evidence.segments) / (2 * (box.width() + box.height())));
   out.depth = std::clamp(evidence.mask.valid_ratio, 0.0, 1.0);
   out.value = 0.4 * out.area + 0.25 * out.edges + 0.35 * out.depth;
   return out;

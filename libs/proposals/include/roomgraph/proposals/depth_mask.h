@@ -26,7 +26,7 @@ struct DepthMask {
 /// All points inside the box (slightly shrunk), and inside the detection's mask when it has one. At most
 /// about `max_points`, on a regular pixel grid.
 DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
-                    int max_points = 1000);
+                    int max_points = 800);
 
 /// Removes the ground and what is higher than the class can be, clusters the rest (Euclidean distance) and
 /// keeps the cluster that explains the box best: large, central, filling the box, not behind others; parts of

@@ -23,12 +23,14 @@ struct BoxEvidence {
   Pose3 camera_from_ground = Pose3::Identity();
   Box2 box;
   bool cut_left = false, cut_top = false, cut_right = false,
-       cut_bottom = false;       ///< box side at the image border or at a nearer object: the model may go on
-  BoxSides hidden;               ///< of these, the sides at a nearer object
-  DepthMask mask;                ///< of the object; may be empty
-  DepthMask all;                 ///< everything in the box
-  BoxEdges edges;                ///< its segments: those the mask supports
-  double ground_tilt_sigma = 0;  ///< rad, of the ground's normal; 0: it was seen, nothing to correct
+       cut_bottom = false;  ///< box side at the image border or at a nearer object: the model may go on
+  BoxSides hidden;          ///< of these, the sides at a nearer object
+  DepthMask mask;           ///< of the object; may be empty
+  DepthMask all;            ///< everything in the box
+  DepthMask other_mask;     ///< the next best explanation of the box's points; may be empty
+  BoxEdges edges;
+  std::vector<Segment2> segments;  ///< of the edges, those the mask supports
+  double ground_tilt_sigma = 0;    ///< rad, of the ground's normal; 0: it was seen, nothing to correct
   const ObjectModel* model = nullptr;
 };
 
