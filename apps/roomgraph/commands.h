@@ -17,5 +17,6 @@ void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
 void addConfigReferenceCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 
 }  // namespace roomgraph

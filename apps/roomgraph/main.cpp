@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   roomgraph::addSnapshotCommand(app);
   roomgraph::addConfigReferenceCommand(app);
   roomgraph::addSimulateCommand(app);
+  roomgraph::addBenchCommand(app);
 
   try {
     app.parse(argc, argv);

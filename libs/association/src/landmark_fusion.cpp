@@ -138,6 +138,7 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen) {
 
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned) {
   record.evidence += other.evidence;
+  record.unseen_log_odds += other.unseen_log_odds;
   record.front += turned ? other.back : other.front;
   record.back += turned ? other.front : other.back;
   for (const auto& [label, votes] : other.labels) record.labels[label] += votes;

@@ -122,17 +122,23 @@ void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
   landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 1 - 1e-9);
 }
 
+void LandmarkMap::weighUnseen(LandmarkId id, double log_ratio) {
+  Landmark* landmark = get(id);
+  if (!landmark) return;
+  weigh(*landmark, std::exp(log_ratio));
+  records_[id].unseen_log_odds += log_ratio;
+}
+
 void LandmarkMap::miss(LandmarkId id) {
-  if (Landmark* landmark = get(id))
-    weigh(*landmark, (1 - detection_probability_) / (1 - false_alarm_probability_));
+  weighUnseen(id, std::log((1 - detection_probability_) / (1 - false_alarm_probability_)));
 }
 
 void LandmarkMap::seenThrough(LandmarkId id, int rays) {
-  if (Landmark* landmark = get(id)) weigh(*landmark, std::exp(-ray_gain_ * std::clamp(rays, 0, kMaxRays)));
+  weighUnseen(id, -ray_gain_ * std::clamp(rays, 0, kMaxRays));
 }
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
-  if (Landmark* landmark = get(id)) weigh(*landmark, std::exp(ray_gain_ * std::clamp(rays, 0, kMaxRays)));
+  weighUnseen(id, ray_gain_ * std::clamp(rays, 0, kMaxRays));
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
@@ -215,11 +221,9 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
 
 void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                         const Reassociation& result) {
-  std::map<LandmarkId, double> existence;
-  for (const auto& landmark : landmarks_) existence[landmark.id] = landmark.existence;
-  for (const auto& [removed, kept] : result.merged)
-    if (existence.contains(removed) && existence.contains(kept))
-      existence[kept] = 1 - (1 - existence[kept]) * (1 - existence[removed]);
+  std::map<LandmarkId, double> unseen;
+  for (const auto& [id, record] : records_) unseen[id] = record.unseen_log_odds;
+  for (const auto& [removed, kept] : result.merged) unseen[kept] += unseen[removed];
   // Replayed as if seen for the first time, for the votes; then place and size as re-estimated.
   landmarks_ = result.landmarks;
   for (auto& landmark : landmarks_) {
@@ -240,7 +244,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
       correct(landmark.id, estimate.position, estimate.yaw, estimate.covariance);
       landmark.shape = estimate.shape;
     }
-    if (existence.contains(landmark.id)) landmark.existence = existence[landmark.id];
+    weighUnseen(landmark.id, unseen[landmark.id]);
   }
 }
 

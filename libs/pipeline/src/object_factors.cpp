@@ -133,7 +133,8 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
     const KeyPose& node = poses.nearest(frame.t);
     const Pose3 node_from_camera = poses.offset(node, frame.t) * frame.robot_from_camera;
     for (const auto& decision : frame.decisions)
-      if (const auto found = known.find(decision.landmark); found != known.end())
+      if (const auto found = known.find(decision.landmark);
+          found != known.end() && found->second->class_name == decision.seen.measurement.proposal.class_name)
         gather(frame, decision, *found->second, node, node_from_camera, options, gathered[decision.landmark]);
   }
   ObjectFactors out;

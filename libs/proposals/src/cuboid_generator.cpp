@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "roomgraph/proposals/cuboid_corners.h"
 #include "roomgraph/proposals/fit_shape.h"
 #include "roomgraph/proposals/generators.h"
 #include "roomgraph/proposals/rectangle_fit.h"
@@ -88,28 +89,41 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   return out;
 }
 
-bool sameAs(const PlacedShape& a, const PlacedShape& b) {
-  return std::hypot(a.x - b.x, a.y - b.y) < 0.05 && std::abs(wrapAngle(a.yaw - b.yaw)) < 0.1;
+// Neither depth nor a visible bottom: as far as the usual width looks as wide as the box, front to the
+// camera.
+std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
+  if (e.cut_left || e.cut_right || halfAngleOf(e) < 1e-3) return {};
+  const double bearing = bearingOf(e),
+               range = e.model->width_m / 2 / std::tan(halfAngleOf(e)) + e.model->depth_m / 2;
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  placed.x = range * std::cos(bearing);
+  placed.y = range * std::sin(bearing);
+  placed.yaw = wrapAngle(bearing + std::numbers::pi);
+  placed.has_yaw = true;
+  placed.source = "size";
+  return {placed};
+}
+
+std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
+  if (!e.mask.points.empty()) return guessesFromDepth(e);
+  auto guesses = cuboidsFromCorners(e);
+  for (const auto& more : {guessesFromContact(e), guessFromSize(e)})
+    guesses.insert(guesses.end(), more.begin(), more.end());
+  return guesses;
 }
 
 }  // namespace
 
 std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  auto guesses = evidence.mask.points.empty() ? guessesFromContact(evidence) : guessesFromDepth(evidence);
+  auto guesses = initialGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
-  const auto better = [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; };
-  std::stable_sort(guesses.begin(), guesses.end(), better);
-  if (static_cast<int>(guesses.size()) > limits.max_count + 1) guesses.resize(limits.max_count + 1);
-  std::vector<PlacedShape> kept;
-  for (const PlacedShape& guess : guesses) {
-    const PlacedShape fitted = fitShape(guess, evidence);
-    const bool known =
-        std::any_of(kept.begin(), kept.end(), [&](const PlacedShape& k) { return sameAs(k, fitted); });
-    if (!known && fitted.box_iou >= limits.min_iou) kept.push_back(fitted);
-  }
-  std::stable_sort(kept.begin(), kept.end(), better);
-  if (static_cast<int>(kept.size()) > limits.max_count) kept.resize(limits.max_count);
-  return kept;
+  const bool blind = evidence.mask.points.empty();
+  const GeneratorLimits starts{limits.max_count + 1, 0, nullptr};
+  std::vector<PlacedShape> fitted;
+  for (const PlacedShape& guess : keepBest(guesses, blind ? 0.15 : 0, blind ? 0.2 : 0, starts))
+    fitted.push_back(fitShape(guess, evidence));
+  return keepBest(fitted, 0.05, 0.1, limits);
 }
 
 }  // namespace roomgraph

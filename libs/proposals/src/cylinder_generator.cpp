@@ -5,12 +5,14 @@
 
 #include "roomgraph/proposals/fit_shape.h"
 #include "roomgraph/proposals/generators.h"
+#include "roomgraph/proposals/leg_line.h"
 
 namespace roomgraph {
 namespace {
 
 // The box's bottom side touches the near rim of the base; chair feet rarely point straight at the camera.
 constexpr double kRim = 0.9;
+constexpr double kFarthest = 20;  // m
 
 PlacedShape placeAt(double bearing, double range, const BoxEvidence& e, const char* source) {
   PlacedShape placed;
@@ -40,12 +42,47 @@ double bearingOfObject(const BoxEvidence& e) {
   return (quantile(bearings, 0.03) + quantile(bearings, 0.97)) / 2;
 }
 
+// Where a pixel of the box's bottom line meets the ground, ground frame.
+std::optional<Eigen::Vector2d> onGround(double u, double v, const BoxEvidence& e) {
+  const auto point = intersect(e.camera.ray(u, v), e.ground);
+  if (!point || point->norm() > kFarthest) return std::nullopt;
+  return Eigen::Vector2d((e.camera_from_ground.inverse() * *point).head<2>());
+}
+
+// The paper's own path: the leg's line extended to the bottom line of the box meets the ground; the box's
+// bottom touches the near rim. Without a clear leg several bottom points vote, each moved up in steps, for
+// the axis itself.
+std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
+  constexpr int kSteps = 4;
+  constexpr double kStep = 0.04;  // of the box's height
+  std::vector<PlacedShape> out;
+  if (e.cut_bottom || !e.model->rests_on_ground) return out;
+  const LegLine leg = findLeg(e.segments, e.box);
+  const auto place = [&](double u, double v, double beyond, const char* source) {
+    if (const auto p = onGround(u, v, e)) {
+      out.push_back(placeAt(std::atan2(p->y(), p->x()), p->norm() + beyond, e, source));
+      if (leg.column) out.back().leg_column = leg.column;
+    }
+  };
+  if (leg.column) {
+    place(*leg.column, e.box.v_max, kRim * e.model->nominal().radius(), "leg line");
+  } else {
+    for (const double u : leg.votes)
+      for (int k = 0; k < kSteps; ++k) place(u, e.box.v_max - k * kStep * e.box.height(), 0, "leg votes");
+  }
+  for (PlacedShape& placed : out) judge(placed, e);
+  return keepBest(out, 0.15, 10, {2, 0.3, nullptr});
+}
+
 std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
   std::vector<PlacedShape> out;
   const double bearing = bearingOfObject(e), radius = e.model->nominal().radius();
   if (!e.mask.points.empty()) out.push_back(placeAt(bearing, rangeFromPoints(e, bearing), e, "depth"));
   if (const auto contact = contactPoint(e); contact && e.model->rests_on_ground)
     out.push_back(placeAt(bearing, contact->norm() + kRim * radius, e, "contact"));
+  // The leg tells more than the box's middle where there is no depth or one of the sides is not seen.
+  if (e.mask.points.empty() || e.cut_left || e.cut_right)
+    for (const PlacedShape& placed : guessesFromLeg(e)) out.push_back(placed);
   // Neither depth nor a visible bottom: as far as the usual size looks as wide as the box.
   if (out.empty() && !e.cut_left && !e.cut_right && halfAngleOf(e) > 1e-3)
     out.push_back(placeAt(bearing, radius / std::sin(halfAngleOf(e)), e, "size"));
@@ -55,18 +92,9 @@ std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
 }  // namespace
 
 std::vector<PlacedShape> cylinderHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  std::vector<PlacedShape> kept;
-  for (const PlacedShape& guess : initialGuesses(evidence)) {
-    const PlacedShape fitted = fitShape(guess, evidence);
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const PlacedShape& other) {
-      return std::hypot(other.x - fitted.x, other.y - fitted.y) < 0.05;
-    });
-    if (!known && fitted.box_iou >= limits.min_iou) kept.push_back(fitted);
-  }
-  std::stable_sort(kept.begin(), kept.end(),
-                   [](const PlacedShape& a, const PlacedShape& b) { return a.quality > b.quality; });
-  if (static_cast<int>(kept.size()) > limits.max_count) kept.resize(limits.max_count);
-  return kept;
+  std::vector<PlacedShape> fitted;
+  for (const PlacedShape& guess : initialGuesses(evidence)) fitted.push_back(fitShape(guess, evidence));
+  return keepBest(fitted, 0.05, 10, limits);
 }
 
 }  // namespace roomgraph

@@ -18,6 +18,7 @@ namespace {
 constexpr double kShrink = 0.02;        // of the box's size, per side: its rim is background
 constexpr double kVoxel = 0.05;         // m
 constexpr double kLinkDistance = 0.09;  // m, between voxels of one object
+constexpr std::size_t kLeastPoints = 8;
 
 bool maskedOut(const Detection& detection, int u, int v) {
   if (detection.mask.empty()) return false;
@@ -182,9 +183,9 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
   return out;
 }
 
-DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px) {
-  DepthMask out;
-  out.valid_ratio = all.valid_ratio;
+std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
+                                    double focal_px, int max_count) {
+  std::vector<DepthMask> out;
   const double ceiling = model.height_m + 3 * model.height_sigma_m + 0.1;
   std::vector<MaskPoint> standing;
   std::vector<double> ranges;
@@ -194,21 +195,30 @@ DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& m
     standing.push_back(p);
     ranges.push_back(range);
   }
-  if (standing.size() < 8) return out;
+  if (standing.size() < kLeastPoints) return out;
   const double spacing = std::sqrt(box.area() / static_cast<double>(all.points.size())) / focal_px;
   const double noise = quantile(ranges, 0.5);
   const auto parts = clusters(standing, kLinkDistance + 2 * spacing * noise + 2 * depthSigma(noise));
-  std::size_t best = 0;
-  double best_score = -1;
+  std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < parts.size(); ++k)
-    if (const double score = explains(parts[k], standing.size(), box); score > best_score) {
-      best_score = score;
-      best = k;
-    }
-  out.points = parts[best].points;
-  takeInParts(out, parts, best, model);
-  if (out.points.size() < 8) out.points.clear();
+    order.emplace_back(-explains(parts[k], standing.size(), box), k);
+  std::sort(order.begin(), order.end());
+  for (const auto& [score, k] : order) {
+    if (static_cast<int>(out.size()) == max_count) break;
+    DepthMask mask = parts[k];
+    mask.valid_ratio = all.valid_ratio;
+    takeInParts(mask, parts, k, model);
+    if (mask.points.size() >= kLeastPoints) out.push_back(mask);
+  }
   return out;
+}
+
+DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px) {
+  auto found = explanations(all, box, model, focal_px, 1);
+  if (!found.empty()) return std::move(found.front());
+  DepthMask none;
+  none.valid_ratio = all.valid_ratio;
+  return none;
 }
 
 }  // namespace roomgraph

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMinHeight = 0.15;  // m; lower points may be floor
 constexpr int kTries = 120;
+constexpr double kFarthest = 20;  // m
 
 /// Vertical plane as a line in the ground frame: normal . p = offset, normal towards the camera (offset < 0).
 struct VerticalPlane {
@@ -124,7 +125,58 @@ std::optional<PlacedShape> rectangleOn(const BoxEvidence& e, const VerticalPlane
   return placed;
 }
 
-// Without a plane: facing the camera above the box's bottom.
+// The frame's edge near a side of the box: the longest steep segment there; else the side itself.
+double frameEdge(const BoxEvidence& e, double side) {
+  for (const Segment2& s : e.segments) {  // longest first
+    const Eigen::Vector2d along = s.b - s.a;
+    if (std::abs(along.x()) < 0.15 * std::abs(along.y()) && along.norm() > 0.3 * e.box.height() &&
+        std::abs((s.a.x() + s.b.x()) / 2 - side) < 0.12 * e.box.width())
+      return (s.a.x() + s.b.x()) / 2;
+  }
+  return side;
+}
+
+std::optional<Eigen::Vector2d> onGround(const BoxEvidence& e, double u, double v) {
+  const auto point = intersect(e.camera.ray(u, v), e.ground);
+  if (!point || point->norm() > kFarthest) return std::nullopt;
+  return Eigen::Vector2d((e.camera_from_ground.inverse() * *point).head<2>());
+}
+
+// A door's leaf between two points of the ground.
+PlacedShape between(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const BoxEvidence& e) {
+  const VerticalPlane plane = through(a, b);
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  placed.shape.width = (b - a).norm();
+  placed.x = (a.x() + b.x()) / 2;
+  placed.y = (a.y() + b.y()) / 2;
+  placed.yaw = std::atan2(plane.normal.y(), plane.normal.x());
+  placed.has_yaw = true;
+  placed.source = "frame edges";
+  return placed;
+}
+
+// Without a plane: the nearer lower corner is on the box's bottom side, the other one on the other side's
+// column, a usual width away. Which of both is nearer is not known; each may have two solutions.
+std::vector<PlacedShape> fromFrame(const BoxEvidence& e) {
+  std::vector<PlacedShape> out;
+  if (e.cut_bottom || e.cut_left || e.cut_right) return out;
+  const double left = frameEdge(e, e.box.u_min), right = frameEdge(e, e.box.u_max), w = e.model->width_m;
+  for (const auto& [near_u, far_u] : {std::pair{left, right}, std::pair{right, left}}) {
+    const auto near = onGround(e, near_u, e.box.v_max), far = onGround(e, far_u, e.box.v_max);
+    if (!near || !far) continue;
+    // |s d - near| = w with s >= |far|: the far corner is seen higher in the image.
+    const Eigen::Vector2d d = far->normalized();
+    const double middle = d.dot(*near), root = w * w - near->squaredNorm() + middle * middle;
+    if (root < 0) continue;
+    for (const double s : {middle - std::sqrt(root), middle + std::sqrt(root)})
+      if (s > 0.98 * far->norm()) out.push_back(between(*near, s * d, e));
+    out.push_back(between(*near, *far, e));  // both on the bottom side
+  }
+  return out;
+}
+
+// Nothing but the box's bottom: facing the camera above it.
 std::optional<PlacedShape> facingCamera(const BoxEvidence& e) {
   const auto contact = contactPoint(e);
   if (!contact || contact->norm() < 0.1) return std::nullopt;
@@ -153,14 +205,20 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
 }  // namespace
 
 std::vector<PlacedShape> doorHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  std::vector<PlacedShape> out;
+  std::vector<PlacedShape> guesses;
   const auto plane = findPlane(footprintPoints(evidence));
-  auto placed = plane ? rectangleOn(evidence, *plane) : facingCamera(evidence);
-  if (!placed) return out;
-  adjustHeight(*placed, evidence);
-  judge(*placed, evidence);
-  if (placed->box_iou >= limits.min_iou) out.push_back(*placed);
-  return out;
+  if (plane) {
+    if (const auto placed = rectangleOn(evidence, *plane)) guesses.push_back(*placed);
+  } else {
+    guesses = fromFrame(evidence);
+    if (const auto placed = facingCamera(evidence)) guesses.push_back(*placed);
+  }
+  for (PlacedShape& placed : guesses) {
+    placed.supported = plane.has_value();
+    adjustHeight(placed, evidence);
+    judge(placed, evidence);
+  }
+  return keepBest(guesses, 0.05, 0.1, limits);
 }
 
 }  // namespace roomgraph

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/NonLinearOptimization>
-#include <unsupported/Eigen/NumericalDiff>
 
+#include "roomgraph/proposals/edge_agreement.h"
 #include "roomgraph/proposals/plane_fit.h"
 
 namespace roomgraph {
@@ -15,11 +15,46 @@ namespace {
 constexpr int kPoints = 80;           // of the mask, used in the fit
 constexpr double kPointsWeight = 16;  // all of them together count like so many independent points
 
-constexpr int kFixed = 9;  // residuals: box sides, sizes, near side, yaw
+constexpr double kMostTilt = 3;    // standard deviations the ground's normal is corrected by
+constexpr double kPointScale = 4;  // standard deviations at which a point's pull levels off
+
+constexpr int kFixed = 12;  // residuals: box sides, sizes, near side, yaw, leg, roll and pitch of the ground
 
 // Large residuals level off (Geman-McClure): wrong mask points and box sides cut by an occluder.
 double saturated(double r, double scale) {
   return r / std::sqrt(1 + r * r / (scale * scale));
+}
+
+// Distance of a point from the model's volume with its derivatives by (x, y, yaw) of the model, then width,
+// depth and height (a cylinder: 0, diameter / 2 each for width and depth).
+struct PointDistance {
+  double value = 0;
+  Eigen::Matrix<double, 6, 1> gradient = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+PointDistance pointDistance(const PlacedShape& p, double cos_yaw, double sin_yaw,
+                            const Eigen::Vector3d& point) {
+  const double dx = point.x() - p.x, dy = point.y() - p.y;
+  const Eigen::Vector2d q(cos_yaw * dx + sin_yaw * dy, cos_yaw * dy - sin_yaw * dx);
+  // Parts of the distance along the model's own axes; each is 0 inside.
+  double along = 0, across = 0, radial = 0;
+  const double above = std::max(0.0, point.z() - p.shape.height), below = std::max(0.0, -point.z());
+  if (p.shape.kind == ShapeKind::kCylinder) {
+    const double reach = q.norm();
+    radial = std::max(0.0, reach - p.shape.radius());
+    if (radial > 0) along = radial * q.x() / reach, across = radial * q.y() / reach;
+  } else {
+    along = std::copysign(std::max(0.0, std::abs(q.x()) - p.shape.depth / 2), q.x());
+    across = std::copysign(std::max(0.0, std::abs(q.y()) - p.shape.width / 2), q.y());
+  }
+  PointDistance out;
+  out.value = std::sqrt(along * along + across * across + above * above + below * below);
+  if (out.value <= 0) return out;
+  const double a = along / out.value, b = across / out.value;
+  out.gradient << sin_yaw * b - cos_yaw * a, -sin_yaw * a - cos_yaw * b, a * q.y() - b * q.x(),
+      -std::abs(b) / 2, -std::abs(a) / 2, -above / out.value;
+  if (p.shape.kind == ShapeKind::kCylinder) out.gradient.segment<2>(3).setConstant(-radial / out.value / 4);
+  return out;
 }
 
 // Residuals of the fit over (x, y, yaw, width, depth, height); a cylinder has (x, y, diameter, height).
@@ -41,18 +76,20 @@ class FitProblem {
     }
     near_range_ = quantile(ranges, 0.03);
     sigma_point_ = 0.03 + 2 * depthSigma(quantile(ranges, 0.5));
+    point_weight_ = points_.empty() ? 0 : std::sqrt(kPointsWeight / static_cast<double>(points_.size()));
   }
 
-  int inputs() const { return round() ? 4 : 6; }
+  int inputs() const { return (round() ? 4 : 6) + (tilts() ? 2 : 0); }
   int values() const { return kFixed + static_cast<int>(points_.size()); }
 
   Eigen::VectorXd vectorOf(const PlacedShape& p) const {
     Eigen::VectorXd x(inputs());
     if (round()) {
-      x << p.x, p.y, 2 * p.shape.radius(), p.shape.height;
+      x.head<4>() << p.x, p.y, 2 * p.shape.radius(), p.shape.height;
     } else {
-      x << p.x, p.y, p.yaw, p.shape.width, p.shape.depth, p.shape.height;
+      x.head<6>() << p.x, p.y, p.yaw, p.shape.width, p.shape.depth, p.shape.height;
     }
+    if (tilts()) x.tail<2>() << p.roll, p.pitch;
     return x;
   }
 
@@ -64,69 +101,111 @@ class FitProblem {
     p.shape.width = std::max(0.05, x[round() ? 2 : 3]);
     p.shape.depth = std::max(0.05, x[round() ? 2 : 4]);
     p.shape.height = std::max(0.05, x[round() ? 3 : 5]);
+    if (tilts()) {
+      const double most = kMostTilt * e_.ground_tilt_sigma;
+      p.roll = std::clamp(x[inputs() - 2], -most, most);
+      p.pitch = std::clamp(x[inputs() - 1], -most, most);
+    }
     return p;
   }
 
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     const PlacedShape p = shapeOf(x);
-    addBoxSides(p, residuals);
-    const ObjectModel& m = *e_.model;
-    residuals[4] = (p.shape.width - m.width_m) / std::max(m.width_sigma_m, 0.01);
-    residuals[5] = (p.shape.depth - m.depth_m) / std::max(m.depth_sigma_m, 0.01);
-    residuals[6] = (p.shape.height - m.height_m) / std::max(m.height_sigma_m, 0.01);
-    residuals[7] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (2 * sigma_point_), 3) : 0;
-    // The directions of the sides, found in the points, say more about yaw than the box does.
-    residuals[8] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / (points_.empty() ? 0.4 : 0.08);
-    const Pose3 object_from_ground = groundFromObject(p).inverse();
-    const double weight =
-        points_.empty() ? 0 : std::sqrt(kPointsWeight / static_cast<double>(points_.size()));
+    residuals.head<kFixed>() = fixedResiduals(p);
+    const double c = std::cos(p.yaw), s = std::sin(p.yaw);
     for (std::size_t i = 0; i < points_.size(); ++i)
       residuals[kFixed + static_cast<Eigen::Index>(i)] =
-          weight *
-          saturated(distanceOutside(p.shape, object_from_ground * points_[i]).norm() / sigma_point_, 4);
+          point_weight_ * saturated(pointDistance(p, c, s, points_[i]).value / sigma_point_, kPointScale);
+    return 0;
+  }
+
+  // The points' part in closed form, the rest by finite differences.
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& jacobian) const {
+    constexpr double kStep = 1e-6;
+    const PlacedShape p = shapeOf(x);
+    const FixedResiduals here = fixedResiduals(p);
+    for (int k = 0; k < inputs(); ++k) {
+      Eigen::VectorXd moved = x;
+      moved[k] += kStep;
+      jacobian.col(k).head<kFixed>() = (fixedResiduals(shapeOf(moved)) - here) / kStep;
+    }
+    const double c = std::cos(p.yaw), s = std::sin(p.yaw);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const PointDistance d = pointDistance(p, c, s, points_[i]);
+      const double r = d.value / sigma_point_ / kPointScale;
+      const Eigen::Matrix<double, 6, 1> row =
+          point_weight_ / sigma_point_ * std::pow(1 + r * r, -1.5) * d.gradient;
+      const auto index = kFixed + static_cast<Eigen::Index>(i);
+      if (round()) {
+        jacobian.row(index) << row[0], row[1], row[3] + row[4], row[5];
+      } else {
+        jacobian.row(index) = row.transpose();
+      }
+    }
     return 0;
   }
 
  private:
+  using FixedResiduals = Eigen::Matrix<double, kFixed, 1>;
+
   bool round() const { return initial_.shape.kind == ShapeKind::kCylinder; }
+
+  FixedResiduals fixedResiduals(const PlacedShape& p) const {
+    FixedResiduals r;
+    r.head<4>() = boxSides(p);
+    const ObjectModel& m = *e_.model;
+    r[4] = (p.shape.width - m.width_m) / std::max(m.width_sigma_m, 0.01);
+    r[5] = (p.shape.depth - m.depth_m) / std::max(m.depth_sigma_m, 0.01);
+    r[6] = (p.shape.height - m.height_m) / std::max(m.height_sigma_m, 0.01);
+    r[7] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (2 * sigma_point_), 3) : 0;
+    // The directions of the sides, found in the points, say more about yaw than the box does.
+    r[8] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / (points_.empty() ? 0.4 : 0.08);
+    r[9] = besideLeg(p);
+    r[10] = tilts() ? p.roll / e_.ground_tilt_sigma : 0;
+    r[11] = tilts() ? p.pitch / e_.ground_tilt_sigma : 0;
+    return r;
+  }
+
+  // The local ground's normal is corrected when it was not seen: the box's sides, which the bottom and the
+  // top circle or face reach, then disagree with the usual size (paper sec. IV.A).
+  bool tilts() const { return points_.empty() && e_.ground_tilt_sigma > 0; }
+
+  // How far the axis' foot is beside the leg, which was extended to the box's bottom line.
+  double besideLeg(const PlacedShape& p) const {
+    const Eigen::Vector3d foot = cameraFromObject(p, e_).translation();
+    if (!p.leg_column || foot.z() <= 0) return 0;
+    return saturated((e_.camera.project(foot).x() - *p.leg_column) / (3 + 0.04 * e_.box.width()), 3);
+  }
 
   // What lies outside the image may be nearer than all that is seen.
   bool nearSideKnown() const {
     return !points_.empty() && (round() || !(e_.cut_left || e_.cut_right || e_.cut_bottom));
   }
 
-  double nearestRange(const PlacedShape& p) const {
-    if (round()) return std::hypot(p.x, p.y) - p.shape.radius();
-    double nearest = 1e9;
-    for (const auto& corner : footprint(p.shape)) {
-      const Eigen::Vector2d c = Pose2{p.x, p.y, p.yaw} * corner;
-      nearest = std::min(nearest, c.norm());
-    }
-    return nearest;
+  // Distance on the ground from below the camera to the model.
+  static double nearestRange(const PlacedShape& p) {
+    const Pose2 object_from_ground = Pose2{p.x, p.y, p.yaw}.inverse();
+    return distanceOutside(p.shape, {object_from_ground.x, object_from_ground.y, 0}).x();
   }
 
   // A side at the image border says only that the model reaches the border there.
-  void addBoxSides(const PlacedShape& p, Eigen::VectorXd& residuals) const {
+  Eigen::Vector4d boxSides(const PlacedShape& p) const {
     const auto projected = project(p, e_);
-    if (!projected) {
-      residuals.head<4>().setConstant(20);
-      return;
-    }
+    if (!projected) return Eigen::Vector4d::Constant(20);
     const Box2 &seen = e_.box, &full = projected->full;
     const double su = 4 + 0.03 * seen.width(), sv = 4 + 0.03 * seen.height();
     const auto side = [](double outward, double sigma, bool cut) {
       return saturated((cut ? std::min(outward, 0.0) : outward) / sigma, 5);
     };
-    residuals[0] = side(seen.u_min - full.u_min, su, e_.cut_left);
-    residuals[1] = side(seen.v_min - full.v_min, sv, e_.cut_top);
-    residuals[2] = side(full.u_max - seen.u_max, su, e_.cut_right);
-    residuals[3] = side(full.v_max - seen.v_max, sv, e_.cut_bottom);
+    return {side(seen.u_min - full.u_min, su, e_.cut_left), side(seen.v_min - full.v_min, sv, e_.cut_top),
+            side(full.u_max - seen.u_max, su, e_.cut_right),
+            side(full.v_max - seen.v_max, sv, e_.cut_bottom)};
   }
 
   PlacedShape initial_;
   const BoxEvidence& e_;
   std::vector<Eigen::Vector3d> points_;
-  double near_range_ = 0, sigma_point_ = 0.03;
+  double near_range_ = 0, sigma_point_ = 0.03, point_weight_ = 0;
 };
 
 double meanOutside(const PlacedShape& placed, const std::vector<MaskPoint>& points) {
@@ -150,16 +229,28 @@ double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>
     middle.push_back(q);
     heights.push_back(q.z());
   }
-  const double high = 0.8 * quantile(heights, 0.97);
-  double sum = 0;
-  int count = 0;
+  const double high = 0.8 * quantile(heights, 0.97), low = 0.6 * high;
+  double high_sum = 0, low_sum = 0;
+  int high_count = 0, low_count = 0;
   for (const auto& q : middle) {
-    if (q.z() < high) continue;
-    sum += std::clamp(-2 * q.x() / placed.shape.depth, -1.0, 1.0);
-    ++count;
+    if (q.z() >= high) high_sum += q.x(), ++high_count;
+    if (q.z() <= low) low_sum += q.x(), ++low_count;
   }
-  return count >= 5 ? sum / count : 0;
+  if (high_count < 5) return 0;
+  const double back = high_sum / high_count, seat = low_count < 5 ? back : low_sum / low_count;
+  return std::clamp((seat - 2 * back) / (placed.shape.depth / 2), -1.0, 1.0);
 }
+
+namespace {
+
+// Which side is the front: as the back rest says; where no depth tells, furniture rather faces the viewer
+// than the wall behind it.
+double frontAgreement(const PlacedShape& placed, const BoxEvidence& evidence) {
+  if (!evidence.mask.points.empty()) return backRestAgreement(placed, evidence.mask.points);
+  return -0.3 * std::cos(placed.yaw - std::atan2(placed.y, placed.x));
+}
+
+}  // namespace
 
 void judge(PlacedShape& placed, const BoxEvidence& evidence) {
   const ObjectModel& m = *evidence.model;
@@ -171,14 +262,16 @@ void judge(PlacedShape& placed, const BoxEvidence& evidence) {
                       unusual(placed.shape.depth, m.depth_m, m.depth_sigma_m) +
                       unusual(placed.shape.height, m.height_m, m.height_sigma_m);
   placed.quality = placed.box_iou * std::exp(-meanOutside(placed, evidence.mask.points) / 0.15 - 0.08 * size);
+  if (evidence.mask.points.empty())
+    if (const auto edges = edgeAgreement(placed, evidence)) placed.quality *= 0.4 + 0.6 * *edges;
   if (m.symmetry == 1 && placed.shape.kind == ShapeKind::kCuboid)
-    placed.quality *= 0.55 + 0.45 * backRestAgreement(placed, evidence.mask.points);
+    placed.quality *= 0.55 + 0.45 * frontAgreement(placed, evidence);
 }
 
 PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence) {
-  Eigen::NumericalDiff<FitProblem> problem(FitProblem(initial, evidence), 1e-6);
-  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<FitProblem>> solver(problem);
-  solver.parameters.maxfev = 120;
+  FitProblem problem(initial, evidence);
+  Eigen::LevenbergMarquardt<FitProblem> solver(problem);
+  solver.parameters.maxfev = 30;
   solver.parameters.xtol = solver.parameters.ftol = 1e-4;
   Eigen::VectorXd x = problem.vectorOf(initial);
   solver.minimize(x);

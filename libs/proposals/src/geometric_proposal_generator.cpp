@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "roomgraph/proposals/initial_score.h"
+#include "roomgraph/proposals/proposal_covariance.h"
 
 namespace roomgraph {
 
@@ -14,27 +14,15 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 
 namespace {
 
-// Along the viewing ray the error grows with z² (disparity), across it with z; a cut box, few points or none
-// make the place less certain. Turned into the ground frame's axes.
-Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e) {
-  const double range = std::hypot(placed.x, placed.y);
-  double along = 0.04 + 0.012 * range * range, across = 0.03 + 0.006 * range, yaw = 0.12;
-  const bool few = e.mask.points.size() < 60;
-  if (e.mask.points.empty()) along += 0.08 * range;
-  if (few) along *= 1.5, across *= 1.3, yaw *= 2;
-  if (e.cut_left || e.cut_right) across *= 2, along *= 1.3, yaw *= 1.5;
-  if (e.cut_bottom) along *= 1.3;
-  if (placed.shape.kind != ShapeKind::kCylinder) along *= 1.5, across *= 1.5;
-  if (!placed.has_yaw) yaw = std::numbers::pi;
-  const double bearing = std::atan2(placed.y, placed.x);
-  Eigen::Matrix2d turn;
-  turn << std::cos(bearing), -std::sin(bearing), std::sin(bearing), std::cos(bearing);
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  covariance.topLeftCorner<2, 2>() =
-      turn * Eigen::Vector2d(along * along, across * across).asDiagonal() * turn.transpose();
-  covariance(2, 2) = 0.02 * 0.02;
-  covariance(3, 3) = yaw * yaw;
-  return covariance;
+constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
+constexpr double kPredictedVariance = 1e-4;  // rad², m²: of a ground plane that was not seen
+constexpr double kUnsupported =
+    0.7;  // on the quality of what no depth point speaks for, where there are some
+
+// Largest standard deviation of the ground's normal.
+double tiltSigma(const GroundEstimate& ground) {
+  const Eigen::Matrix3d covariance = ground.covariance.topLeftCorner<3, 3>();
+  return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
 }
 
 std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
@@ -46,6 +34,57 @@ std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const Generator
     default:
       return cuboidHypotheses(evidence, limits);
   }
+}
+
+// With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
+// been taken for the object.
+std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
+                                      const Frame& frame, const GeneratorLimits& limits) {
+  std::vector<PlacedShape> all = std::move(first);
+  for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
+    for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
+      placed.supported = !mask.points.empty();
+      if (!placed.supported) placed.quality *= kUnsupported;
+      all.push_back(std::move(placed));
+    }
+  }
+  return keepBest(all, 0.05, 0.1, limits);
+}
+
+// Nothing when it is out of view.
+std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence& evidence,
+                                   const InitialScore& start, double tilt_sigma) {
+  const auto projected = project(placed, evidence);
+  if (!projected) return std::nullopt;
+  Proposal proposal;
+  proposal.model = proposal.class_name = evidence.model->class_name;
+  proposal.shape = placed.shape;
+  proposal.camera_from_object = cameraFromObject(placed, evidence);
+  proposal.covariance = covarianceOf(placed, evidence, tilt_sigma);
+  proposal.has_yaw = placed.has_yaw;
+  proposal.projected = *projected;
+  proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
+  proposal.box_iou = placed.box_iou;
+  proposal.source = placed.source;
+  char fit[96];
+  std::snprintf(fit, sizeof fit, "; fit %.2f, IoU with the box %.2f, %zu depth points", placed.quality,
+                placed.box_iou, placed.supported ? evidence.mask.points.size() : 0);
+  proposal.reasons = start.text() + fit;
+  return proposal;
+}
+
+ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore& start,
+                      const std::vector<PlacedShape>& rejected, double tilt_sigma) {
+  ProposalTrace trace;
+  for (const MaskPoint& p : evidence.mask.points) trace.mask_pixels.emplace_back(p.u, p.v);
+  trace.segments = evidence.segments;
+  for (const PlacedShape& placed : rejected)
+    if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
+      proposal->detection = index;
+      proposal->reasons = placed.reason;
+      trace.rejected.push_back(std::move(*proposal));
+    }
+  return trace;
 }
 
 }  // namespace
@@ -91,8 +130,9 @@ FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
   } else {
     out.ground_reason = found.reason();
     if (expected_ground)
-      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * 1e-3, false};
+      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * kPredictedVariance, false};
   }
+  if (keep_traces_) out.traces.resize(detections.size());
   if (!out.ground || !database_) return out;
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
   return out;
@@ -102,28 +142,22 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   const Detection& detection = out.detections[index];
   const ObjectModel* model = database_->find(detection.class_name);
   if (!model || clipped(detection.box, frame.camera.width, frame.camera.height).empty()) return;
-  const BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
-  const InitialScore start = initialScore(frame, detection, evidence.mask.valid_ratio);
-  for (const PlacedShape& placed : hypotheses(evidence, limits_)) {
-    const auto projected = project(placed, evidence);
-    if (!projected) continue;
-    Proposal proposal;
-    proposal.detection = index;
-    proposal.model = proposal.class_name = model->class_name;
-    proposal.shape = placed.shape;
-    proposal.camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
-    proposal.covariance = covarianceOf(placed, evidence);
-    proposal.has_yaw = placed.has_yaw;
-    proposal.projected = *projected;
-    proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
-    proposal.box_iou = placed.box_iou;
-    proposal.source = placed.source;
-    char fit[64];
-    std::snprintf(fit, sizeof fit, "; fit %.2f, %zu depth points", placed.quality,
-                  evidence.mask.points.size());
-    proposal.reasons = start.text() + fit;
-    out.proposals.push_back(proposal);
-  }
+  BoxEvidence evidence = gatherEvidence(frame, detection, *model, out.ground->plane);
+  if (!out.ground->from_depth) evidence.ground_tilt_sigma = tiltSigma(*out.ground);
+  const InitialScore start = initialScore(evidence);
+  GeneratorLimits limits = limits_;
+  std::vector<PlacedShape> rejected;
+  if (keep_traces_) limits.rejected = &rejected;
+  auto found = hypotheses(evidence, limits);
+  if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
+    found = reconsidered(std::move(found), evidence, frame, limits);
+  const double tilt_sigma = tiltSigma(*out.ground);
+  for (const PlacedShape& placed : found)
+    if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
+      proposal->detection = index;
+      out.proposals.push_back(std::move(*proposal));
+    }
+  if (keep_traces_) out.traces[index] = traceOf(index, evidence, start, rejected, tilt_sigma);
 }
 
 }  // namespace roomgraph

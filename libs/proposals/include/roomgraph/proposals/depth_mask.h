@@ -26,12 +26,17 @@ struct DepthMask {
 /// All points inside the box (slightly shrunk), and inside the detection's mask when it has one. At most
 /// about `max_points`, on a regular pixel grid.
 DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
-                    int max_points = 1000);
+                    int max_points = 800);
 
 /// Removes the ground and what is higher than the class can be, clusters the rest (Euclidean distance) and
 /// keeps the cluster that explains the box best: large, central, filling the box, not behind others; parts of
 /// the object that are apart from it (a seat above a thin leg) are taken in when they lie within the nominal
 /// size.
 DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px);
+
+/// The clusters that explain the box, best first, at most `max_count`: when an occluder was taken for the
+/// object, the object is the next.
+std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
+                                    double focal_px, int max_count);
 
 }  // namespace roomgraph

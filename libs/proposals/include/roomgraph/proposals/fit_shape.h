@@ -17,8 +17,8 @@ PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence);
 /// Sets quality and box_iou of a hypothesis as it is.
 void judge(PlacedShape& placed, const BoxEvidence& evidence);
 
-/// Mean over the points in the upper part of how far they lie towards the back, in [-1, 1]: a sofa's back
-/// rest is its high side. 0 when there are no such points.
+/// How far the points in the upper part lie towards the back, of the model and of the points in the lower
+/// part, in [-1, 1]: a sofa's back rest is its high side. 0 when there are no such points.
 double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>& points);
 
 }  // namespace roomgraph

@@ -19,13 +19,14 @@ class GeometricProposalGenerator : public ProposalGenerator {
   void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
   FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
                           const std::optional<Plane>& expected_ground) override;
+  void keepTraces(bool keep) override { keep_traces_ = keep; }
 
  private:
   void propose(const Frame& frame, int index, FrameProposals& out) const;
 
   GroundSearch search_;
   GeneratorLimits limits_;
-  bool use_depth_ = true;
+  bool use_depth_ = true, keep_traces_ = false;
   const ObjectDatabase* database_ = nullptr;
 };
 

@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "roomgraph/observations/detection.h"
-#include "roomgraph/observations/frame.h"
+#include "roomgraph/proposals/generators.h"
 
 namespace roomgraph {
 
@@ -15,8 +14,8 @@ struct InitialScore {
   std::string text() const;
 };
 
-/// `valid_depth_ratio` comes from the depth mask. The edge part is the length of Canny / Hough segments in
-/// the box over its perimeter; 0 without an image.
-InitialScore initialScore(const Frame& frame, const Detection& detection, double valid_depth_ratio);
+/// The edge part is the length of the segments in the box that the depth mask supports, over the box's
+/// perimeter; 0 without an image.
+InitialScore initialScore(const BoxEvidence& evidence);
 
 }  // namespace roomgraph

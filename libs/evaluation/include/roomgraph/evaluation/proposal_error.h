@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "roomgraph/evaluation/object_error.h"
+#include "roomgraph/evaluation/statistics.h"
+#include "roomgraph/observations/proposal.h"
+
+namespace roomgraph {
+
+/// The proposals of one detection, best first, and the true object they are about.
+struct ProposalCase {
+  std::string class_name;
+  ClassRule rule;
+  ObjectShape truth;
+  Pose3 camera_from_truth = Pose3::Identity();   ///< object frame: bottom centre, x front, z up
+  Pose3 camera_from_ground = Pose3::Identity();  ///< frame of the proposals' covariances
+  std::vector<Proposal> proposals;
+};
+
+/// Errors of a class. `top`: the first proposal; `best`: the least error among all of a detection.
+struct ProposalFigures {
+  int detections = 0, without_proposal = 0;
+  ErrorStatistics center_top_m, center_best_m;  ///< on the ground
+  ErrorStatistics yaw_top_deg, yaw_best_deg;    ///< modulo symmetry
+  double iou3d_top_median = 0, iou3d_best_median = 0;
+  double share_good = 0;  ///< of all detections, those with a proposal whose 3D IoU exceeds .4
+  double away_mean_m = 0, left_mean_m = 0;  ///< mean error of the top proposal along and across the view
+  double nees_mean = 0, nees_median = 0;    ///< of (x, y): expected 2, and 1.39
+  ErrorStatistics sigma_m;                  ///< what the top proposals say of themselves, root of trace / 2
+};
+
+std::map<std::string, ProposalFigures> evaluateProposals(const std::vector<ProposalCase>& cases);
+
+/// One frame's ground plane and the true one, both in the camera frame.
+struct GroundCase {
+  Plane truth;
+  std::optional<GroundEstimate> estimate;
+};
+
+struct GroundFigures {
+  int frames = 0, found = 0;
+  ErrorStatistics angle_deg, height_m;  ///< of planes that were found in the depth
+  double share_good = 0;                ///< of them, those within 1 deg and .02 m
+  int wrong = 0;                        ///< accepted, but off by more than 3 deg or .1 m
+  double nees_mean = 0;                 ///< of (tilt about two axes, height): expected 3
+};
+
+GroundFigures evaluateGround(const std::vector<GroundCase>& cases);
+
+}  // namespace roomgraph

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "roomgraph/evaluation/proposal_error.h"
+
+namespace roomgraph {
+
+/// Everything `roomgraph bench proposals` measures.
+struct ProposalBenchmark {
+  std::map<std::string, ProposalFigures> per_class;
+  GroundFigures ground;
+  std::map<int, ErrorStatistics> cpu_ms;  ///< per frame, by number of boxes
+};
+
+/// Table for people; and the same as one JSON object with stable names.
+std::string toTable(const ProposalBenchmark& benchmark);
+std::string toJson(const ProposalBenchmark& benchmark);
+
+}  // namespace roomgraph

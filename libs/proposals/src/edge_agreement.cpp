@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/edge_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kNear = 0.05;   // m, in front of the camera
+constexpr double kAngle = 0.12;  // rad, of a segment that points at a vanishing point
+
+/// Corner k of a cuboid: bit 0 front, bit 1 left, bit 2 up.
+Eigen::Vector3d corner(const ObjectShape& s, int k) {
+  return {(k & 1 ? s.depth : -s.depth) / 2, (k & 2 ? s.width : -s.width) / 2, k & 4 ? s.height : 0};
+}
+
+// Whether the camera sees the face on which bit `axis` of the corners has the given value.
+bool faceSeen(const ObjectShape& s, const Eigen::Vector3d& camera, int axis, bool high) {
+  const double low_side = axis == 2 ? 0 : (axis == 0 ? -s.depth : -s.width) / 2;
+  const double high_side = axis == 2 ? s.height : -low_side;
+  return high ? camera[axis] > high_side : camera[axis] < low_side;
+}
+
+// An edge is part of the outline or a crease when one of its two faces is seen.
+bool edgeSeen(const ObjectShape& s, const Eigen::Vector3d& camera, int from, int along) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != along && faceSeen(s, camera, axis, (from >> axis) & 1)) return true;
+  return false;
+}
+
+// Distance of the visible edges' points to image edges, levelled off; 1: all of them on edges.
+double outlineAgreement(const PlacedShape& placed, const BoxEvidence& e) {
+  constexpr int kSteps = 12;
+  const Pose3 camera_from_object = cameraFromObject(placed, e);
+  const Eigen::Vector3d camera = camera_from_object.inverse().translation();
+  const double scale = 2 + 0.02 * e.box.diagonal();  // px
+  double sum = 0;
+  int count = 0;
+  for (int along = 0; along < 3; ++along)
+    for (int from = 0; from < 8; ++from) {
+      if (((from >> along) & 1) || !edgeSeen(placed.shape, camera, from, along)) continue;
+      const Eigen::Vector3d a = camera_from_object * corner(placed.shape, from),
+                            b = camera_from_object * corner(placed.shape, from | (1 << along));
+      if (a.z() < kNear || b.z() < kNear) continue;
+      const Eigen::Vector2d pa = e.camera.project(a), pb = e.camera.project(b);
+      for (int i = 0; i <= kSteps; ++i) {
+        const Eigen::Vector2d p = pa + (pb - pa) * i / kSteps;
+        if (!e.camera.sees(p.x(), p.y()) || (e.hidden.left && p.x() < e.box.u_min) ||
+            (e.hidden.right && p.x() > e.box.u_max) || (e.hidden.top && p.y() < e.box.v_min) ||
+            (e.hidden.bottom && p.y() > e.box.v_max))
+          continue;
+        sum += std::exp(-e.edges.distanceAt(p) / scale);
+        ++count;
+      }
+    }
+  return count > 0 ? sum / count : 0;
+}
+
+// Angle between a segment and the direction from its middle to a vanishing point.
+double angleTo(const Segment2& s, const Eigen::Vector3d& vanishing) {
+  const Eigen::Vector2d middle = (s.a + s.b) / 2, along = s.b - s.a;
+  const Eigen::Vector2d towards = vanishing.head<2>() - vanishing.z() * middle;
+  const double cross = along.x() * towards.y() - along.y() * towards.x();
+  return std::atan2(std::abs(cross), std::abs(along.dot(towards)));
+}
+
+double segmentAgreement(const PlacedShape& placed, const BoxEvidence& e) {
+  const auto points = vanishingPoints(placed, e);
+  double sum = 0, total = 0;
+  for (const Segment2& s : e.segments) {
+    const double length = (s.b - s.a).norm();
+    double angle = 10;
+    for (const auto& p : points) angle = std::min(angle, angleTo(s, p));
+    sum += length * std::exp(-std::pow(angle / kAngle, 2));
+    total += length;
+  }
+  return total > 0 ? sum / total : 0;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 3> vanishingPoints(const PlacedShape& placed, const BoxEvidence& evidence) {
+  const Eigen::Matrix3d image = evidence.camera.matrix() * cameraFromObject(placed, evidence).linear();
+  return {image.col(0), image.col(1), image.col(2)};
+}
+
+std::optional<double> edgeAgreement(const PlacedShape& placed, const BoxEvidence& evidence) {
+  if (evidence.edges.distance.empty() || placed.shape.kind == ShapeKind::kCylinder) return std::nullopt;
+  return 0.5 * outlineAgreement(placed, evidence) + 0.5 * segmentAgreement(placed, evidence);
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/proposal_covariance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace roomgraph {
+namespace {
+
+/// Standard deviations along and across the view, m, and of yaw, rad.
+struct Deviations {
+  double along = 0, across = 0, yaw = 0;
+};
+
+// Of a good fit to the points. A real sofa differs from a box, and its back is not seen.
+Deviations withDepth(ShapeKind kind, double range) {
+  const double z2 = range * range;
+  switch (kind) {
+    case ShapeKind::kCylinder:
+      return {0.025 + 0.003 * z2, 0.015 + 0.003 * range, 0};
+    case ShapeKind::kPlanar:
+      return {0.02 + 0.004 * z2, 0.04 + 0.01 * range, 0.05};
+    default:
+      return {0.08 + 0.003 * z2, 0.05 + 0.005 * range, 0.06};
+  }
+}
+
+// From the box alone; paper Eq. 2 differentiated by the camera's pitch.
+Deviations withoutDepth(ShapeKind kind, double range, double camera_height, double ground_tilt_sigma) {
+  const double lever = (range * range + camera_height * camera_height) / std::max(camera_height, 0.3);
+  const double tilted = lever * ground_tilt_sigma;
+  const bool round = kind == ShapeKind::kCylinder;
+  return {std::hypot(round ? 0.05 : 0.18, tilted) + 0.01 * range, (round ? 0.02 : 0.10) + 0.01 * range, 0.5};
+}
+
+}  // namespace
+
+Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, double ground_tilt_sigma) {
+  constexpr double kFewPoints = 60;
+  const double range = std::hypot(placed.x, placed.y);
+  const bool supported = !e.mask.points.empty() && placed.supported;
+  const ShapeKind kind = placed.shape.kind;
+  Deviations s =
+      supported ? withDepth(kind, range) : withoutDepth(kind, range, e.ground.offset, ground_tilt_sigma);
+  const double misfit = std::pow(1 - std::clamp(placed.quality, 0.0, 1.0), 2);
+  s.along += (kind == ShapeKind::kCylinder ? 2.0 : 0.4) * misfit;
+  s.across += 0.2 * misfit;
+  s.yaw += misfit;
+  if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints)
+    s.along *= 1.5, s.across *= 1.3, s.yaw *= 2;
+  if (e.cut_left || e.cut_right) s.across *= 1.7, s.along *= 1.2, s.yaw *= 1.5;
+  if (e.cut_bottom) s.along *= 1.3;
+  if (!placed.has_yaw) s.yaw = std::numbers::pi;
+  const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  covariance.topLeftCorner<2, 2>() = turn.toRotationMatrix() *
+                                     Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
+                                     turn.toRotationMatrix().transpose();
+  covariance(2, 2) = 0.02 * 0.02;
+  covariance(3, 3) = s.yaw * s.yaw;
+  return covariance;
+}
+
+}  // namespace roomgraph
