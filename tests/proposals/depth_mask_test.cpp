@@ -86,22 +86,29 @@ TEST(DepthMask, NothingToSample) {
   EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
 }
 
+InitialScore scoreOf(const Frame& frame, const Box2& box, double depth) {
+  BoxEvidence evidence;
+  evidence.camera = frame.camera;
+  evidence.box = box;
+  evidence.segments = findEdges(frame, box).segments;
+  evidence.mask.valid_ratio = depth;
+  return initialScore(evidence);
+}
+
 TEST(InitialScore, GrowsWithAreaEdgesAndDepth) {
   Frame frame;
   frame.camera = {320, 240, 262.5, 262.5, 159.5, 119.5, {}};
-  Detection small, large;
-  small.box = {100, 100, 130, 130};
-  large.box = {40, 40, 200, 200};
-  EXPECT_GT(initialScore(frame, large, 0.5).value, initialScore(frame, small, 0.5).value);
-  EXPECT_GT(initialScore(frame, small, 1.0).value, initialScore(frame, small, 0.2).value);
-  EXPECT_EQ(initialScore(frame, small, 0.5).edges, 0);
+  const Box2 small{100, 100, 130, 130}, large{40, 40, 200, 200};
+  EXPECT_GT(scoreOf(frame, large, 0.5).value, scoreOf(frame, small, 0.5).value);
+  EXPECT_GT(scoreOf(frame, small, 1.0).value, scoreOf(frame, small, 0.2).value);
+  EXPECT_EQ(scoreOf(frame, small, 0.5).edges, 0);
   frame.gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(60));
-  EXPECT_EQ(initialScore(frame, large, 0.5).edges, 0);
+  EXPECT_EQ(scoreOf(frame, large, 0.5).edges, 0);
   frame.gray(cv::Rect(70, 70, 90, 90)).setTo(200);
-  const InitialScore framed = initialScore(frame, large, 1.0);
+  const InitialScore framed = scoreOf(frame, large, 1.0);
   EXPECT_GT(framed.edges, 0.3);
   EXPECT_LE(framed.value, 1);
-  EXPECT_EQ(initialScore(frame, Detection{}, 1.0).value, 0);
+  EXPECT_EQ(scoreOf(frame, Box2{}, 1.0).value, 0);
 }
 
 }  // namespace

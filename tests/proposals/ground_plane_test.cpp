@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -121,6 +122,76 @@ TEST(GroundPlane, SomeBrokenPixelsDoNotMatter) {
   const auto found = findGround(frame, std::nullopt, {.min_camera_height_m = 0.5});
   ASSERT_TRUE(found) << found.reason();
   expectNear(found->plane, groundInCamera(scene.world_from_camera), 0.004, 0.006);
+}
+
+TEST(GroundPlane, OfTwoFloorsTheLowerOneOrTheExpectedOne) {
+  Scene scene;
+  scene.lookAhead(1.2, 0.5);
+  scene.addBox(2.6, 0, 0, 6, 2.4, 0, 0.2, 1);  // a platform over the farther part
+  const Plane floor = groundInCamera(scene.world_from_camera);
+  const Plane platform{floor.normal, floor.offset - 0.2};
+  const Frame frame = scene.render();
+  const auto free = findGround(frame, std::nullopt);
+  ASSERT_TRUE(free) << free.reason();
+  expectNear(free->plane, floor, 0.004, 0.006);
+  const auto expected = findGround(frame, floor);
+  ASSERT_TRUE(expected) << expected.reason();
+  expectNear(expected->plane, floor, 0.004, 0.006);
+  // Expecting the platform is contradicted by what lies below it.
+  const auto wrong = findGround(frame, platform);
+  if (wrong) expectNear(wrong->plane, platform, 0.03, 0.05);
+}
+
+TEST(GroundPlane, OnlyFarFloorInView) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.0);
+  scene.addBox(1.2, 0, 0, 4, 0.1, 0, 0.35, 1);  // hides the nearer part
+  const auto found = findGround(scene.render(), groundInCamera(scene.world_from_camera));
+  if (found) expectNear(found->plane, groundInCamera(scene.world_from_camera), 0.006, 0.02);
+  scene.lookAhead(0.8, -0.6);  // looks up: no floor at all
+  EXPECT_FALSE(findGround(scene.render(), groundInCamera(scene.world_from_camera)));
+  EXPECT_FALSE(findGround(scene.render(), std::nullopt));
+}
+
+// With the errors of one camera's calibration drawn anew for every run, the normalised error has mean 3.
+TEST(GroundPlane, CovarianceAgreesWithMonteCarlo) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.3);
+  const Plane truth = groundInCamera(scene.world_from_camera);
+  const Frame clean = scene.render();
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d first = truth.normal.unitOrthogonal(), second = truth.normal.cross(first);
+  double sum = 0;
+  constexpr int kRuns = 30;
+  for (int run = 0; run < kRuns; ++run) {
+    Frame frame = clean;
+    frame.depth = clean.depth.clone();
+    // Calibration: the cloud is turned by 0.003 rad and moved by 5 mm; the depth of a pixel follows.
+    const Plane turned{expSO3(0.003 * (normal(random) * first + normal(random) * second)) * truth.normal,
+                       truth.offset + 0.005 * normal(random)};
+    for (int v = 0; v < frame.depth.rows; ++v)
+      for (int u = 0; u < frame.depth.cols; ++u)
+        if (float& z = frame.depth.at<float>(v, u); z > 0) {
+          const auto p = intersect(frame.camera.ray(u, v), turned);
+          const double there = p ? p->z() : 0;
+          z = there > 0 && there < 5
+                  ? static_cast<float>(there + (0.0012 + 0.0019 * std::pow(there - 0.4, 2)) * normal(random))
+                  : 0.f;
+        }
+    const auto found = findGround(frame, truth);
+    ASSERT_TRUE(found) << found.reason();
+    Eigen::Matrix<double, 3, 4> reduce = Eigen::Matrix<double, 3, 4>::Zero();
+    reduce.block<1, 3>(0, 0) = first.transpose();
+    reduce.block<1, 3>(1, 0) = second.transpose();
+    reduce(2, 3) = 1;
+    Eigen::Vector4d difference;
+    difference << found->plane.normal - truth.normal, found->plane.offset - truth.offset;
+    const Eigen::Vector3d e = reduce * difference;
+    sum += e.dot((reduce * found->covariance * reduce.transpose()).ldlt().solve(e));
+  }
+  EXPECT_GT(sum / kRuns, 1.0);
+  EXPECT_LT(sum / kRuns, 5.5);
 }
 
 }  // namespace

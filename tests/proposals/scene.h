@@ -120,6 +120,26 @@ struct Scene {
   }
 };
 
+/// Gray image of a depth image: every surface as bright as it is turned to a light, other objects differ a
+/// little. Creases and outlines become edges.
+inline cv::Mat shaded(const Frame& frame, const cv::Mat& labels) {
+  cv::Mat gray(frame.depth.rows, frame.depth.cols, CV_8UC1, cv::Scalar(90));
+  const Eigen::Vector3d light = Eigen::Vector3d(0.5, -0.8, -0.33).normalized();
+  for (int v = 0; v + 1 < gray.rows; ++v)
+    for (int u = 0; u + 1 < gray.cols; ++u) {
+      const float z = frame.depth.at<float>(v, u), right = frame.depth.at<float>(v, u + 1),
+                  below = frame.depth.at<float>(v + 1, u);
+      if (!(z > 0) || !(right > 0) || !(below > 0)) continue;
+      const Eigen::Vector3d p = frame.camera.backProject(u, v, z);
+      const Eigen::Vector3d n = (frame.camera.backProject(u, v + 1, below) - p)
+                                    .cross(frame.camera.backProject(u + 1, v, right) - p)
+                                    .normalized();
+      gray.at<unsigned char>(v, u) =
+          static_cast<unsigned char>(110 + 90 * n.dot(light) + 12 * (labels.at<int>(v, u) % 4));
+    }
+  return gray;
+}
+
 /// The box of an object's pixels.
 inline Detection detectionOf(int object, const cv::Mat& labels, const std::string& class_name) {
   Detection d;

@@ -55,7 +55,7 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
 
 std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
   std::vector<Eigen::Vector2d> points;
-  const std::size_t step = 1 + e.mask.points.size() / 350;  // enough for two lines
+  const std::size_t step = 1 + e.mask.points.size() / 250;  // enough for two lines
   for (std::size_t i = 0; i < e.mask.points.size(); i += step)
     points.push_back(e.mask.points[i].in_ground.head<2>());
   std::vector<PlacedShape> out;

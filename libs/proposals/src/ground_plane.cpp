@@ -11,6 +11,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kColumns = 80;          // of the grid of sampled points
+constexpr double kSupportUnit = 100;  // of a point on the plane
 constexpr int kCountStride = 3;       // every third of them is enough to compare hypotheses
 constexpr int kNormalReach = 2;       // samples to each side over which the surface's direction is taken
 constexpr double kNormalGate = 0.30;  // rad, surface direction against the plane's
@@ -109,10 +110,13 @@ std::optional<Plane> hypothesis(const std::vector<Sample>& samples, const std::v
   const double least = std::cos(kNormalGate);
   return bestPlane(pointsOf(few), expected ? 80 : 400, [&](const Plane& plane) {
     if (!plausible(plane, expected, search)) return 0;
-    const auto inliers = std::count_if(few.begin(), few.end(), [&](const Sample& s) {
-      return std::abs(plane.distance(s.point)) < tolerance(s.point) && s.normal.dot(plane.normal) > least;
-    });
-    return ratioBelow(plane, all) <= search.max_below_ratio ? static_cast<int>(inliers) : 0;
+    if (ratioBelow(plane, all) > search.max_below_ratio) return 0;
+    double support = 0;  // nearer points count more: a slanted plane between floor and step must not win
+    for (const Sample& s : few) {
+      const double r = plane.distance(s.point) / tolerance(s.point);
+      if (std::abs(r) < 1 && s.normal.dot(plane.normal) > least) support += 1 - r * r;
+    }
+    return static_cast<int>(kSupportUnit * support);
   });
 }
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <random>
+
+#include "roomgraph/proposals/proposal_covariance.h"
+#include "scene.h"
+
+namespace roomgraph {
+namespace {
+
+using test::Scene;
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
+  return db;
+}
+
+PlacedShape chairAt(double x, double y) {
+  PlacedShape placed;
+  placed.shape = database().find("swivel_chair")->nominal();
+  placed.x = x;
+  placed.y = y;
+  placed.quality = 0.95;
+  return placed;
+}
+
+BoxEvidence seen(bool depth) {
+  BoxEvidence e;
+  e.model = database().find("swivel_chair");
+  e.ground.offset = 0.8;
+  if (depth) e.mask.points.resize(200);
+  return e;
+}
+
+TEST(Covariance, IsLongestAlongTheViewAndGrowsWithDistance) {
+  for (const bool depth : {true, false}) {
+    double before = 0;
+    for (const double range : {1.5, 2.5, 4.0}) {
+      const Eigen::Vector2d ahead = Eigen::Vector2d(0.8, 0.6);
+      const Eigen::Matrix4d c = covarianceOf(chairAt(range * 0.8, range * 0.6), seen(depth), 0.01);
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(Eigen::Matrix2d(c.topLeftCorner<2, 2>()));
+      EXPECT_GT(std::abs(eigen.eigenvectors().col(1).dot(ahead)), 0.999);
+      EXPECT_GT(eigen.eigenvalues()(0), 0);
+      EXPECT_GT(eigen.eigenvalues()(1), before);
+      before = eigen.eigenvalues()(1);
+    }
+  }
+}
+
+TEST(Covariance, PoorFitCutBoxAndMissingDepthMakeItLarger) {
+  const PlacedShape good = chairAt(2.5, 0);
+  const double usual = covarianceOf(good, seen(true), 0.01)(0, 0);
+  PlacedShape poor = good;
+  poor.quality = 0.6;
+  EXPECT_GT(covarianceOf(poor, seen(true), 0.01)(0, 0), 2 * usual);
+  BoxEvidence cut = seen(true);
+  cut.cut_left = true;
+  EXPECT_GT(covarianceOf(good, cut, 0.01)(1, 1), usual * 0.1);
+  EXPECT_GT(covarianceOf(good, cut, 0.01)(0, 0), usual);
+  EXPECT_GT(covarianceOf(good, seen(false), 0.01)(0, 0), usual);
+  PlacedShape unsupported = good;
+  unsupported.supported = false;
+  EXPECT_EQ(covarianceOf(unsupported, seen(true), 0.01)(0, 0), covarianceOf(good, seen(false), 0.01)(0, 0));
+}
+
+// What a wrong pitch does to the intersection with the ground (paper Eq. 2), by sampling.
+TEST(Covariance, WithoutDepthItContainsTheGroundsTilt) {
+  constexpr double kTilt = 0.01;
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal(0, kTilt);
+  for (const double range : {2.0, 3.5}) {
+    const Plane ground{{0, -1, 0}, 0.8};
+    const Eigen::Vector3d ray(0, 0.8, range);
+    double sum = 0, squares = 0;
+    constexpr int kRuns = 4000;
+    for (int i = 0; i < kRuns; ++i) {
+      const Plane tilted{expSO3({normal(random), 0, 0}) * ground.normal, ground.offset};
+      const double z = intersect(ray, tilted).value().z();
+      sum += z;
+      squares += z * z;
+    }
+    const double sampled = squares / kRuns - std::pow(sum / kRuns, 2);
+    const double difference = covarianceOf(chairAt(range, 0), seen(false), kTilt)(0, 0) -
+                              covarianceOf(chairAt(range, 0), seen(false), 0)(0, 0);
+    EXPECT_GT(difference, 0.8 * sampled) << range;
+    EXPECT_LT(difference, 2.5 * sampled) << range;
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph
