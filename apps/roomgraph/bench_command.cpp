@@ -12,6 +12,7 @@
 #include "roomgraph/core/progress.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/evaluation/frame_files.h"
+#include "roomgraph/evaluation/object_files.h"
 #include "roomgraph/evaluation/report_proposals.h"
 #include "roomgraph/evaluation/trajectory_file.h"
 #include "roomgraph/pipeline/stages.h"

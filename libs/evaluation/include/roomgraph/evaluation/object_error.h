@@ -8,19 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/evaluation/class_rule.h"
 #include "roomgraph/evaluation/forgiven_kinds.h"
 #include "roomgraph/evaluation/object_files.h"
 #include "roomgraph/evaluation/statistics.h"
-#include "roomgraph/geometry/shape.h"
-#include "roomgraph/observations/object_database.h"
 
 namespace roomgraph {
-
-/// What has to be known about a class to compare two of its objects.
-struct ClassRule {
-  ShapeKind shape = ShapeKind::kCuboid;
-  int symmetry = 1;  ///< of yaw: 0 any angle, n by 360 deg / n
-};
 
 struct ObjectOptions {
   double gate_m = 0.5;       ///< largest distance of the centres on the ground
@@ -67,9 +60,6 @@ struct ObjectErrors {
   std::vector<LandmarkVerdict> verdicts;  ///< one per landmark, in the order of the map
   std::vector<int> missed;                ///< ids of true objects that count and have no landmark
 };
-
-/// The rules of all classes that may become landmarks.
-std::map<std::string, ClassRule> classRules(const ObjectDatabase& database);
 
 /// Compares a map with the truth: optimal one-to-one matching per class within the gate. True objects of
 /// class `person` or `other` never count; a landmark of class person is a false alarm; a landmark of a class

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "roomgraph/evaluation/object_error.h"
+#include "roomgraph/evaluation/class_rule.h"
 #include "roomgraph/evaluation/statistics.h"
 #include "roomgraph/observations/proposal.h"
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "roomgraph/geometry/shape.h"
+#include "roomgraph/observations/object_database.h"
+
+namespace roomgraph {
+
+/// What has to be known about a class to compare two of its objects.
+struct ClassRule {
+  ShapeKind shape = ShapeKind::kCuboid;
+  int symmetry = 1;  ///< of yaw: 0 any angle, n by 360 deg / n
+};
+
+/// The rules of all classes that may become landmarks.
+std::map<std::string, ClassRule> classRules(const ObjectDatabase& database);
+
+}  // namespace roomgraph
