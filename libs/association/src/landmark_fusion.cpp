@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kCarriedInformation = 0.3;
 constexpr double kOutlier = 16;        // squared Mahalanobis distance
+constexpr double kMostDoubt = 1e4;     // factor on the covariance of such a sighting
 constexpr double kLabelPrior = 0.5;    // pseudo-votes per class
 constexpr double kMaxSizeWeight = 50;  // sizes may follow an object seen better later
 constexpr std::size_t kMaxRecent = 40;
@@ -77,7 +78,7 @@ void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   // What lies far off was taken for this landmark for other reasons than its place.
   const Eigen::Matrix2d joint = (landmark.covariance + noise).topLeftCorner<2, 2>();
   const double squared = innovation.head<2>().dot(joint.inverse() * innovation.head<2>());
-  if (squared > kOutlier) noise *= std::pow(squared / kOutlier, 2);
+  if (squared > kOutlier) noise *= std::min(std::pow(squared / kOutlier, 2), kMostDoubt);
   if (!fine) {
     noise.row(3).setZero();
     noise.col(3).setZero();
@@ -87,7 +88,11 @@ void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   const Eigen::Vector4d step = gain * innovation;
   landmark.position += step.head<3>();
   landmark.yaw = wrapAngle(landmark.yaw + step[3]);
-  landmark.covariance = ((Eigen::Matrix4d::Identity() - gain) * landmark.covariance).eval();
+  // Joseph's form: stays symmetric and positive whatever the rounding.
+  const Eigen::Matrix4d rest = Eigen::Matrix4d::Identity() - gain;
+  const Eigen::Matrix4d fused =
+      rest * landmark.covariance * rest.transpose() + gain * noise * gain.transpose();
+  landmark.covariance = (fused + fused.transpose()) / 2;
   // Measurements of one object share errors (same view, same model): a floor keeps the estimate open to new
   // views.
   for (int i = 0; i < 4; ++i) landmark.covariance(i, i) = std::max(landmark.covariance(i, i), 1e-4);
@@ -139,6 +144,7 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen) {
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned) {
   record.evidence += other.evidence;
   record.unseen_log_odds += other.unseen_log_odds;
+  record.ray_support = std::max(record.ray_support, other.ray_support);
   record.front += turned ? other.back : other.front;
   record.back += turned ? other.front : other.back;
   for (const auto& [label, votes] : other.labels) record.labels[label] += votes;

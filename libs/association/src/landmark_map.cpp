@@ -9,6 +9,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kMaxRays = 20;
+constexpr double kMaxRaySupport = 1, kMaxLogOdds = 50;
 constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
 
 double widthOf(const ObjectShape& shape) {
@@ -125,7 +126,7 @@ void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
 void LandmarkMap::weighUnseen(LandmarkId id, double log_ratio) {
   Landmark* landmark = get(id);
   if (!landmark) return;
-  weigh(*landmark, std::exp(log_ratio));
+  weigh(*landmark, std::exp(std::clamp(log_ratio, -kMaxLogOdds, kMaxLogOdds)));
   records_[id].unseen_log_odds += log_ratio;
 }
 
@@ -138,7 +139,12 @@ void LandmarkMap::seenThrough(LandmarkId id, int rays) {
 }
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
-  weighUnseen(id, ray_gain_ * std::clamp(rays, 0, kMaxRays));
+  if (!find(id)) return;
+  // Something is there, which need not be what the landmark is taken for.
+  double& support = records_[id].ray_support;
+  const double gain = std::min(ray_gain_ * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
+  support += gain;
+  weighUnseen(id, gain);
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,

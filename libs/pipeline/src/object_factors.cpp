@@ -65,9 +65,10 @@ struct Gathered {
 };
 
 void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Landmark& landmark,
-            const KeyPose& node, const Pose3& node_from_camera, const BackendOptions& options,
+            const KeyPose& node, const Pose3& node_from_camera, const BackendOptions& options, double trust,
             Gathered& out) {
-  const LandmarkFactor sighting = sightingOf(decision, landmark, node, node_from_camera);
+  LandmarkFactor sighting = sightingOf(decision, landmark, node, node_from_camera);
+  sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
   LandmarkBoxFactor& best = out.boxes[node.id];
@@ -125,17 +126,21 @@ void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOpti
 
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
-                            const BackendOptions& options) {
+                            const BackendOptions& options, const MeasurementModel* model) {
   std::map<LandmarkId, Gathered> gathered;
   std::map<LandmarkId, const Landmark*> known;
   for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
   for (const auto& frame : frames) {
     const KeyPose& node = poses.nearest(frame.t);
     const Pose3 node_from_camera = poses.offset(node, frame.t) * frame.robot_from_camera;
-    for (const auto& decision : frame.decisions)
-      if (const auto found = known.find(decision.landmark);
-          found != known.end() && found->second->class_name == decision.seen.measurement.proposal.class_name)
-        gather(frame, decision, *found->second, node, node_from_camera, options, gathered[decision.landmark]);
+    for (const auto& decision : frame.decisions) {
+      const auto found = known.find(decision.landmark);
+      if (found == known.end()) continue;
+      const Landmark& landmark = *found->second;
+      if (landmark.class_name != decision.seen.measurement.proposal.class_name) continue;
+      const double trust = model ? model->depthTrust(decision.seen, landmark) : 1;
+      gather(frame, decision, landmark, node, node_from_camera, options, trust, gathered[landmark.id]);
+    }
   }
   ObjectFactors out;
   for (const auto& [id, seen] : gathered) {
@@ -146,9 +151,9 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
       mean.robust_width = options.landmark_robust_width;
       out.sightings.push_back(mean);
     }
-    const ObjectModel* model = database.find(landmark.class_name);
-    if (options.object_boxes && model) {
-      out.sizes.push_back(sizeFactor(landmark, *model));
+    const ObjectModel* usual = database.find(landmark.class_name);
+    if (options.object_boxes && usual) {
+      out.sizes.push_back(sizeFactor(landmark, *usual));
       for (auto [node, box] : seen.boxes) {
         box.weight *= options.landmark_information_share;
         out.boxes.push_back(box);

@@ -164,6 +164,12 @@ void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
   }
 }
 
+ObjectFactors ObjectMapper::factors() const {
+  const AssociationModel* model = stages_.associator->model();
+  return objectFactors(frames_, poses_, landmarks().landmarks(), stages_.database, stages_.backend,
+                       model ? &model->measurement : nullptr);
+}
+
 void ObjectMapper::respan() {
   spans_.clear();
   for (const auto& frame : frames_) span(frame);

@@ -41,7 +41,7 @@ void OdometryOptions::declareParameters(ParameterVisitor& v) {
   noise.declare(v);
 }
 
-void ObjectOptions::declareParameters(ParameterVisitor& v) {
+void DetectionStageOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "detect and map objects"});
   v.add("class", detector, {.doc = "implementation of Detector"});
   tracker.declareParameters(v);

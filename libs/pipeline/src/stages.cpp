@@ -19,7 +19,7 @@ namespace {
 // The class of a stage when the config names none.
 const std::map<std::string, std::string> kDefaultClass = {{"scan_loop_closing", "SubmapLoopCloser"},
                                                           {"proposals", "GeometricProposalGenerator"},
-                                                          {"selection", "UnarySelector"},
+                                                          {"selection", "CrfSelector"},
                                                           {"association", "SoftAssociator"}};
 
 template <class Interface>
@@ -147,7 +147,7 @@ ConfigSchema configSchema() {
   TrackingOptions tracking;
   LidarOptions lidar;
   OdometryOptions odometry;
-  ObjectOptions detection;
+  DetectionStageOptions detection;
   BackendOptions backend;
   LandmarkMap landmarks;
   ObjectLoopOptions object_loops;

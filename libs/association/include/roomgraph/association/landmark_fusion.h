@@ -23,6 +23,7 @@ struct PlaceSketch {
 struct LandmarkRecord {
   double evidence = 0;                   ///< sum of the sightings' scores
   double unseen_log_odds = 0;            ///< of existence, by misses and rays: all but the sightings
+  double ray_support = 0;                ///< the part of it that rays gave in favour
   std::map<std::string, double> labels;  ///< class -> sum of the detector's scores
   double front = 0, back = 0;            ///< votes for the landmark's yaw and for the opposite one
   double size_weight = 0;                ///< of the sightings in its size

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "roomgraph/association/measurement_model.h"
 #include "roomgraph/backend/factors.h"
 #include "roomgraph/observations/feature_track.h"
 #include "roomgraph/observations/landmark.h"
@@ -38,10 +39,12 @@ struct ObjectFactors {
 /// Per key pose and landmark one sighting and one box: the errors of sightings from one place are nearly the
 /// same, so that many count like one. Points that were seen on a landmark from several key poses. Weights are
 /// association probability x selection confidence x initialisation score, scaled by
-/// BackendOptions::landmark_information_share.
+/// BackendOptions::landmark_information_share. Measurements under another class' label say nothing of the
+/// place; those that rather lie along the viewing ray, because their depth failed (`model`; may be null),
+/// little.
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
-                            const BackendOptions& options);
+                            const BackendOptions& options, const MeasurementModel* model = nullptr);
 
 /// Factor between a key pose and the landmark a measurement was given to. A yaw that looks the other way than
 /// the landmark's is turned round: front and back of an object are easily confused, its direction is not.

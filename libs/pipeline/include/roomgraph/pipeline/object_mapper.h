@@ -45,9 +45,8 @@ class ObjectMapper {
   /// Moves the landmarks that were first seen at that time or later.
   void moveSince(double t, const Pose3& new_from_old);
 
-  ObjectFactors factors() const {
-    return objectFactors(frames_, poses_, landmarks().landmarks(), stages_.database, stages_.backend);
-  }
+  /// What the graph is to know.
+  ObjectFactors factors() const;
 
   const std::vector<ObjectFrame>& frames() const { return frames_; }
   LandmarkMap& landmarks() { return stages_.landmarks; }

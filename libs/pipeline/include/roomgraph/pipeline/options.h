@@ -51,7 +51,7 @@ struct OdometryOptions : Configurable {
 };
 
 /// [detection]
-struct ObjectOptions : Configurable {
+struct DetectionStageOptions : Configurable {
   bool enabled = true;
   std::string detector = "DnnDetector";
   BoxTrackerOptions tracker;

@@ -31,7 +31,7 @@ struct Stages {
   TrackingOptions tracking;
   LidarOptions lidar;
   OdometryOptions odometry;
-  ObjectOptions detection;
+  DetectionStageOptions detection;
   BackendOptions backend;
   ObjectDatabase database;
   std::shared_ptr<RgbdOdometry> rgbd_odometry;       ///< null when switched off
