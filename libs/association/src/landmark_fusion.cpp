@@ -143,7 +143,9 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen) {
 
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned) {
   record.evidence += other.evidence;
-  record.unseen_log_odds += other.unseen_log_odds;
+  record.doubts.insert(record.doubts.end(), other.doubts.begin(), other.doubts.end());
+  std::stable_sort(record.doubts.begin(), record.doubts.end(),
+                   [](const Doubt& a, const Doubt& b) { return a.after < b.after; });
   record.ray_support = std::max(record.ray_support, other.ray_support);
   record.front += turned ? other.back : other.front;
   record.back += turned ? other.front : other.back;

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace roomgraph {
 namespace {
 
 constexpr int kMaxRays = 20;
-constexpr double kMaxRaySupport = 1, kMaxLogOdds = 50;
+constexpr double kMaxRaySupport = 1;
 constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
 
 double widthOf(const ObjectShape& shape) {
@@ -123,19 +124,19 @@ void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
   landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 1 - 1e-9);
 }
 
-void LandmarkMap::weighUnseen(LandmarkId id, double log_ratio) {
+void LandmarkMap::doubt(LandmarkId id, double log_ratio) {
   Landmark* landmark = get(id);
   if (!landmark) return;
-  weigh(*landmark, std::exp(std::clamp(log_ratio, -kMaxLogOdds, kMaxLogOdds)));
-  records_[id].unseen_log_odds += log_ratio;
+  weigh(*landmark, std::exp(log_ratio));
+  records_[id].doubts.push_back({frame_, log_ratio});
 }
 
 void LandmarkMap::miss(LandmarkId id) {
-  weighUnseen(id, std::log((1 - detection_probability_) / (1 - false_alarm_probability_)));
+  doubt(id, std::log((1 - detection_probability_) / (1 - false_alarm_probability_)));
 }
 
 void LandmarkMap::seenThrough(LandmarkId id, int rays) {
-  weighUnseen(id, -ray_gain_ * std::clamp(rays, 0, kMaxRays));
+  doubt(id, -ray_gain_ * std::clamp(rays, 0, kMaxRays));
 }
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
@@ -144,7 +145,7 @@ void LandmarkMap::supported(LandmarkId id, int rays) {
   double& support = records_[id].ray_support;
   const double gain = std::min(ray_gain_ * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
   support += gain;
-  weighUnseen(id, gain);
+  doubt(id, gain);
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
@@ -227,9 +228,12 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
 
 void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                         const Reassociation& result) {
-  std::map<LandmarkId, double> unseen;
-  for (const auto& [id, record] : records_) unseen[id] = record.unseen_log_odds;
-  for (const auto& [removed, kept] : result.merged) unseen[kept] += unseen[removed];
+  for (const auto& [removed, kept] : result.merged)
+    if (records_.contains(removed)) joinRecords(records_[kept], records_[removed], false);
+  std::multimap<FrameId, std::pair<LandmarkId, double>> doubts;
+  for (const auto& landmark : result.landmarks)
+    for (const auto& [after, log_ratio] : records_[landmark.id].doubts)
+      doubts.emplace(after, std::pair{landmark.id, log_ratio});
   // Replayed as if seen for the first time, for the votes; then place and size as re-estimated.
   landmarks_ = result.landmarks;
   for (auto& landmark : landmarks_) {
@@ -238,19 +242,26 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
     next_id_ = std::max(next_id_, landmark.id.value + 1);
   }
   records_.clear(), together_.clear(), in_frame_.clear();
-  for (std::size_t f = 0; f < by_frame.size(); ++f)
+  auto next = doubts.begin();
+  const auto weighUntil = [&](FrameId frame) {
+    for (; next != doubts.end() && next->first < frame; ++next)
+      doubt(next->second.first, next->second.second);
+  };
+  for (std::size_t f = 0; f < by_frame.size(); ++f) {
+    if (!by_frame[f].empty()) weighUntil(by_frame[f].front().measurement.frame);
     for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
       Association known = result.decisions[f][k].association;
       known.landmark = result.decisions[f][k].landmark;
       update(by_frame[f][k], known);
     }
+  }
+  weighUntil(FrameId{std::numeric_limits<std::int64_t>::max()});
   for (const auto& estimate : result.landmarks) {
     Landmark& landmark = *get(estimate.id);
     if (landmark.class_name == estimate.class_name) {
       correct(landmark.id, estimate.position, estimate.yaw, estimate.covariance);
       landmark.shape = estimate.shape;
     }
-    weighUnseen(landmark.id, unseen[landmark.id]);
   }
 }
 

@@ -12,6 +12,8 @@
 namespace roomgraph {
 namespace {
 
+constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place say the same
+
 // Proposal covariances are in the ground frame under the camera (x ahead, y left, z up): turn them by its
 // heading.
 WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& world_from_camera,
@@ -102,6 +104,11 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
 }
 
 void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
+  if (last_rays_from_) {
+    const Pose3 moved = last_rays_from_->inverse() * world_from_robot;
+    if (moved.translation().norm() < kRayDistance_m && rotationAngle(moved) < kRayAngle_rad) return;
+  }
+  last_rays_from_ = world_from_robot;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks().landmarks())) {
     const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot);
     if (rays.inside > 0) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 namespace roomgraph {
+namespace {
+constexpr double kHorizon_s = 0.25;  // beyond this no source is extrapolated
+}
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
     : options_(options), motion_(motion), poses_(motion) {
@@ -19,7 +22,9 @@ bool PoseEstimator::advance(double t) {
   const KeyPose& last = poses_.nodes().back();
   if (t <= last.t) return false;
   const Pose3 moved = poses_.offset(last, t);
-  const bool far = moved.translation().norm() > options_.node_distance_m ||
+  // A source goes on after a gap that none saw across: where it goes on is unknown, and a pose of its own.
+  const bool resumed = motion_.movement(t, t, kHorizon_s) && !motion_.movement(last.t, t, kHorizon_s);
+  const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
                    rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
   if (!far) return false;
   poses_.add(t, last.world_from_robot * moved);

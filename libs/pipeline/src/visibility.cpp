@@ -10,6 +10,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
+constexpr double kSolidHeight = 0.4;  // share of a cuboid's height; above it a sofa is open: its seat
 constexpr double kMiddle = 0.5;  // share of the footprint's smaller half that the covariance cannot reach
 constexpr double kSamePlace =
     0.3;  // IoU with a detection, of whatever label, that says that something is there
@@ -54,6 +55,8 @@ RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3&
   const double reach = std::hypot(landmark.shape.width, landmark.shape.depth) / 2,
                away = origin.head<2>().norm();
   if (origin.z() > landmark.shape.height || away > scan.max_range_m || away < reach) return out;
+  const bool solid =
+      landmark.shape.kind == ShapeKind::kCuboid && origin.z() < kSolidHeight * landmark.shape.height;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (!scan.valid[i]) continue;
     const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad,
@@ -65,7 +68,7 @@ RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3&
     const Eigen::Vector3d end = origin + range * beam;
     if (distanceOutside(landmark.shape, end)[0] <= 0) {
       ++out.inside;
-    } else if (landmark.shape.kind == ShapeKind::kCuboid && range > away + reach) {
+    } else if (solid && range > away + reach) {
       const double beside = (origin + nearest * beam).head<2>().norm();
       out.through += beside < kMiddle * std::min(landmark.shape.width, landmark.shape.depth) / 2;
     }

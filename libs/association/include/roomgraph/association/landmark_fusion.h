@@ -19,11 +19,17 @@ struct PlaceSketch {
   double weight = 1;
 };
 
-/// What is remembered about a landmark beside its estimate; bounded.
+/// Evidence for or against a landmark's existence other than a sighting: a miss, or rays.
+struct Doubt {
+  FrameId after;  ///< the last frame with measurements before it
+  double log_ratio = 0;
+};
+
+/// What is remembered about a landmark beside its estimate.
 struct LandmarkRecord {
   double evidence = 0;                   ///< sum of the sightings' scores
-  double unseen_log_odds = 0;            ///< of existence, by misses and rays: all but the sightings
-  double ray_support = 0;                ///< the part of it that rays gave in favour
+  double ray_support = 0;                ///< log odds of existence that rays gave in favour
+  std::vector<Doubt> doubts;             ///< in order of time
   std::map<std::string, double> labels;  ///< class -> sum of the detector's scores
   double front = 0, back = 0;            ///< votes for the landmark's yaw and for the opposite one
   double size_weight = 0;                ///< of the sightings in its size

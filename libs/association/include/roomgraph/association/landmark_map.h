@@ -47,7 +47,7 @@ class LandmarkMap : public Configurable {
   std::vector<std::pair<LandmarkId, LandmarkId>> splitMixed();
 
   /// Takes over the outcome of a re-association of all measurements. Existence is what the sightings given
-  /// to a landmark say, and its misses and rays, which it keeps.
+  /// to a landmark say, and, in the order of time, its misses and rays, which it keeps.
   void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
 
   /// Landmarks sure enough to be shown: existence and number of observations reach the configured limits.
@@ -56,7 +56,7 @@ class LandmarkMap : public Configurable {
  private:
   Landmark* get(LandmarkId id);
   void weigh(Landmark& landmark, double ratio) const;
-  void weighUnseen(LandmarkId id, double log_ratio);
+  void doubt(LandmarkId id, double log_ratio);
   double likelihoodRatio(const ObjectMeasurement& measurement) const;
   void countTogether(FrameId frame, LandmarkId id);
   void join(Landmark& kept, const Landmark& removed);

@@ -32,7 +32,7 @@ class ObjectMapper {
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
                   const Frame& frame);
 
-  /// What a scan says of the landmarks it crosses.
+  /// What a scan says of the landmarks it crosses; one from each place.
   void observe(const Scan& scan, const Pose3& world_from_robot);
 
   /// Joins landmarks that turned out to be one object, in the memory too; parts those that are two.
@@ -64,6 +64,7 @@ class ObjectMapper {
   void span(const ObjectFrame& frame);
   std::vector<ObjectFrame> frames_;
   std::map<LandmarkId, SeenSpan> spans_;
+  std::optional<Pose3> last_rays_from_;
 };
 
 }  // namespace roomgraph

@@ -76,7 +76,7 @@ struct BackendOptions : Configurable {
   double pose_sigma_m = 0.03;
   double landmark_information_share = 0.01;
   bool object_boxes = true;
-  double box_sigma_px = 6, point_sigma_px = 2;
+  double box_sigma_px = 60, point_sigma_px = 20;
   int points_per_landmark = 10;
   void declareParameters(ParameterVisitor& v) override;
 };

@@ -23,8 +23,8 @@ struct RayEvidence {
   int through = 0;  ///< passed through the middle of it and ended behind
 };
 
-/// Only cuboids are solid at the height of a scan: beams pass between the legs of a chair and through an open
-/// door, so that these count beams inside only.
+/// Only the lower part of cuboids is solid: beams pass over the seat of a sofa, between the legs of a chair
+/// and through an open door, so that these count beams inside only.
 RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot);
 
 }  // namespace roomgraph
