@@ -63,6 +63,12 @@ Split twoMeans(const std::vector<PlaceSketch>& sightings) {
 
 }  // namespace
 
+bool isElsewhere(const Landmark& landmark, const WorldMeasurement& seen) {
+  const Eigen::Vector2d gap = (seen.world_from_object.translation() - landmark.position).head<2>();
+  const Eigen::Matrix2d joint = (landmark.covariance + seen.covariance).topLeftCorner<2, 2>();
+  return gap.dot(joint.inverse() * gap) > kOutlier;
+}
+
 void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   const bool use_yaw = seen.measurement.proposal.has_yaw && landmark.has_yaw;
   const double yaw = planarPart(seen.world_from_object).yaw;

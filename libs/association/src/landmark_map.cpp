@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kMaxRays = 20;
 constexpr double kMaxRaySupport = 1;
+constexpr double kPrecise_m = 0.3;    // standard deviation on the ground that says where an object is
 constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
 
 double widthOf(const ObjectShape& shape) {
@@ -60,10 +61,15 @@ Landmark* LandmarkMap::get(LandmarkId id) {
   return const_cast<Landmark*>(find(id));
 }
 
-// A carried box repeats what was seen before.
-double LandmarkMap::likelihoodRatio(const ObjectMeasurement& measurement) const {
-  const double share =
+// A carried box repeats what was seen before; a sighting that hardly says where the object is, or says that
+// it is elsewhere, cannot tell that it is here.
+double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const {
+  const ObjectMeasurement& measurement = seen.measurement;
+  double share =
       measurement.proposal.score > 0 ? sightingWeight(measurement) / measurement.proposal.score : 1;
+  const double variance = seen.covariance.topLeftCorner<2, 2>().trace();
+  share *= std::min(1.0, kPrecise_m * kPrecise_m / variance);
+  if (isElsewhere(landmark, seen)) share = 0;
   return std::exp(score_gain_ * share * (measurement.proposal.score - neutral_score_));
 }
 
@@ -85,8 +91,8 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& 
     landmark->class_posterior = before.class_posterior;
     landmark->observations = before.observations;
   } else if (!fresh) {
+    weigh(*landmark, likelihoodRatio(*landmark, seen));
     fusePlace(*landmark, seen);
-    weigh(*landmark, likelihoodRatio(measurement));
     ++landmark->observations;
   }
   fuseSize(*landmark, record, measurement);

@@ -36,6 +36,8 @@ struct LandmarkRecord {
   std::deque<PlaceSketch> recent;
 };
 
+/// Whether a sighting lies so far off the landmark that it was given to it for other reasons than its place.
+bool isElsewhere(const Landmark& landmark, const WorldMeasurement& seen);
 /// Kalman update of (x, y, z, yaw) with a direct measurement; one of little weight counts as a less certain
 /// one.
 void fusePlace(Landmark& landmark, const WorldMeasurement& seen);

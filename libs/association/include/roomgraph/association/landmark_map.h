@@ -57,7 +57,7 @@ class LandmarkMap : public Configurable {
   Landmark* get(LandmarkId id);
   void weigh(Landmark& landmark, double ratio) const;
   void doubt(LandmarkId id, double log_ratio);
-  double likelihoodRatio(const ObjectMeasurement& measurement) const;
+  double likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const;
   void countTogether(FrameId frame, LandmarkId id);
   void join(Landmark& kept, const Landmark& removed);
   int together(LandmarkId a, LandmarkId b) const;
