@@ -20,24 +20,26 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build" / "release" / "bin" / "roomgraph"
+FR3 = "fr3_office_10hz"
 MRPT = Path("/usr/share/mrpt/datasets/graphslam-engine-demos/action_observations_map")
 
 
 class Bench:
-    def __init__(self, data, out):
-        self.data, self.out = data, out
+    def __init__(self, data, out, program):
+        self.data, self.out, self.program = data, out, program
         self.network = data / "models/nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-416.onnx"
         self.doors = data / "models/deeplabv3-mnv2-ade20k/deeplabv3_mnv2_ade20k_256x256.onnx"
 
     def shown(self, arguments):
         """A command as a reader would type it: relative to the repository and to $DATA."""
         text = shlex.join(str(a) for a in arguments)
-        for path, name in ((str(self.data), "$DATA"), (str(self.out), "out/bench"), (str(PROGRAM), "roomgraph")):
+        for path, name in ((str(self.data), "$DATA"), (str(self.out), "out/bench"), (str(self.program), "roomgraph"),
+                           (str(ROOT) + "/", "")):
             text = text.replace(path, name)
         return text
 
     def call(self, *arguments):
-        command = [str(a) for a in (PROGRAM, *arguments)]
+        command = [str(a) for a in (self.program, *arguments)]
         started = time.monotonic()
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
@@ -119,15 +121,39 @@ def fr3_chairs(bench, folder):
 
 
 def fr3(bench):
-    name = "fr3_office_10hz"
-    folder, result = handheld(bench, name, "`fr3_office_10hz` (real colour, **rendered depth**; RGB-D)",
+    folder, result = handheld(bench, FR3, "`fr3_office_10hz` (real colour, **rendered depth**; RGB-D)",
                               f"detection.models={bench.network}")
+    return with_chairs(bench, folder, result)
+
+
+def fr3_recorded(bench, name, label, make, detections):
+    """With detections of larger networks that are part of the data, instead of a network of ours."""
+    _, rawlog = bench.imported(FR3)
+    folder, command, summary = bench.run(name, rawlog, "detection.class=RecordedDetector", f"detection.file={detections}")
+    return with_chairs(bench, folder, row(label, cost(summary), [*make, command]))
+
+
+def fr3_masks(bench):
+    file = bench.out / "fr3_masks.jsonl"
+    make = [sys.executable, ROOT / "bench/yolo_masks.py", bench.data / "rgbd" / FR3, "-o", file]
+    subprocess.run([str(part) for part in make], check=True)
+    return fr3_recorded(bench, "fr3_masks", "`fr3_office_10hz` with YOLOv8x masks (recorded; track ids change)",
+                        [bench.shown(make[1:])], file)
+
+
+def fr3_yolo(bench):
+    return fr3_recorded(bench, "fr3_yolo", "`fr3_office_10hz` with YOLOv3 boxes (recorded)", [],
+                        bench.data / "rgbd" / FR3 / "yolov3_boxes.txt")
+
+
+def with_chairs(bench, folder, result):
     check, report = bench.evaluate(folder, "objects", "objects", fr3_chairs(bench, folder), folder / "landmarks.json",
-                                   "--gate", "0.35", "--truth-trajectory", bench.data / "rgbd" / name / "groundtruth.txt",
+                                   "--gate", "0.35", "--truth-trajectory", bench.data / "rgbd" / FR3 / "groundtruth.txt",
                                    "--trajectory", folder / "trajectory_camera.tum")
     chairs = report["per_class"]["swivel_chair"]
     result["figures"] += (f"; chairs within .35 m: {chairs['correct']} of {chairs['correct'] + chairs['missed']}, "
-                          f"{chairs['false_alarms']} elsewhere")
+                          f"centre error {report['position_error_mean_m']:.3f} m, {chairs['false_alarms']} elsewhere, "
+                          f"{report['duplicates']} duplicates")
     result["commands"].append(check)
     return result
 
@@ -146,12 +172,14 @@ def lab_a(bench):
     folder, command, summary = bench.run("lab_a", truth / "lab_a.rawlog", f"detection.models={bench.network},{bench.doors}")
     check, report = bench.evaluate(folder, "trajectory", "trajectory", truth / "groundtruth_robot.txt", folder / "trajectory.tum")
     look, objects = bench.evaluate(folder, "objects", "objects", truth / "objects.json", folder / "landmarks.json",
-                                   "--truth-boxes", truth / "boxes.jsonl",
+                                   "--truth-boxes", truth / "boxes.jsonl", "--associations", folder / "associations.jsonl",
                                    "--truth-trajectory", truth / "groundtruth_robot.txt", "--trajectory", folder / "trajectory.tum")
     classes = ", ".join(f"{name} {c['correct']} of {c['correct'] + c['missed']}"
                         for name, c in objects["per_class"].items())
     return row("`lab_a` (**rendered**; RGB-D, lidar, odometry)",
-               f"{ate(report)}; within .5 m: {classes}; {objects_text(objects)}; {cost(summary)}", [command, check, look])
+               f"{ate(report)}; within .5 m: {classes}; {objects_text(objects)}; associations: accuracy "
+               f"{objects['association_accuracy']:.3f}, calibration error {objects['association_ece']:.3f}, "
+               f"{objects['identity_switches']} identity switches; {cost(summary)}", [command, check, look])
 
 
 BENCHES = {
@@ -161,6 +189,8 @@ BENCHES = {
     "fr079": lambda b: lidar2d(b, "fr079"),
     "redkitchen": redkitchen,
     "fr3": fr3,
+    "fr3_masks": fr3_masks,
+    "fr3_yolo": fr3_yolo,
     "lab_a": lab_a,
 }
 
@@ -193,9 +223,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, default=os.environ.get("ROOMGRAPH_DATA", ROOT.parent / "shared" / "data"))
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "bench")
+    parser.add_argument("--program", type=Path, default=PROGRAM)
     parser.add_argument("--only", nargs="+", choices=BENCHES, default=list(BENCHES))
     arguments = parser.parse_args()
-    bench = Bench(Path(arguments.data).resolve(), arguments.out.resolve())
+    bench = Bench(Path(arguments.data).resolve(), arguments.out.resolve(), arguments.program)
     bench.out.mkdir(parents=True, exist_ok=True)
     store = bench.out / "rows.json"
     rows = json.loads(store.read_text()) if store.exists() else {}

@@ -142,6 +142,25 @@ TEST(LandmarkMap, PoorSightingSpeaksAgainstTheObject) {
   EXPECT_NEAR(map.find(id)->existence, std::exp(-0.6) / (1 + std::exp(-0.6)), 1e-12);
 }
 
+TEST(LandmarkMap, VagueSightingsAndThoseElsewhereSayNothingOfExistence) {
+  LandmarkMap map;
+  const LandmarkId id = born(map, sightingAt(0, 0, 0, 0.05));
+  const double existence = map.find(id)->existence;
+  map.update(sightingAt(3, 0, 0, 0.05), belongsTo(id));
+  EXPECT_DOUBLE_EQ(map.find(id)->existence, existence);
+  LandmarkMap vague;
+  const LandmarkId far = born(vague, sightingAt(0, 0, 0, 3));
+  vague.update(sightingAt(0, 0, 0, 3), belongsTo(far));
+  LandmarkMap precise;
+  const LandmarkId near = born(precise, sightingAt(0, 0, 0, 0.1));
+  precise.update(sightingAt(0, 0, 0, 0.1), belongsTo(near));
+  // .3^2 over the trace 2 * 3^2: one half of a hundredth of the precise one's log odds.
+  const auto log_odds = [](double p) { return std::log(p / (1 - p)); };
+  EXPECT_NEAR((log_odds(vague.find(far)->existence) - log_odds(existence)) /
+                  (log_odds(precise.find(near)->existence) - log_odds(existence)),
+              0.005, 1e-9);
+}
+
 TEST(LandmarkMap, ConfirmedNeedsExistenceAndSightings) {
   LandmarkMap map = mapWith(kFourToOne + "confirm_existence = 0.9\nconfirm_observations = 3");
   const LandmarkId id = born(map, sightingAt(0, 0));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "roomgraph/association/association_model.h"
@@ -187,6 +188,36 @@ TEST(SmallWorld, AMovedChairIsBornAgainAndItsOldPlaceDies) {
   for (int i = 0; i < 20; ++i) map.seenThrough(old, 15);
   ASSERT_EQ(map.confirmed().size(), 1u);
   EXPECT_NEAR(map.confirmed()[0].position.x(), 2, 1e-6);
+}
+
+// Thirty frames at one place, then thirty at another while the first place is seen empty: hindsight replays
+// the misses in the order of time, so that the chair's many sightings do not outweigh them.
+TEST(Reassociation, AMovedChairIsWhereItWasSeenLast) {
+  SoftAssociator associator;
+  LandmarkMap map;
+  std::vector<std::vector<WorldMeasurement>> frames;
+  std::set<LandmarkId> before;
+  for (int i = 0; i < 60; ++i) {
+    WorldMeasurement seen = sightingAt(i < 30 ? 1 : 4, 2, 0, 0.05);
+    seen.measurement.frame = FrameId{i};
+    seen.measurement.t = 0.1 * i;
+    seen.measurement.proposal.score = 0.6;
+    frames.push_back({seen});
+    const Association association = associator.associate(frames.back(), map.landmarks()).front();
+    const LandmarkId id = map.update(seen, association);
+    associator.assigned(seen, id);
+    if (i < 30) before.insert(id);
+    if (i >= 30)
+      for (const auto old : before) map.miss(old);
+  }
+  ASSERT_EQ(before.size(), 1u);
+  const auto result = reassociate(frames, map.landmarks(), *associator.model(), map.duplicates());
+  map.adopt(frames, result);
+  ASSERT_EQ(map.confirmed().size(), 1u);
+  EXPECT_NEAR(map.confirmed().front().position.x(), 4, 0.02);
+  // Surest after its sightings, odds of 10^9; each of thirty misses takes (1 - .6) / (1 - .15) of them.
+  const double odds = 1e9 * std::pow(0.4 / 0.85, 30);
+  EXPECT_NEAR(map.find(*before.begin())->existence, odds / (1 + odds), 1e-3);
 }
 
 }  // namespace

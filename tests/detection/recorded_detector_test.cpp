@@ -8,6 +8,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
@@ -132,6 +134,28 @@ TEST_F(RecordedDetectorTest, BrokenFilesNameTheLine) {
   }
   EXPECT_THROW(prepare("file = " + write("5.0 56 1 1 -5 5 0.9\n")), InputError);
   EXPECT_THROW(prepare("file = " + (folder_ / "none").string()), InputError);
+}
+
+TEST_F(RecordedDetectorTest, MasksGiveTheBoxAndAreCutToIt) {
+  cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
+  cv::rectangle(mask, {100, 50, 40, 60}, cv::Scalar(255), cv::FILLED);
+  mask.at<uchar>(55, 105) = 0;  // a hole
+  cv::imwrite((folder_ / "mask.png").string(), mask);
+  const auto file = write(
+      R"({"timestamp": "5.0", "boxes": [{"class": "chair", "score": 0.9, "track": 7, "mask": "mask.png"}]})");
+  prepare("file = " + file);
+  const auto found = detector_.detect(frameAt(5.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_EQ((*found)[0].box, (Box2{100, 50, 140, 110}));
+  EXPECT_EQ((*found)[0].track.value, 7);
+  ASSERT_EQ((*found)[0].mask.size(), cv::Size(40, 60));
+  EXPECT_EQ((*found)[0].mask.at<uchar>(5, 5), 0);
+  EXPECT_NE((*found)[0].mask.at<uchar>(0, 0), 0);
+
+  const auto bad =
+      write(R"({"timestamp": 5.0, "boxes": [{"class": "chair", "score": 0.9, "mask": "none.png"}]})");
+  EXPECT_THAT([&] { readDetectionFile(bad); }, ::testing::ThrowsMessage<InputError>(HasSubstr("none.png")));
 }
 
 }  // namespace

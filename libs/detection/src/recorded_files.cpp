@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "roomgraph/core/errors.h"
@@ -23,15 +26,31 @@ bool sound(const Detection& d) {
          std::isfinite(d.box.v_max) && !d.box.empty() && d.score >= 0 && d.score <= 1;
 }
 
-void addJsonLine(const std::string& line, DetectionRecords& records) {
+// A mask over the whole image, cut to its box; the box is the mask's own.
+void readMask(const std::filesystem::path& file, Detection& detection) {
+  const cv::Mat mask = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  if (mask.empty()) throw std::invalid_argument("mask " + file.string() + " cannot be read");
+  std::vector<cv::Point> inside;
+  cv::findNonZero(mask, inside);
+  if (inside.empty()) throw std::invalid_argument("mask " + file.string() + " is empty");
+  const cv::Rect box = cv::boundingRect(inside);
+  detection.box = {1.0 * box.x, 1.0 * box.y, 1.0 * box.x + box.width, 1.0 * box.y + box.height};
+  detection.mask = mask(box) > 0;
+}
+
+void addJsonLine(const std::string& line, const std::filesystem::path& folder, DetectionRecords& records) {
   const Json json = Json::parse(line);
   RecordedBoxes boxes;
   for (const Json& item : json.at("boxes")) {
     Detection detection;
     detection.label = item.at("class").get<std::string>();
     detection.score = item.at("score").get<double>();
-    const auto sides = item.at("bbox").get<std::array<double, 4>>();
-    detection.box = {sides[0], sides[1], sides[2], sides[3]};
+    if (item.contains("mask")) {
+      readMask(folder / item.at("mask").get<std::string>(), detection);
+    } else {
+      const auto sides = item.at("bbox").get<std::array<double, 4>>();
+      detection.box = {sides[0], sides[1], sides[2], sides[3]};
+    }
     if (item.contains("track")) detection.track = TrackId{item.at("track").get<std::int64_t>()};
     if (!sound(detection)) throw std::invalid_argument("box or score out of range");
     boxes.boxes.push_back(detection);
@@ -60,6 +79,7 @@ void addTextLine(const std::string& line, DetectionRecords& records) {
 DetectionRecords readDetectionFile(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file + ": cannot be read");
+  const auto folder = std::filesystem::path(file).parent_path();
   DetectionRecords records;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
@@ -67,7 +87,7 @@ DetectionRecords readDetectionFile(const std::string& file) {
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     try {
-      line[first] == '{' ? addJsonLine(line, records) : addTextLine(line, records);
+      line[first] == '{' ? addJsonLine(line, folder, records) : addTextLine(line, records);
     } catch (const std::exception& error) {
       throw InputError(file + ":" + std::to_string(number) + ": not a record of detections: " + error.what());
     }

@@ -19,7 +19,9 @@ struct RecordedBoxes {
 /// Recorded boxes by time, seconds.
 using DetectionRecords = std::multimap<double, RecordedBoxes>;
 
-/// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]} or text lines
+/// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]}, with "track" (an
+/// id) and "mask" (a grey picture as large as the image, relative to the file; then the box is the mask's)
+/// where the source has them, or text lines
 /// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
 DetectionRecords readDetectionFile(const std::string& file);
 
