@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/run_output.h"
@@ -26,7 +27,7 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
 struct RunOptions {
-  std::string input, output, config, recording, pictures;
+  std::string input, output, config, map, recording, pictures;
   std::vector<std::string> overrides;
   int threads = 0;
   double from_s = 0, until_s = 0;
@@ -136,6 +137,7 @@ void run(const RunOptions& options) {
   auto output = std::make_shared<RunOutput>(options.output);
   const ExtraSinks extra = addSinks(options, *stages);
   SemanticSlam slam(std::move(stages));
+  if (!options.map.empty()) slam.setMap(loadMap(options.map));
   slam.addSink(output);
   if (extra.recording) slam.addSink(extra.recording);
   if (extra.pictures) slam.addSink(extra.pictures);
@@ -170,6 +172,9 @@ void addRunCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "folder for the results")->required();
   command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
   command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
+  command->add_option(
+      "--map", options->map,
+      "map.rgmap of an earlier run: results are in its frame once its objects are recognised");
   command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--from", options->from_s, "start this many seconds after the first record")

@@ -143,5 +143,46 @@ TEST_F(ObjectStagesTest, ObjectsBringBackALostCamera) {
   }
 }
 
+// A second run starts elsewhere in the room that the first one mapped.
+TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
+  const ObjectShape chair{ShapeKind::kCylinder, 0.6, 0.6, 0.9}, sofa{ShapeKind::kCuboid, 1.8, 0.9, 0.8};
+  place("swivel_chair", chair, 3.0, -0.5, 0);
+  place("swivel_chair", chair, 3.4, 2.0, 0);
+  place("sofa", sofa, 1.0, 4.5, -1.5);
+  place("swivel_chair", chair, -2.0, 4.0, 0);
+  place("sofa", sofa, -3.2, 1.0, 0.2);
+  place("swivel_chair", chair, -1.5, -2.4, 0);
+  const std::string config = kFakeObjects + "[tracking]\nenabled = false\n";
+  SemanticSlam first(stagesWith(config));
+  CSemanticMap map = drive(first).map;
+  ASSERT_EQ(map.landmarks.size(), 6u);
+  Landmark gone = map.landmarks.front();  // what is not seen again stays in the map
+  gone.position = {9, 9, 0};
+  map.landmarks.push_back(gone);
+
+  SemanticSlam second(stagesWith(config));
+  second.setMap(map);
+  Drive world;
+  for (int i = 40; i <= 130; ++i) {
+    second.process(world.odometry(0.1 * i));
+    second.process(world.scan(0.1 * i));
+    if (i % 2 == 0) second.process(Drive::frame(0.1 * i));
+  }
+  const SlamResult result = second.finish();
+  const auto& last = result.world_from_robot.back();
+  const Pose3 error = last.pose.inverse() * toPose3(Drive::truth(last.t));
+  EXPECT_LT(error.translation().norm(), 0.1);
+  EXPECT_LT(rotationAngle(error), 0.05);
+  EXPECT_EQ(result.map.landmarks.size(), 7u);
+
+  // Objects that stand elsewhere are not recognised, and that is said.
+  for (auto& landmark : map.landmarks) landmark.position *= 1.7;
+  SemanticSlam third(stagesWith(config));
+  third.setMap(map);
+  const auto own = drive(third);
+  EXPECT_EQ(own.counts.reasons.size(), 1u);
+  EXPECT_LT((own.world_from_robot.front().pose.translation()).norm(), 0.05);
+}
+
 }  // namespace
 }  // namespace roomgraph::testing

@@ -86,6 +86,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   stages_->mapper.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t));
+  last_scan_ = clean;
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
@@ -175,8 +176,31 @@ void SemanticSlam::localize(double t) {
     if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
       estimator_.addClosures({*closure}, objects_);
   }
-  const Timing timing(*timer_, "graph optimisation");
-  estimator_.update(objects_);
+  {
+    const Timing timing(*timer_, "graph optimisation");
+    estimator_.update(objects_);
+  }
+  anchor();
+}
+
+void SemanticSlam::setMap(CSemanticMap map) {
+  map_.emplace(std::move(map), stages_->object_loops.constellation);
+}
+
+// Looks for the landmarks seen so far in the map given to the run; moves the world there when they are found.
+void SemanticSlam::anchor() {
+  if (!map_ || anchored_ || estimator_.poses().empty()) return;
+  std::vector<Eigen::Vector2d> returns;
+  if (last_scan_.t > 0) {
+    const Pose3 world_from_robot = estimator_.poses().at(last_scan_.t);
+    for (const auto& point : last_scan_.pointsInRobot())
+      returns.push_back((world_from_robot * point).head<2>());
+  }
+  const auto map_from_world = map_->find(objects_.landmarks().confirmed(), returns);
+  if (!map_from_world) return;
+  estimator_.transform(toPose3(*map_from_world));
+  objects_.moveSince(-std::numeric_limits<double>::infinity(), toPose3(*map_from_world));
+  anchored_ = true;
 }
 
 void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
@@ -250,6 +274,9 @@ SlamResult SemanticSlam::finish() {
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round)
     estimator_.optimizeAll(objects_);
+  anchor();
+  if (map_ && !anchored_)
+    ++counts_.reasons["map: its objects were not recognised; results are in the run's own frame"];
   return collect();
 }
 
@@ -266,6 +293,7 @@ SlamResult SemanticSlam::collect() {
     for (auto& landmark : result.map.landmarks)
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
+  if (anchored_) result.map.landmarks = joined(result.map.landmarks, map_->map().landmarks);
   Trajectory dense;
   for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));

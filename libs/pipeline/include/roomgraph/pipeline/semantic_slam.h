@@ -11,6 +11,7 @@
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
+#include "roomgraph/pipeline/map_anchor.h"
 #include "roomgraph/pipeline/object_loop_closer.h"
 #include "roomgraph/pipeline/object_mapper.h"
 #include "roomgraph/pipeline/pose_estimator.h"
@@ -47,6 +48,8 @@ class SemanticSlam {
   ~SemanticSlam();
 
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
+  /// The run is to be in the frame of this map; until its objects are recognised it is in its own.
+  void setMap(CSemanticMap map);
   /// One record, in order of time. Records whose time goes backwards are counted and left out.
   void process(const Record& record);
   /// Refines everything with all data and builds the map. May be called at any moment.
@@ -75,6 +78,7 @@ class SemanticSlam {
   void level(const Frame& frame);
   void mapObjects(const Frame& frame, StepReport& report);
   Scan withoutPeople(const Scan& scan);
+  void anchor();
   SlamResult collect();
 
   std::unique_ptr<Stages> stages_;
@@ -86,6 +90,9 @@ class SemanticSlam {
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
   ObjectLoopCloser object_loops_;
+  std::optional<MapAnchor> map_;
+  bool anchored_ = false;  ///< the world is the map's
+  Scan last_scan_;
   RunCounts counts_;
   FrameProposals seen_;                 ///< of the last frame
   std::vector<FeatureTrack> features_;  ///< tracked in the last frame
