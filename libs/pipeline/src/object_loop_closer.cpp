@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMinExistence = 0.5;  // what is rather not there must not close loops
 constexpr int kMinObservations = 3;
+constexpr double kPause_s = 10;       // between two attempts with the same two objects
 constexpr std::size_t kAttempts = 3;  // pairs whose times are tried for verification
 
 bool trustworthy(const Landmark& landmark) {
@@ -68,13 +69,17 @@ std::optional<RelativePose> ObjectLoopCloser::search(const ObjectMapper& objects
 
 std::optional<RelativePose> ObjectLoopCloser::confirm(const ConstellationMatch& match, const Visits& visits,
                                                       const std::map<LandmarkId, SeenSpan>& spans,
-                                                      const KeyPoses& poses,
-                                                      const ClosureVerifier& verify) const {
+                                                      const KeyPoses& poses, const ClosureVerifier& verify) {
   const Eigen::Vector2d place = visits.recent[match.pairs.front().first].position.head<2>();
   if ((match.map_from_query * place - place).norm() < options_.min_shift_m) return std::nullopt;
   for (std::size_t i = 0; i < std::min(kAttempts, match.pairs.size()); ++i) {
     const auto& [recent, old] = match.pairs[i];
-    const double t_a = spans.at(visits.old[old].id).last, t_b = spans.at(visits.recent[recent].id).last;
+    const std::pair ids{visits.recent[recent].id, visits.old[old].id};
+    const double t_a = spans.at(ids.second).last, t_b = spans.at(ids.first).last;
+    // Verification is dear, and says the same again until the robot has moved on.
+    const auto before = refused_.find(ids);
+    if (before != refused_.end() && t_b - before->second < kPause_s) continue;
+    refused_[ids] = t_b;
     auto closure = verify(proposal(t_a, t_b, match.map_from_query, poses));
     if (!closure) continue;
     closure->source = "objects";

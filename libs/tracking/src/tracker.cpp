@@ -17,7 +17,7 @@ namespace {
 constexpr int kCoastFrames = 3;         // lost frames over which the velocity is extrapolated
 constexpr int kLoopPause = 3;           // keyframes between two loop closures
 constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
-constexpr int kVerifyKeyframes = 4;
+constexpr int kVerifyKeyframes = 2;
 
 /// Why a frame cannot be used at all; empty when it can.
 std::string unusable(const Frame& frame, double last_t) {

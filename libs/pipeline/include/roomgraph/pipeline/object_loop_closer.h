@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -40,10 +41,11 @@ class ObjectLoopCloser {
  private:
   std::optional<RelativePose> confirm(const ConstellationMatch& match, const Visits& visits,
                                       const std::map<LandmarkId, SeenSpan>& spans, const KeyPoses& poses,
-                                      const ClosureVerifier& verify) const;
+                                      const ClosureVerifier& verify);
 
   const ObjectLoopOptions& options_;
   int nodes_since_search_ = 0;
+  std::map<std::pair<LandmarkId, LandmarkId>, double> refused_;  ///< (recent, old): time of the last attempt
 };
 
 }  // namespace roomgraph
