@@ -139,7 +139,12 @@ TEST(LandmarkMap, PoorSightingSpeaksAgainstTheObject) {
   map.update(neutral, belongsTo(id));
   EXPECT_NEAR(map.find(id)->existence, 0.5, 1e-12);
   map.update(poor, belongsTo(id));
-  EXPECT_NEAR(map.find(id)->existence, std::exp(-0.6) / (1 + std::exp(-0.6)), 1e-12);
+  // 2 (.1 - .4), of which .1 / .4 counts.
+  EXPECT_NEAR(map.find(id)->existence, std::exp(-0.15) / (1 + std::exp(-0.15)), 1e-12);
+  poor.measurement.proposal.score = 0;
+  const double existence = map.find(id)->existence;
+  map.update(poor, belongsTo(id));
+  EXPECT_DOUBLE_EQ(map.find(id)->existence, existence) << "nothing but a box was seen";
 }
 
 TEST(LandmarkMap, VagueSightingsAndThoseElsewhereSayNothingOfExistence) {

@@ -70,7 +70,10 @@ double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasure
   const double variance = seen.covariance.topLeftCorner<2, 2>().trace();
   share *= std::min(1.0, kPrecise_m * kPrecise_m / variance);
   if (isElsewhere(landmark, seen)) share = 0;
-  return std::exp(score_gain_ * share * (measurement.proposal.score - neutral_score_));
+  // The poorer a sighting, the less it says either way: with a score of 0 nothing but a box was seen.
+  const double score = measurement.proposal.score;
+  if (score < neutral_score_) share *= score / neutral_score_;
+  return std::exp(score_gain_ * share * (score - neutral_score_));
 }
 
 LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& association) {
