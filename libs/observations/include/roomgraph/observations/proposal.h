@@ -30,8 +30,9 @@ struct Proposal {
       Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the ground-aligned camera frame: m, rad
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
   ProjectedShape projected;
-  double score = 0;     ///< initialisation score in [0, 1] (method.md sec. 1.5)
-  double box_iou = 0;   ///< IoU of the projected shape with the detection's box
+  double score = 0;  ///< initialisation score in [0, 1] (method.md sec. 1.5)
+  double box_iou =
+      0;  ///< IoU of the projected shape with the detection's box; sides that are cut or hidden count as met
   std::string source;   ///< generator: "depth", "leg line", "vanishing points", …
   std::string reasons;  ///< what the score is made of, for people
 };
