@@ -22,7 +22,7 @@ Association decision(std::size_t k, const WeightedAlternatives& alternatives, co
   out.measurement = k;
   const auto row = static_cast<Eigen::Index>(k);
   for (const auto& [id, weight] : alternatives.exclusive)
-    out.posterior.emplace_back(id, joint.marginal(row, column.at(id)));
+    out.posterior.emplace_back(id, std::min(1.0, joint.marginal(row, column.at(id))));
   const double scale = joint.none[row] / sum(alternatives.others);
   const std::pair<LandmarkId, double>* best = nullptr;
   for (const auto& other : alternatives.others) {

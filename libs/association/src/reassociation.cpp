@@ -259,7 +259,7 @@ void rename(BatchDecision& decision, const std::map<LandmarkId, LandmarkId>& kep
     if (same == posterior.end()) {
       posterior.emplace_back(id, probability);
     } else {
-      same->second += probability;
+      same->second = std::min(1.0, same->second + probability);  // rounding
     }
   }
   association.posterior = posterior;

@@ -39,7 +39,7 @@ void rename(ObjectDecision& decision, LandmarkId removed, LandmarkId kept) {
   const auto old = find(removed);
   if (old == posterior.end()) return;
   if (const auto other = find(kept); other != posterior.end()) {
-    other->second += old->second;
+    other->second = std::min(1.0, other->second + old->second);  // rounding
     posterior.erase(old);
   } else {
     old->first = kept;
