@@ -184,7 +184,8 @@ TEST(FeatureOdometry, IgnoresDynamicRegions) {
     ASSERT_TRUE(result.tracked) << i << result.reason;
     EXPECT_LT(distance(Pose3::Identity(), result.odom_from_camera), 0.01) << i;
     for (const auto& feature : result.features)
-      EXPECT_FALSE(Box2({column + 0.0, 20, column + 170.0, 220}).contains(feature.pixel.x(), feature.pixel.y()));
+      EXPECT_FALSE(
+          Box2({column + 0.0, 20, column + 170.0, 220}).contains(feature.pixel.x(), feature.pixel.y()));
   }
 }
 
