@@ -5,9 +5,6 @@
 #include <algorithm>
 
 namespace roomgraph {
-namespace {
-constexpr double kHorizon_s = 0.25;  // beyond this no source is extrapolated
-}
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
     : options_(options), motion_(motion), poses_(motion) {
@@ -23,7 +20,8 @@ bool PoseEstimator::advance(double t) {
   if (t <= last.t) return false;
   const Pose3 moved = poses_.offset(last, t);
   // A source goes on after a gap that none saw across: where it goes on is unknown, and a pose of its own.
-  const bool resumed = motion_.movement(t, t, kHorizon_s) && !motion_.movement(last.t, t, kHorizon_s);
+  const KeyPose here{.t = t};
+  const bool resumed = connected(motion_, here, here) && !connected(motion_, last, here);
   const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
                    rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
   if (!far) return false;

@@ -86,7 +86,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   stages_->mapper.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t));
-  last_scan_ = clean;
+  if (map_ && !anchored_) last_scan_ = clean;
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
@@ -191,9 +191,9 @@ void SemanticSlam::setMap(CSemanticMap map) {
 void SemanticSlam::anchor() {
   if (!map_ || anchored_ || estimator_.poses().empty()) return;
   std::vector<Eigen::Vector2d> returns;
-  if (last_scan_.t > 0) {
-    const Pose3 world_from_robot = estimator_.poses().at(last_scan_.t);
-    for (const auto& point : last_scan_.pointsInRobot())
+  if (last_scan_) {
+    const Pose3 world_from_robot = estimator_.poses().at(last_scan_->t);
+    for (const auto& point : last_scan_->pointsInRobot())
       returns.push_back((world_from_robot * point).head<2>());
   }
   const auto map_from_world = map_->find(objects_.landmarks().confirmed(), returns);
@@ -270,11 +270,11 @@ SlamResult SemanticSlam::finish() {
     if (!stages_->scan_loop_closer || estimator_.poses().empty()) continue;
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
   }
+  anchor();  // before the last optimisation, so that the graph is in the same frame as all else
   estimator_.optimizeAll(objects_);
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round)
     estimator_.optimizeAll(objects_);
-  anchor();
   if (map_ && !anchored_)
     ++counts_.reasons["map: its objects were not recognised; results are in the run's own frame"];
   return collect();

@@ -19,7 +19,7 @@ struct Measurements {
   bool planar = true;                 ///< a robot on the floor
 };
 
-/// Whether any source of motion saw the movement from one key pose to the next.
+/// Whether any source of motion saw the movement from the time of one key pose to that of the other.
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 
 /// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects

@@ -91,8 +91,8 @@ class SemanticSlam {
   ObjectMapper objects_;     ///< what was seen of objects
   ObjectLoopCloser object_loops_;
   std::optional<MapAnchor> map_;
-  bool anchored_ = false;  ///< the world is the map's
-  Scan last_scan_;
+  bool anchored_ = false;          ///< the world is the map's
+  std::optional<Scan> last_scan_;  ///< kept until then
   RunCounts counts_;
   FrameProposals seen_;                 ///< of the last frame
   std::vector<FeatureTrack> features_;  ///< tracked in the last frame
