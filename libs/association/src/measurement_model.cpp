@@ -76,6 +76,12 @@ void MeasurementModel::declare(ParameterVisitor& v) {
         {.doc = "probability that a proposal of score 0 has the depth of something in front or behind",
          .min = 0,
          .max = 0.99});
+  v.add("box_sigma", box_sigma,
+        {.doc = "standard deviation of a side of a detection's box, in box widths or heights",
+         .min = 0.01,
+         .max = 10});
+  v.add("hidden_side", hidden_side,
+        {.doc = "probability that a side of the box is not where the object ends", .min = 0.001, .max = 1});
 }
 
 double MeasurementModel::squaredDistance(const WorldMeasurement& seen, const Landmark& landmark) const {
@@ -100,14 +106,15 @@ double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landma
 
 double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
-  return (1 - failed) * placeDensity(seen, landmark) +
-         failed * rayDensity(seen, landmark, shared_error_m, gate_sigma);
+  return boxRatio(seen, landmark) * ((1 - failed) * placeDensity(seen, landmark) +
+                                     failed * rayDensity(seen, landmark, shared_error_m, gate_sigma));
 }
 
 double MeasurementModel::depthTrust(const WorldMeasurement& seen, const Landmark& landmark) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
-  const double whole = density(seen, landmark);
-  return whole > 0 ? (1 - failed) * placeDensity(seen, landmark) / whole : 1 - failed;
+  const double own = (1 - failed) * placeDensity(seen, landmark);
+  const double whole = own + failed * rayDensity(seen, landmark, shared_error_m, gate_sigma);
+  return whole > 0 ? own / whole : 1 - failed;
 }
 
 Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,

@@ -17,6 +17,8 @@ namespace {
 using Frames = std::vector<std::vector<WorldMeasurement>>;
 using Decisions = std::vector<std::vector<BatchDecision>>;
 constexpr double kBatchExistence = 0.3;  // of a landmark made from what nobody claimed
+constexpr double kUnknown = 0.01;        // share of the objects that a whole run has left without a landmark
+constexpr int kLeastSightings = 3;       // of a landmark that competes for sightings of others
 
 using Priors = std::vector<std::vector<std::vector<double>>>;  // by frame, measurement, alternative
 
@@ -66,6 +68,7 @@ Evidence gather(const Frames& frames, const Decisions& last, const std::vector<L
     out.shares.emplace_back();
     for (std::size_t k = 0; k < frames[f].size(); ++k) {
       out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks));
+      out.alternatives[f].back().fresh *= kUnknown;
       const LandmarkId own = last.empty() ? LandmarkId{} : last[f][k].landmark;
       out.shares[f].push_back(featureShares(frames[f][k].measurement, own, idsOf(out.alternatives[f][k]),
                                             votes, model.neutral_features));
@@ -110,12 +113,13 @@ std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidenc
   return out;
 }
 
-// Measurements without a landmark keep the one they had in `last`; without that they make new ones, in
-// order of time, and later ones in gate join them.
+// Measurements without a landmark keep the one they had in `last`; without that they join those of `weak` in
+// gate, or make new ones, in order of time, which later ones in gate join. Landmarks so used become known.
 Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
-                   const Decisions& last, std::vector<Landmark>& landmarks, std::int64_t& next_id,
-                   const MeasurementModel& model) {
+                   const Decisions& last, const std::vector<Landmark>& weak, std::vector<Landmark>& landmarks,
+                   std::int64_t& next_id, const MeasurementModel& model) {
   const std::size_t known = landmarks.size();
+  landmarks.insert(landmarks.end(), weak.begin(), weak.end());
   Decisions out;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     out.emplace_back();
@@ -171,6 +175,16 @@ std::optional<Split> twoObjects(const Landmark& landmark, const Sightings& sight
                       sightings.weights[i]});
   }
   return findSplit(places, rule.splitDistance(landmark.shape));
+}
+
+// Takes out landmarks with few sightings: those must first fail to fit anything else.
+std::vector<Landmark> takeWeak(std::vector<Landmark>& landmarks) {
+  const auto weak = std::stable_partition(landmarks.begin(), landmarks.end(), [](const Landmark& landmark) {
+    return landmark.observations >= kLeastSightings;
+  });
+  std::vector<Landmark> out(weak, landmarks.end());
+  landmarks.erase(weak, landmarks.end());
+  return out;
 }
 
 // Places every landmark by its sightings; those without any go.
@@ -291,11 +305,12 @@ Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
   for (const auto& landmark : out.landmarks) next_id = std::max(next_id, landmark.id.value + 1);
   while (out.rounds < max_rounds && !out.settled) {
     ++out.rounds;
-    const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
     // Landmarks come and go in the first half of the rounds only: then places and decisions must settle.
     const bool open = out.rounds <= (max_rounds + 1) / 2;
+    const std::vector<Landmark> weak = open ? takeWeak(out.landmarks) : std::vector<Landmark>{};
+    const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
     Decisions decisions =
-        complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions,
+        complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions, weak,
                  out.landmarks, next_id, model.measurement);
     replace(by_frame, decisions, out.landmarks, model.measurement);
     if (open) joinDuplicates(duplicates, decisions, out.landmarks, out.merged);

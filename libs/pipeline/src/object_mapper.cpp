@@ -16,9 +16,9 @@ constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one p
 
 // Proposal covariances are in the ground frame under the camera (x ahead, y left, z up): turn them by its
 // heading.
-WorldMeasurement toWorld(const ObjectMeasurement& measurement, const Pose3& world_from_camera,
-                         double pose_sigma_m) {
-  WorldMeasurement out{measurement, world_from_camera * measurement.proposal.camera_from_object, {}};
+WorldMeasurement toWorld(const ObjectMeasurement& measurement, const PinholeCamera& camera,
+                         const Pose3& world_from_camera, double pose_sigma_m) {
+  WorldMeasurement out{measurement, world_from_camera * measurement.proposal.camera_from_object, {}, camera};
   const Pose3 world_from_ground = world_from_camera * cameraFromGround(groundInCamera(world_from_camera));
   const double heading = planarPart(world_from_ground).yaw;
   Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
@@ -86,7 +86,7 @@ std::vector<WorldMeasurement> ObjectMapper::select(const FrameProposals& seen, c
        stages_.proposal_selector->select(seen, {frame.camera, world_from_camera, features})) {
     const auto* model = stages_.database.find(chosen.proposal.class_name);
     if (model && model->landmark)
-      out.push_back(toWorld(chosen, world_from_camera, stages_.backend.pose_sigma_m));
+      out.push_back(toWorld(chosen, frame.camera, world_from_camera, stages_.backend.pose_sigma_m));
   }
   return out;
 }
@@ -137,7 +137,7 @@ std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() c
     out.emplace_back();
     for (const auto& decision : frame.decisions)
       out.back().push_back(
-          toWorld(decision.seen.measurement, world_from_camera, stages_.backend.pose_sigma_m));
+          toWorld(decision.seen.measurement, frame.camera, world_from_camera, stages_.backend.pose_sigma_m));
   }
   return out;
 }

@@ -28,6 +28,8 @@ struct MeasurementModel {
   double tail_degrees = 3;
   double wrong_label = 0.05;
   double wrong_depth = 0.5;
+  double box_sigma = 0.2;
+  double hidden_side = 0.2;
 
   void declare(ParameterVisitor& visitor);
 
@@ -38,10 +40,17 @@ struct MeasurementModel {
   /// Whether the measurement can be the landmark: class, and gate or viewing ray.
   bool inGate(const WorldMeasurement& seen, const Landmark& landmark) const;
 
-  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail
-  /// now and then by more than their covariance says; and, for those whose depth came from something in front
-  /// or behind (the likelier the lower their score), a stripe along the viewing ray.
+  /// Density of the measurement given the landmark, 1/m^2. Of its place: a bivariate Student t, because
+  /// proposals fail now and then by more than their covariance says; and, for those whose depth came from
+  /// something in front or behind (the likelier the lower their score), a stripe along the viewing ray. Times
+  /// the boxRatio.
   double density(const WorldMeasurement& seen, const Landmark& landmark) const;
+
+  /// How much better (or worse) the landmark explains the detection's box than the proposal itself does:
+  /// ratio of the densities of the four sides, each a Gaussian around the side of the projected model, or,
+  /// when the side is hidden or the box takes in something else, anywhere. Sides on the image border don't
+  /// count. 1 without a camera.
+  double boxRatio(const WorldMeasurement& seen, const Landmark& landmark) const;
 
   /// The Student t alone.
   double placeDensity(const WorldMeasurement& seen, const Landmark& landmark) const;

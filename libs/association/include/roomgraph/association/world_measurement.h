@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include "roomgraph/geometry/camera.h"
 #include "roomgraph/observations/landmark.h"
 #include "roomgraph/observations/proposal.h"
 
@@ -13,6 +14,7 @@ struct WorldMeasurement {
   Pose3 world_from_object = Pose3::Identity();
   /// Of (x, y, z, yaw) in world: proposal and pose together.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
+  PinholeCamera camera = {};  ///< of the image; not valid: boxes are not compared
 };
 
 /// Common ground area of two standing shapes over the smaller footprint, in [0, 1].

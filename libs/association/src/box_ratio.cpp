@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/association/measurement_model.h"
+#include "roomgraph/geometry/projection.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kBorder_px = 2;
+constexpr double kAnywhere = 2;  // widths of the box over which a hidden side may lie
+
+struct BoxNoise {
+  double sigma, hidden;
+};
+
+// Density of one side, with lengths in units of the box's size.
+double sideDensity(double gap, double size, const BoxNoise& noise) {
+  const double z = gap / size / noise.sigma;
+  return (1 - noise.hidden) * std::exp(-z * z / 2) / (std::sqrt(2 * std::numbers::pi) * noise.sigma) +
+         noise.hidden / kAnywhere;
+}
+
+// Density of the box given the visible part of a projected model; sides on the image border are left out.
+double boxDensity(const Box2& box, const std::optional<ProjectedShape>& projected,
+                  const PinholeCamera& camera, const BoxNoise& noise) {
+  const double far = 1e9;
+  const Box2 model = projected ? projected->visible : Box2{far, far, far, far};
+  double density = 1;
+  if (box.u_min > kBorder_px) density *= sideDensity(model.u_min - box.u_min, box.width(), noise);
+  if (box.v_min > kBorder_px) density *= sideDensity(model.v_min - box.v_min, box.height(), noise);
+  if (box.u_max < camera.width - kBorder_px)
+    density *= sideDensity(model.u_max - box.u_max, box.width(), noise);
+  if (box.v_max < camera.height - kBorder_px)
+    density *= sideDensity(model.v_max - box.v_max, box.height(), noise);
+  return density;
+}
+
+}  // namespace
+
+double MeasurementModel::boxRatio(const WorldMeasurement& seen, const Landmark& landmark) const {
+  const Box2& box = seen.measurement.detection.box;
+  if (!seen.camera.valid() || box.empty()) return 1;
+  const Pose3& camera_from_object = seen.measurement.proposal.camera_from_object;
+  const Pose3 camera_from_landmark =
+      camera_from_object * seen.world_from_object.inverse() * landmark.worldFromObject();
+  const BoxNoise noise{box_sigma, hidden_side};
+  const auto density = [&](const ObjectShape& shape, const Pose3& camera_from_shape) {
+    return boxDensity(box, projectShape(shape, camera_from_shape, seen.camera), seen.camera, noise);
+  };
+  return density(landmark.shape, camera_from_landmark) /
+         density(seen.measurement.proposal.shape, camera_from_object);
+}
+
+}  // namespace roomgraph
