@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/proposals/geometric_proposal_generator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -36,6 +37,18 @@ std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const Generator
   }
 }
 
+// Share of the box in which something stands clearly before the shape: the detector saw that, then.
+double obscured(const PlacedShape& placed, const BoxEvidence& e) {
+  constexpr double kBefore_m = 0.3, kStanding_m = 0.12;
+  const double front = std::hypot(placed.x, placed.y) - placed.shape.radius() - kBefore_m;
+  const auto before = std::count_if(e.all.points.begin(), e.all.points.end(), [&](const MaskPoint& p) {
+    return p.in_ground.z() > kStanding_m && p.in_ground.head<2>().norm() < front;
+  });
+  return e.all.points.empty()
+             ? 0
+             : e.all.valid_ratio * static_cast<double>(before) / static_cast<double>(e.all.points.size());
+}
+
 // With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
 // been taken for the object.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
@@ -44,7 +57,7 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
   for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
     for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
       placed.supported = !mask.points.empty();
-      if (!placed.supported) placed.quality *= kUnsupported;
+      if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
       all.push_back(std::move(placed));
     }
   }

@@ -27,12 +27,15 @@ Deviations withDepth(ShapeKind kind, double range) {
   }
 }
 
-// From the box alone; paper Eq. 2 differentiated by the camera's pitch.
-Deviations withoutDepth(ShapeKind kind, double range, double camera_height, double ground_tilt_sigma) {
-  const double lever = (range * range + camera_height * camera_height) / std::max(camera_height, 0.3);
-  const double tilted = lever * ground_tilt_sigma;
+// From the box alone; paper Eq. 2 differentiated by the camera's pitch and by the row of the box's bottom.
+Deviations withoutDepth(ShapeKind kind, double range, const BoxEvidence& e, double ground_tilt_sigma) {
+  constexpr double kBottomSigma = 0.05;  // of the box's height; detectors' boxes, some of them partly hidden
+  const double height = e.ground.offset;
+  const double lever = (range * range + height * height) / std::max(height, 0.3);
+  const double bottom = kBottomSigma * e.box.height() / e.camera.fy;
   const bool round = kind == ShapeKind::kCylinder;
-  return {std::hypot(round ? 0.05 : 0.18, tilted) + 0.01 * range, (round ? 0.02 : 0.10) + 0.01 * range, 0.5};
+  return {std::hypot(round ? 0.05 : 0.18, lever * std::hypot(ground_tilt_sigma, bottom)) + 0.01 * range,
+          (round ? 0.02 : 0.10) + 0.01 * range, 0.5};
 }
 
 }  // namespace
@@ -42,8 +45,7 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   const double range = std::hypot(placed.x, placed.y);
   const bool supported = !e.mask.points.empty() && placed.supported;
   const ShapeKind kind = placed.shape.kind;
-  Deviations s =
-      supported ? withDepth(kind, range) : withoutDepth(kind, range, e.ground.offset, ground_tilt_sigma);
+  Deviations s = supported ? withDepth(kind, range) : withoutDepth(kind, range, e, ground_tilt_sigma);
   const double misfit = std::pow(1 - std::clamp(placed.quality, 0.0, 1.0), 2);
   s.along += (kind == ShapeKind::kCylinder ? 2.0 : 0.4) * misfit;
   s.across += 0.2 * misfit;
