@@ -120,14 +120,27 @@ void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
 }
 
 void ObjectMapper::tidy() {
-  landmarks().splitMixed();
+  const auto parted = landmarks().splitMixed();
+  for (const auto& [first, second] : parted) shareSightings(first, second);
   const auto merged = landmarks().mergeDuplicates();
   for (const auto& [removed, kept] : merged) {
     stages_.associator->merged(removed, kept);
     for (auto& frame : frames_)
       for (auto& decision : frame.decisions) rename(decision, removed, kept);
   }
-  if (!merged.empty()) respan();
+  if (!merged.empty() || !parted.empty()) respan();
+}
+
+// A landmark became two: what was seen of it belongs to the nearer one.
+void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
+  const Eigen::Vector3d first_place = landmarks().find(first)->position;
+  const Eigen::Vector3d second_place = landmarks().find(second)->position;
+  for (auto& frame : frames_)
+    for (auto& decision : frame.decisions) {
+      const Eigen::Vector3d place = decision.seen.world_from_object.translation();
+      const bool nearer = (place - second_place).norm() < (place - first_place).norm();
+      if (decision.landmark == first && nearer) decision.landmark = second;
+    }
 }
 
 std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() const {

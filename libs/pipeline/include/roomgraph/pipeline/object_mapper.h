@@ -56,12 +56,13 @@ class ObjectMapper {
  private:
   std::vector<WorldMeasurement> select(const FrameProposals& seen, const Frame& frame,
                                        const std::vector<FeatureTrack>& features) const;
+  std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
+  void shareSightings(LandmarkId first, LandmarkId second);
+  void respan();
+  void span(const ObjectFrame& frame);
 
   Stages& stages_;
   const KeyPoses& poses_;
-  std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
-  void respan();
-  void span(const ObjectFrame& frame);
   std::vector<ObjectFrame> frames_;
   std::map<LandmarkId, SeenSpan> spans_;
   std::optional<Pose3> last_rays_from_;

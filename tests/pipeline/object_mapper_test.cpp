@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/object_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "drive.h"
+#include "fake_stages.h"
+
+namespace roomgraph::testing {
+namespace {
+
+const Motion& standing() {
+  static const MotionNoise noise;
+  static const Motion motion{MotionSource(noise, true), MotionSource(noise, false),
+                             MotionSource(noise, true)};
+  return motion;
+}
+
+// Two chairs .8 m apart, in view one at a time; the associator takes them for one.
+TEST(ObjectMapper, WhenALandmarkIsPartedItsSightingsAre) {
+  registerAllClasses();
+  fakes::registerClasses();
+  fakes::world() = {};
+  fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
+  const auto stages = stagesWith(
+      "[proposals]\nclass = FakeProposals\n[detection]\nclass = FakeDetector\n[selection]\nclass = "
+      "BestScoreSelector\n[association]\nclass = NearestNeighborAssociator\nmax_distance_ratio = 5\n");
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(*stages, poses);
+  for (int i = 0; i < 20; ++i) {
+    const double side = i % 2 ? 0.4 : -0.4;
+    fakes::world().objects = {
+        {"swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, poseFromYpr(3, side, 0, 0, 0, 0)}};
+    Frame frame = Drive::frame(0);
+    frame.id = FrameId{i};
+    const auto detections = stages->detector->detect(frame);
+    ASSERT_EQ(detections->size(), 1u);
+    mapper.observe(stages->proposal_generator->generate(frame, *detections, std::nullopt), frame, {});
+  }
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  mapper.tidy();
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
+  std::set<LandmarkId> left, right;
+  for (const auto& frame : mapper.frames())
+    (frame.frame.value % 2 ? left : right).insert(frame.decisions.at(0).landmark);
+  ASSERT_EQ(left.size(), 1u);
+  ASSERT_EQ(right.size(), 1u);
+  EXPECT_NEAR(mapper.landmarks().find(*left.begin())->position.y(), 0.4, 0.05);
+  EXPECT_NEAR(mapper.landmarks().find(*right.begin())->position.y(), -0.4, 0.05);
+  EXPECT_EQ(mapper.seenSpans().size(), 2u);
+}
+
+}  // namespace
+}  // namespace roomgraph::testing
