@@ -9,6 +9,8 @@
 namespace roomgraph {
 namespace {
 
+constexpr double kHeightSigma = 0.02;  // m, of the ground below the object
+
 /// Standard deviations along and across the view, m, and of yaw, rad.
 struct Deviations {
   double along = 0, across = 0, yaw = 0;
@@ -38,9 +40,21 @@ Deviations withoutDepth(ShapeKind kind, double range, const BoxEvidence& e, doub
           (round ? 0.02 : 0.10) + 0.01 * range, 0.5};
 }
 
+// Of a shape whose construction says how well each direction is known.
+Eigen::Matrix4d constructed(const PlacedShape& placed) {
+  const double misfit = std::pow(1 - std::clamp(placed.quality, 0.0, 1.0), 2);
+  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+  out.topLeftCorner<2, 2>() =
+      placed.covariance->topLeftCorner<2, 2>() + std::pow(0.2 * misfit, 2) * Eigen::Matrix2d::Identity();
+  out(2, 2) = kHeightSigma * kHeightSigma;
+  out(3, 3) = (*placed.covariance)(2, 2);
+  return out;
+}
+
 }  // namespace
 
 Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, double ground_tilt_sigma) {
+  if (placed.covariance) return constructed(placed);
   constexpr double kFewPoints = 60;
   const double range = std::hypot(placed.x, placed.y);
   const bool supported = !e.mask.points.empty() && placed.supported;
@@ -60,7 +74,7 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   covariance.topLeftCorner<2, 2>() = turn.toRotationMatrix() *
                                      Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
                                      turn.toRotationMatrix().transpose();
-  covariance(2, 2) = 0.02 * 0.02;
+  covariance(2, 2) = kHeightSigma * kHeightSigma;
   covariance(3, 3) = s.yaw * s.yaw;
   return covariance;
 }

@@ -48,7 +48,8 @@ struct PlacedShape {
   double box_iou = 0;
   std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
-  bool supported = true;  ///< false: the evidence's depth points do not speak for it
+  std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), where the construction tells: m, rad
+  bool supported = true;                      ///< false: the evidence's depth points do not speak for it
   std::string source;
   std::string reason;  ///< why it was dropped
 };

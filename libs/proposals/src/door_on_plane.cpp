@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/proposals/door_on_plane.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kEdgeOn = 0.03;                    // sine of the angle between a line of sight and the plane
+constexpr double kVague_m = 3;                      // centre of an interval neither end of which was seen
+constexpr double kDoubt_m = 0.3, kDoubt_rad = 0.5;  // of a plane that few of the points lie on
+
+// Where a column of the image meets the plane: coordinate along it, and its change per pixel.
+struct ColumnHit {
+  double at = 0, per_px = 0;
+};
+
+std::optional<ColumnHit> columnOnPlane(const BoxEvidence& e, const VerticalPlane& plane, double u) {
+  const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(u, e.box.center().y());
+  const Eigen::Vector2d d = ray.head<2>().normalized();
+  const double slope = plane.normal.dot(d);
+  if (slope > -kEdgeOn) return std::nullopt;
+  const double range = plane.offset / slope;
+  return ColumnHit{plane.along().dot(range * d), range / -slope / (e.camera.fx * ray.head<2>().norm())};
+}
+
+SeenInterval seenBetween(const ColumnHit& left, const ColumnHit& right, const BoxEvidence& e) {
+  const double px = sideSigma(e.box.width());
+  SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut_left, e.cut_right};
+  // The coordinate along the plane grows to the right of the image, or to the left.
+  if (out.low > out.high) {
+    std::swap(out.low, out.high);
+    std::swap(out.low_sigma, out.high_sigma);
+    std::swap(out.low_cut, out.high_cut);
+  }
+  return out;
+}
+
+// Information matrix and vector of (centre, width).
+struct Normal {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  void add(const Eigen::Vector2d& row, double value, double sigma) {
+    information += row * row.transpose() / (sigma * sigma);
+    right += row * value / (sigma * sigma);
+  }
+};
+
+Interval solve(const SeenInterval& seen, bool use_low, bool use_high, double usual, double sigma) {
+  Normal normal;
+  normal.add({0, 1}, usual, sigma);
+  if (use_low) normal.add({1, -0.5}, seen.low, seen.low_sigma);
+  if (use_high) normal.add({1, 0.5}, seen.high, seen.high_sigma);
+  if (!use_low && !use_high) normal.add({1, 0}, (seen.low + seen.high) / 2, kVague_m);
+  const Eigen::Vector2d x = normal.information.ldlt().solve(normal.right);
+  return {x[0], x[1], std::sqrt(normal.information.inverse()(0, 0))};
+}
+
+// Of (x, y, yaw). An error of the plane's offset moves the place along the line of sight, which the box's
+// sides hold.
+Eigen::Matrix3d covarianceOn(const VerticalPlane& plane, const Interval& along, const Eigen::Vector2d& place,
+                             double seat_sigma) {
+  const double doubt = std::pow(1 - plane.inlier_share, 2);
+  const double yaw = plane.sigma_rad + kDoubt_rad * doubt;
+  const double lever = along.center - plane.middle;  // the offset is known at the points' middle
+  const double offset = std::hypot(plane.sigma_m + kDoubt_m * doubt, lever * plane.sigma_rad);
+  const Eigen::Vector2d sight = place.normalized() / std::max(kEdgeOn, -plane.normal.dot(place.normalized()));
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  out.topLeftCorner<2, 2>() = std::pow(offset, 2) * sight * sight.transpose() +
+                              std::pow(seat_sigma, 2) * plane.normal * plane.normal.transpose() +
+                              std::pow(along.center_sigma, 2) * plane.along() * plane.along().transpose();
+  out(2, 2) = yaw * yaw;
+  return out;
+}
+
+}  // namespace
+
+Interval fitInterval(const SeenInterval& seen, double usual_width, double width_sigma) {
+  bool use_low = !seen.low_cut, use_high = !seen.high_cut;
+  Interval out = solve(seen, use_low, use_high, usual_width, width_sigma);
+  // A cut end that would not reach as far as it was seen counts after all.
+  const bool low_short = !use_low && out.center - out.width / 2 > seen.low;
+  const bool high_short = !use_high && out.center + out.width / 2 < seen.high;
+  if (low_short || high_short)
+    out = solve(seen, use_low || low_short, use_high || high_short, usual_width, width_sigma);
+  return out;
+}
+
+std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e) {
+  const auto left = columnOnPlane(e, plane, e.box.u_min), right = columnOnPlane(e, plane, e.box.u_max);
+  if (!left || !right) return std::nullopt;
+  const double width_sigma = std::max(0.02, e.model->width_sigma_m);
+  const Interval along = fitInterval(seenBetween(*left, *right, e), e.model->width_m, width_sigma);
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  placed.shape.width = std::max(0.2, along.width);
+  // The leaf is seen. It hangs flush with the wall, or up to half of the frame's depth behind its face.
+  const double seat = placed.shape.depth / 4;
+  const Eigen::Vector2d leaf = plane.normal * plane.offset + plane.along() * along.center;
+  const Eigen::Vector2d p = leaf - plane.normal * seat;
+  placed.x = p.x();
+  placed.y = p.y();
+  placed.yaw = std::atan2(plane.normal.y(), plane.normal.x());
+  placed.has_yaw = true;
+  placed.covariance = covarianceOn(plane, along, leaf, seat);
+  return placed;
+}
+
+}  // namespace roomgraph
