@@ -31,6 +31,8 @@ BoxEvidence seen(bool depth) {
   BoxEvidence e;
   e.model = database().find("swivel_chair");
   e.ground.offset = 0.8;
+  e.camera = {640, 480, 525, 525, 319.5, 239.5, {}};
+  e.box = {300, 200, 340, 300};
   if (depth) e.mask.points.resize(200);
   return e;
 }
@@ -85,6 +87,32 @@ TEST(Covariance, WithoutDepthItContainsTheGroundsTilt) {
     const double sampled = squares / kRuns - std::pow(sum / kRuns, 2);
     const double difference = covarianceOf(chairAt(range, 0), seen(false), kTilt)(0, 0) -
                               covarianceOf(chairAt(range, 0), seen(false), 0)(0, 0);
+    EXPECT_GT(difference, 0.8 * sampled) << range;
+    EXPECT_LT(difference, 2.5 * sampled) << range;
+  }
+}
+
+// What a wrong bottom side of the box does to it, by sampling.
+TEST(Covariance, WithoutDepthItContainsTheBoxesNoise) {
+  constexpr double kShare = 0.05;  // of the box's height
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0, 1);
+  const Plane ground{{0, -1, 0}, 0.8};
+  for (const double range : {2.0, 5.0}) {
+    BoxEvidence high = seen(false), flat = high;
+    flat.box.v_max = flat.box.v_min;
+    double sum = 0, squares = 0;
+    constexpr int kRuns = 4000;
+    for (int i = 0; i < kRuns; ++i) {
+      const double row = high.camera.cy + high.camera.fy * 0.8 / range;
+      const auto ray = high.camera.ray(320, row + kShare * high.box.height() * normal(random));
+      const double z = intersect(ray, ground).value().z();
+      sum += z;
+      squares += z * z;
+    }
+    const double sampled = squares / kRuns - std::pow(sum / kRuns, 2);
+    const double difference =
+        covarianceOf(chairAt(range, 0), high, 0)(0, 0) - covarianceOf(chairAt(range, 0), flat, 0)(0, 0);
     EXPECT_GT(difference, 0.8 * sampled) << range;
     EXPECT_LT(difference, 2.5 * sampled) << range;
   }
