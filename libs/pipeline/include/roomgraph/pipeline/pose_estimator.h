@@ -26,6 +26,8 @@ class PoseEstimator {
   /// A closure over a gap that no source of motion saw across also lays the poses after the gap, and the
   /// landmarks first seen there, where it says.
   void addClosures(const std::vector<RelativePose>& closures, ObjectMapper& objects);
+  /// Whether the next update is to optimise everything.
+  bool due() const;
   /// Optimises the latest key poses, or everything when that is due.
   void update(ObjectMapper& objects);
   /// Optimises everything; false when the solver found nothing usable.
@@ -35,7 +37,6 @@ class PoseEstimator {
 
  private:
   void optimizeWindow();
-  bool due() const;
   bool surprising(const RelativePose& closure) const;
   void reconnect(const RelativePose& closure, ObjectMapper& objects);
 
