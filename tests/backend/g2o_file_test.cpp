@@ -2,9 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "roomgraph/backend/factor_graph.h"
+#include "roomgraph/backend/g2o_file.h"
 #include "roomgraph/core/errors.h"
 #include "simulated_loop.h"
 #include "temporary_folder.h"
@@ -110,6 +112,26 @@ TEST(G2oFile, HoldsEveryVertexAndEdgeInOrder) {
   information = unturned;
   for (int i : {3, 4, 5}) information(i, i) = 1e-3;
   expectUpperTriangle(lines[9].values, 9, information);
+}
+
+// The information of such a sighting cannot be told from none: a file that holds it could not be read again.
+TEST(G2oFile, SightingThatWeighsNothingIsLeftOut) {
+  SimulatedLoop loop(7, 3);
+  FactorGraph graph;
+  for (int i = 0; i < 2; ++i) graph.addPose(NodeId{i}, loop.truth()[static_cast<std::size_t>(i)], i == 0);
+  graph.addLandmark(LandmarkId{2}, loop.objects()[2]);
+  graph.add(loop.movement(0, 1));
+  for (const double weight : {1.0, 1e-300, 1e-20, 0.0}) {
+    LandmarkFactor sighting = loop.sighting(1, 2);
+    sighting.weight = weight;
+    graph.add(sighting);
+  }
+  TemporaryFolder folder;
+  graph.saveG2o(folder.file("graph.g2o"));
+  const auto lines = parse(folder.read("graph.g2o"));
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(), [](const Line& l) { return l.tag == "EDGE_SE3:QUAT"; }),
+            2);
+  EXPECT_NO_THROW(loadG2o(folder.file("graph.g2o")));
 }
 
 TEST(G2oFile, UnwritablePlaceIsAnErrorThatNamesIt) {

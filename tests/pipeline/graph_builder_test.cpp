@@ -4,30 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "random_poses.h"
+#include "circle_drive.h"
 
 namespace roomgraph::testing {
 namespace {
-
-constexpr int kNodes = 40;
-
-// Once round a circle of 1.5 m radius in kNodes seconds.
-Pose3 truthAt(double t) {
-  const double angle = 2 * M_PI * t / kNodes;
-  return poseFromYpr(1.5 * std::sin(angle), 1.5 * (1 - std::cos(angle)), 0, angle, 0, 0);
-}
-
-// A source whose every step of `seconds` is too long by a factor and turned too far by a share.
-MotionSource drifting(double scale, double turn, const MotionNoise& noise, double seconds = 0.5) {
-  MotionSource source(noise, true);
-  Pose3 pose = Pose3::Identity();
-  for (double t = 0; t <= kNodes; t += seconds) {
-    source.add(t, pose, 0, Matrix6d::Zero());
-    Pose2 step = planarPart(truthAt(t).inverse() * truthAt(t + seconds));
-    pose = pose * toPose3(Pose2{scale * step.x, scale * step.y, turn * step.yaw});
-  }
-  return source;
-}
 
 struct Scenario {
   Motion motion;
@@ -41,26 +21,20 @@ struct Scenario {
     for (int i = 0; i < kNodes; ++i) poses.add(i, motion.movement(0, i, 0).value_or(Pose3::Identity()));
     return poses;
   }
-  double meanError(std::size_t first = 0) const {
+  double meanError() const {
     const KeyPoses poses = start();
-    FactorGraph graph = buildGraph(poses, motion, measurements, landmarks, options, first);
+    FactorGraph graph = buildGraph(poses, motion, measurements, landmarks, options);
     EXPECT_TRUE(graph.optimize().usable);
     double sum = 0;
-    for (int i = static_cast<int>(first); i < kNodes; ++i)
+    for (int i = 0; i < kNodes; ++i)
       sum += (graph.pose(NodeId{i}).translation() - truthAt(i).translation()).norm();
-    return sum / (kNodes - static_cast<double>(first));
+    return sum / kNodes;
   }
 };
 
 Scenario wheelsOnly() {
   const MotionSource none(MotionNoise{}, true);
   return {{drifting(1.05, 1.08, OdometryOptions().noise), none, none}, {}, {}, {}};
-}
-
-RelativePose closure(double t_a, double t_b) {
-  RelativePose out{t_a,  t_b,   truthAt(t_a).inverse() * truthAt(t_b), 1e-4 * Matrix6d::Identity(),
-                   true, "test"};
-  return out;
 }
 
 TEST(GraphBuilder, ScansCorrectTheWheels) {
@@ -102,20 +76,23 @@ TEST(GraphBuilder, CountsOfPosesAndFactors) {
   Scenario scenario = wheelsOnly();
   scenario.measurements.closures = {closure(0, 30), closure(2, 5)};
   const KeyPoses poses = scenario.start();
-  const auto build = [&](std::size_t first) {
-    return buildGraph(poses, scenario.motion, scenario.measurements, scenario.landmarks, scenario.options,
-                      first);
+  const FactorGraph whole =
+      buildGraph(poses, scenario.motion, scenario.measurements, scenario.landmarks, scenario.options);
+  EXPECT_EQ(whole.poses(), 40u);
+  EXPECT_EQ(whole.factors(), 39u + 39u + 2u);  // movements, planar, closures
+  const auto window = [&](std::size_t first) {
+    return buildWindow(poses, scenario.motion, scenario.measurements, scenario.options, first, std::nullopt);
   };
-  EXPECT_EQ(build(0).poses(), 40u);
-  EXPECT_EQ(build(0).factors(), 39u + 39u + 2u);  // movements, planar, closures
-  EXPECT_EQ(build(34).poses(), 6u);
-  EXPECT_EQ(build(34).factors(), 5u + 5u);  // closures reach back too far
+  EXPECT_EQ(window(34).poses(), 6u);
+  EXPECT_EQ(window(34).factors(), 5u + 5u);  // closures are all older
+  EXPECT_EQ(window(28).poses(), 12u + 1u);   // and the pose that a closure reaches back to
+  EXPECT_EQ(window(28).factors(), 11u + 11u + 1u);
 }
 
 TEST(GraphBuilder, FirstPoseOfAWindowIsHeld) {
   const Scenario scenario = wheelsOnly();
   const KeyPoses poses = scenario.start();
-  FactorGraph graph = buildGraph(poses, scenario.motion, {}, {}, scenario.options, 30);
+  FactorGraph graph = buildWindow(poses, scenario.motion, {}, scenario.options, 30, std::nullopt);
   ASSERT_TRUE(graph.optimize().usable);
   EXPECT_TRUE(graph.pose(NodeId{30}).isApprox(poses.nodes()[30].world_from_robot, 1e-9));
 }

@@ -17,7 +17,7 @@ namespace {
 std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().filename() != "summary.json")  // holds timings
+    if (entry.path().filename() != "summary.json" && entry.path().filename() != "timings.csv")
       files[entry.path().filename().string()] = contentOf(entry.path());
   return files;
 }

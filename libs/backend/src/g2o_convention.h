@@ -11,6 +11,7 @@ namespace roomgraph {
 // for small errors): ours = D g2o with D = diag(R_measured, 2 I). With the information matrices converted,
 // both give the same chi^2 to the last digit.
 
+constexpr double kLeastWeight = 1e-9;       ///< of a landmark's measurement: with less it is no edge
 constexpr double kTokenInformation = 1e-3;  ///< of what a landmark's measurement says nothing about
 
 inline Matrix6d errorFromG2o(const Eigen::Matrix3d& measured) {

@@ -85,7 +85,7 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
   }
   for (const auto& entry : impl_->factors) {
     const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
-    if (sighting && sighting->weight > 0) {
+    if (sighting && sighting->weight > kLeastWeight) {
       out << "EDGE_SE3:QUAT " << sighting->node << ' ' << first_landmark + sighting->landmark.value;
       writeTransform(out, measuredTransform(*sighting));
       writeUpper<6>(out, informationOf(*sighting));

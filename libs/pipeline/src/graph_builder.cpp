@@ -43,10 +43,9 @@ void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
                           Matrix6d(sigma.cwiseAbs2().asDiagonal()), 0});
 }
 
-void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses& poses, NodeId first,
-                double width) {
+std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const KeyPoses& poses, double width) {
   const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
-  if (a.id == b.id || a.id < first || b.id < first) return;
+  if (a.id == b.id) return std::nullopt;
   BetweenFactor factor{
       a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
       closure.covariance, width};
@@ -57,7 +56,7 @@ void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses&
       factor.covariance(i, i) = 0.25;
     }
   }
-  graph.add(factor);
+  return factor;
 }
 
 void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vector<Landmark>& landmarks) {
@@ -76,6 +75,25 @@ void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vec
   for (const auto& factor : objects.insides) graph.add(factor);
 }
 
+// Key poses from `first` on, and what is measured between neighbours and of the floor. `hold`: the first one
+// stays where it is, as far as its place is anybody's choice.
+void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
+              const Measurements& measurements, const BackendOptions& options, std::size_t first, bool hold) {
+  const auto& nodes = poses.nodes();
+  const bool loose = hold && first == 0 && !measurements.planar && !measurements.grounds.empty();
+  for (std::size_t i = first; i < nodes.size(); ++i)
+    graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && hold && !loose);
+  if (loose) addLooseAnchor(graph, nodes[first]);
+  for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
+  if (measurements.planar)
+    for (std::size_t i = first + 1; i < nodes.size(); ++i)
+      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+  const auto since =
+      std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
+                       [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
+  for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
+}
+
 }  // namespace
 
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
@@ -85,23 +103,32 @@ bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
 }
 
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const std::vector<Landmark>& landmarks, const BackendOptions& options,
-                       std::size_t first) {
+                       const std::vector<Landmark>& landmarks, const BackendOptions& options) {
   FactorGraph graph;
-  const auto& nodes = poses.nodes();
-  const bool loose = !measurements.planar && first == 0 && !measurements.grounds.empty();
-  for (std::size_t i = first; i < nodes.size(); ++i)
-    graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && !loose);
-  if (loose) addLooseAnchor(graph, nodes[first]);
-  for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
-  if (measurements.planar)
-    for (std::size_t i = first + 1; i < nodes.size(); ++i)
-      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
-  for (const auto& ground : measurements.grounds)
-    if (ground.node >= nodes[first].id) graph.add(ground);
+  addPoses(graph, poses, motion, measurements, options, 0, true);
   for (const auto& closure : measurements.closures)
-    addClosure(graph, closure, poses, nodes[first].id, options.closure_robust_width);
-  if (first == 0) addObjects(graph, measurements.objects, landmarks);
+    if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
+  addObjects(graph, measurements.objects, landmarks);
+  return graph;
+}
+
+FactorGraph buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                        const BackendOptions& options, std::size_t first,
+                        const std::optional<MarginalPrior>& prior) {
+  FactorGraph graph;
+  addPoses(graph, poses, motion, measurements, options, first, !prior);
+  if (prior) graph.add(*prior);
+  const KeyPose& oldest = poses.nodes()[first];
+  std::set<NodeId> held;
+  for (const auto& closure : measurements.closures) {
+    if (std::max(closure.t_a, closure.t_b) < oldest.t) continue;
+    const auto factor = closureFactor(closure, poses, options.closure_robust_width);
+    if (!factor) continue;
+    for (const NodeId id : {factor->a, factor->b})
+      if (id < oldest.id && held.insert(id).second)
+        graph.addPose(id, poses.nodes()[static_cast<std::size_t>(id.value)].world_from_robot, true);
+    graph.add(*factor);
+  }
   return graph;
 }
 

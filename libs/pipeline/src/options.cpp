@@ -73,6 +73,8 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .min = 0,
          .max = 3.2});
   v.add("max_iterations", max_iterations, {.doc = "of one optimisation", .min = 1, .max = 1000});
+  v.add("live_tolerance", live_tolerance,
+        {.doc = "change of the cost that ends an optimisation during the run", .min = 1e-12, .max = 0.1});
   v.add("closure_robust_width", closure_robust_width,
         {.doc = "Cauchy width for loop closures, in standard deviations; 0: least squares",
          .min = 0,

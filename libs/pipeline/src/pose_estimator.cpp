@@ -5,6 +5,9 @@
 #include <algorithm>
 
 namespace roomgraph {
+namespace {
+constexpr int kLiveIterations = 10;  // a run must not stand still for long; the next optimisation goes on
+}
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
     : options_(options), motion_(motion), poses_(motion) {
@@ -48,6 +51,7 @@ void PoseEstimator::reconnect(const RelativePose& closure, ObjectMapper& objects
                                                  : b_now * closure.a_from_b.inverse() * a_now.inverse();
     const double since = nodes[i].t;
     for (; i < nodes.size(); ++i) nodes[i].world_from_robot = move * nodes[i].world_from_robot;
+    restartWindow();
     objects.moveSince(since, move);
     return;
   }
@@ -73,22 +77,42 @@ bool PoseEstimator::due() const {
 
 void PoseEstimator::update(ObjectMapper& objects) {
   if (due()) {
-    optimizeAll(objects);
+    optimizeAll(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
   } else {
     optimizeWindow();
   }
 }
 
+// The oldest pose leaves the window; what it and the measurements at it say of the others stays as a prior.
+void PoseEstimator::slideWindow() {
+  const auto& nodes = poses_.nodes();
+  if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
+  Variables keep;
+  for (std::size_t i = first_ + 1; i + 1 < nodes.size(); ++i) keep.nodes.push_back(nodes[i].id);
+  prior_ = window_.marginalize(keep);
+  ++first_;
+}
+
+// Poses were moved from elsewhere: they stand, and the window begins anew with the last of them.
+void PoseEstimator::restartWindow() {
+  first_ = poses_.nodes().size() - 1;
+  prior_.reset();
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+}
+
 void PoseEstimator::optimizeWindow() {
   auto& nodes = poses_.nodes();
-  const auto window = static_cast<std::size_t>(options_.window_nodes);
-  const std::size_t first = nodes.size() > window ? nodes.size() - window : 0;
-  FactorGraph graph = buildGraph(poses_, motion_, measurements_, {}, options_, first);
-  if (!graph.optimize(options_.max_iterations).usable) return;
-  for (std::size_t i = first; i < nodes.size(); ++i) nodes[i].world_from_robot = graph.pose(nodes[i].id);
+  slideWindow();
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+  if (!window_.optimize(options_.max_iterations).usable) return;
+  for (std::size_t i = first_; i < nodes.size(); ++i) nodes[i].world_from_robot = window_.pose(nodes[i].id);
 }
 
 bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
+  return optimizeAll(objects, SolveOptions{options_.max_iterations});
+}
+
+bool PoseEstimator::optimizeAll(ObjectMapper& objects, const SolveOptions& until) {
   if (poses_.empty()) return true;
   nodes_since_optimization_ = 0;
   surprised_ = false;
@@ -96,8 +120,11 @@ bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
   measurements_.objects = objects.factors();
   LandmarkMap& landmarks = objects.landmarks();
   graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);
-  if (!graph_.optimize(options_.max_iterations).usable) return false;
-  for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);
+  const bool usable = graph_.optimize(until).usable;
+  if (usable)
+    for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);
+  restartWindow();
+  if (!usable) return false;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks.landmarks())) {
     if (!graph_.hasLandmark(landmark.id)) continue;
     const LandmarkEstimate estimate = graph_.landmark(landmark.id);
@@ -108,6 +135,7 @@ bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
 
 void PoseEstimator::transform(const Pose3& new_from_old) {
   for (auto& node : poses_.nodes()) node.world_from_robot = new_from_old * node.world_from_robot;
+  if (!poses_.empty()) restartWindow();
 }
 
 }  // namespace roomgraph

@@ -89,10 +89,20 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;
-  for (const auto& [name, values] : slam.timings())
-    summary["timings"][name] = {{"calls", values[0]}, {"mean_ms", values[1]}, {"total_ms", values[2]}};
+  for (const auto& [stage, spent] : slam.times().totals())
+    summary["timings"][stage] = {{"calls", spent.calls},
+                                 {"mean_ms", spent.total_ms / spent.calls},
+                                 {"max_ms", spent.max_ms},
+                                 {"total_ms", spent.total_ms}};
   summary["peak_memory_mb"] = peakMemoryMb();
   return summary;
+}
+
+void writeTimings(std::ostream& out, const StageTimes& times) {
+  out << "timestamp,stage,ms,cpu_ms\n" << std::fixed;
+  for (const auto& call : times.calls())
+    out << std::setprecision(6) << call.t << ',' << call.stage << std::setprecision(3) << ',' << call.ms
+        << ',' << call.cpu_ms << '\n';
 }
 
 }  // namespace
@@ -140,8 +150,10 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   saveMap(result.map, folder_ / "map.rgmap");
   slam.graph().saveG2o(folder_ / "graph.g2o");
   open("config.ini") << slam.stages().effective_config;
+  auto timings = open("timings.csv");
+  writeTimings(timings, slam.times());
   open("summary.json") << summaryJson(slam, result, read, facts).dump(2) << '\n';
-  if (!live_ || !detections_ || !associations_ || !associations || !robot || !camera)
+  if (!live_ || !detections_ || !associations_ || !associations || !robot || !camera || !timings)
     throw RunError("output folder " + folder_.string() + ": writing failed (disk full?)");
 }
 

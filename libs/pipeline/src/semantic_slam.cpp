@@ -2,8 +2,6 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/semantic_slam.h"
 
-#include <mrpt/system/CTimeLogger.h>
-
 #include <cmath>
 #include <limits>
 
@@ -11,8 +9,6 @@
 
 namespace roomgraph {
 namespace {
-
-using Timing = mrpt::system::CTimeLoggerEntry;
 
 constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
 constexpr double kMovementHorizon_s = 0.15;
@@ -28,7 +24,6 @@ bool isMounted(const Frame& frame) {
 
 SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
     : stages_(std::move(stages)),
-      timer_(std::make_unique<mrpt::system::CTimeLogger>(true, "", false)),
       front_ends_(*stages_),
       box_tracker_(stages_->detection.tracker, stages_->database),
       estimator_(stages_->backend, front_ends_.motion()),
@@ -37,11 +32,8 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
-SemanticSlam::~SemanticSlam() {
-  timer_->clear(true);
-}
-
 void SemanticSlam::process(const Record& record) {
+  times_.startRecord(timeOf(record));
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
   for (const auto& sink : sinks_) sink->onStep(report);
 }
@@ -73,9 +65,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   estimator_.measurements().planar = true;
 
   const Scan clean = withoutPeople(scan);  // sec. 5
-  timer_->enter("scan matching");
-  const ScanMatch match = front_ends_.match(clean);
-  timer_->leave("scan matching");
+  const ScanMatch match = matched(clean);
   if (!match.matched) {
     ++counts_.scans_unmatched;
     ++counts_.reasons["lidar: " + match.reason];
@@ -124,7 +114,7 @@ bool SemanticSlam::inOrder(double t, double& last, const std::string& source) {
 
 std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& report) {
   if (!stages_->detector) return {};
-  const Timing timing(*timer_, "detection");
+  const auto timing = times_.measure("detection");
   const auto found = stages_->detector->detect(frame);
   report.detector_ran = found.ok();
   if (found) {
@@ -154,7 +144,7 @@ std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
 
 void SemanticSlam::track(const Frame& frame, StepReport& report) {
   if (!stages_->rgbd_odometry) return;
-  const Timing timing(*timer_, "RGB-D odometry");
+  const auto timing = times_.measure("RGB-D odometry");
   const TrackingResult result = front_ends_.track(frame, people_);
   features_ = result.features;
   if (result.tracked) return;
@@ -163,21 +153,26 @@ void SemanticSlam::track(const Frame& frame, StepReport& report) {
   report.note = "not tracked: " + result.reason;
 }
 
+ScanMatch SemanticSlam::matched(const Scan& scan) {
+  const auto timing = times_.measure("scan matching");
+  return front_ends_.match(scan);
+}
+
 void SemanticSlam::localize(double t) {
   if (!estimator_.advance(t)) return;
   estimator_.addClosures(front_ends_.takeImageClosures(), objects_);
   if (stages_->scan_loop_closer) {
-    const Timing timing(*timer_, "scan loop closing");
+    const auto timing = times_.measure("scan loop closing");
     estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
   }
   {
-    const Timing timing(*timer_, "object loop closing");
+    const auto timing = times_.measure("object loop closing");
     const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
     if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
       estimator_.addClosures({*closure}, objects_);
   }
   {
-    const Timing timing(*timer_, "graph optimisation");
+    const auto timing = times_.measure(estimator_.due() ? "whole graph" : "window of poses");
     estimator_.update(objects_);
   }
   anchor();
@@ -207,7 +202,7 @@ void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& det
   std::optional<Plane> expected;
   if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
   if (levelled_) expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
-  const Timing timing(*timer_, "proposals");
+  const auto timing = times_.measure("proposals");
   seen_ = stages_->proposal_generator->generate(frame, detections, expected);
   if (!seen_.ground) {
     ++counts_.reasons["ground: " + seen_.ground_reason];
@@ -241,7 +236,7 @@ void SemanticSlam::level(const Frame& frame) {
 
 void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
   if (!(report.detector_ran || report.boxes_carried) || !seen_.ground) return;
-  const Timing timing(*timer_, "selection and association");
+  const auto timing = times_.measure("selection and association");
   report.decisions = objects_.observe(seen_, frame, features_);
   if (report.detector_ran) objects_.missUnseen(report.decisions, report.detections, frame);
 }
@@ -263,6 +258,13 @@ Scan SemanticSlam::withoutPeople(const Scan& scan) {
 }
 
 SlamResult SemanticSlam::finish() {
+  refine();
+  return collect();
+}
+
+// With all data: poses, landmarks, and who is who.
+void SemanticSlam::refine() {
+  const auto timing = times_.measure("hindsight");
   front_ends_.refine();
   // Alternate until nothing new is found: landmarks merge after poses moved, loops close after poses moved.
   for (int round = 0; round < 3; ++round) {
@@ -277,7 +279,6 @@ SlamResult SemanticSlam::finish() {
     estimator_.optimizeAll(objects_);
   if (map_ && !anchored_)
     ++counts_.reasons["map: its objects were not recognised; results are in the run's own frame"];
-  return collect();
 }
 
 SlamResult SemanticSlam::collect() {
@@ -299,18 +300,9 @@ SlamResult SemanticSlam::collect() {
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
   result.world_from_robot = result.map.world_from_robot = dense.poses();
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
-  const Timing timing(*timer_, "occupancy map");
+  const auto timing = times_.measure("occupancy map");
   result.map.occupancy = stages_->mapper.build(dense);
   return result;
-}
-
-std::map<std::string, std::array<double, 3>> SemanticSlam::timings() const {
-  std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stats;
-  timer_->getStats(stats);
-  std::map<std::string, std::array<double, 3>> out;
-  for (const auto& [name, call] : stats)
-    out[name] = {static_cast<double>(call.n_calls), 1e3 * call.mean_t, 1e3 * call.total_t};
-  return out;
 }
 
 }  // namespace roomgraph

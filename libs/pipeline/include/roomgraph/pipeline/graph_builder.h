@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "roomgraph/backend/factor_graph.h"
@@ -23,10 +24,16 @@ struct Measurements {
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 
 /// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects
-/// (method.md sec. 4, factors 1, 3, 5, 6). With `first` > 0 only the key poses from there on: the first is
-/// held.
+/// (method.md sec. 4, factors 1, 3, 5, 6).
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const std::vector<Landmark>& landmarks, const BackendOptions& options,
-                       std::size_t first = 0);
+                       const std::vector<Landmark>& landmarks, const BackendOptions& options);
+
+/// The key poses from `first` on. `prior` is what was measured before says of them; without one the first is
+/// held. Poses before it, to which closures reach back, are held. Landmarks are left out: with their
+/// sightings in the window, at one or twenty hundredths of their information, the live pose's error was the
+/// same.
+FactorGraph buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                        const BackendOptions& options, std::size_t first,
+                        const std::optional<MarginalPrior>& prior);
 
 }  // namespace roomgraph

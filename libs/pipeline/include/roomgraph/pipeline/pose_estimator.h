@@ -26,16 +26,20 @@ class PoseEstimator {
   /// A closure over a gap that no source of motion saw across also lays the poses after the gap, and the
   /// landmarks first seen there, where it says.
   void addClosures(const std::vector<RelativePose>& closures, ObjectMapper& objects);
+  /// Whether the next update is to optimise everything.
+  bool due() const;
   /// Optimises the latest key poses, or everything when that is due.
   void update(ObjectMapper& objects);
-  /// Optimises everything; false when the solver found nothing usable.
+  /// Optimises everything to the end; false when the solver found nothing usable.
   bool optimizeAll(ObjectMapper& objects);
   /// Moves the world frame rigidly.
   void transform(const Pose3& new_from_old);
 
  private:
+  bool optimizeAll(ObjectMapper& objects, const SolveOptions& until);
   void optimizeWindow();
-  bool due() const;
+  void slideWindow();
+  void restartWindow();
   bool surprising(const RelativePose& closure) const;
   void reconnect(const RelativePose& closure, ObjectMapper& objects);
 
@@ -44,6 +48,9 @@ class PoseEstimator {
   KeyPoses poses_;
   Measurements measurements_;
   FactorGraph graph_;
+  FactorGraph window_;                  ///< of the latest key poses
+  std::size_t first_ = 0;               ///< oldest key pose in it
+  std::optional<MarginalPrior> prior_;  ///< what was measured before says of them, since all was optimised
   int nodes_since_optimization_ = 0;
   bool surprised_ = false;  ///< a closure disagrees with the estimate: do not wait long
 };

@@ -2,7 +2,6 @@
 // Part of roomgraph, object-level semantic SLAM.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,12 +14,9 @@
 #include "roomgraph/pipeline/object_loop_closer.h"
 #include "roomgraph/pipeline/object_mapper.h"
 #include "roomgraph/pipeline/pose_estimator.h"
+#include "roomgraph/pipeline/stage_times.h"
 #include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
-
-namespace mrpt::system {
-class CTimeLogger;
-}
 
 namespace roomgraph {
 
@@ -45,7 +41,6 @@ struct SlamResult {
 class SemanticSlam {
  public:
   explicit SemanticSlam(std::unique_ptr<Stages> stages);
-  ~SemanticSlam();
 
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to be in the frame of this map; until its objects are recognised it is in its own.
@@ -60,8 +55,8 @@ class SemanticSlam {
   /// Every measured object and the landmark it belongs to; after finish() with all hindsight.
   const ObjectMapper& objects() const { return objects_; }
   const Stages& stages() const { return *stages_; }
-  /// Per stage: calls, mean ms, total ms.
-  std::map<std::string, std::array<double, 3>> timings() const;
+  /// Of every call of every stage.
+  const StageTimes& times() const { return times_; }
 
  private:
   StepReport step(const Frame& frame);
@@ -73,17 +68,19 @@ class SemanticSlam {
   std::vector<Detection> detect(const Frame& frame, StepReport& report);
   std::optional<Pose3> cameraMovement(const Frame& frame) const;
   void track(const Frame& frame, StepReport& report);
+  ScanMatch matched(const Scan& scan);
   void localize(double t);
   void propose(const Frame& frame, const std::vector<Detection>& detections);
   void level(const Frame& frame);
   void mapObjects(const Frame& frame, StepReport& report);
   Scan withoutPeople(const Scan& scan);
   void anchor();
+  void refine();
   SlamResult collect();
 
   std::unique_ptr<Stages> stages_;
   std::vector<std::shared_ptr<Sink>> sinks_;
-  std::unique_ptr<mrpt::system::CTimeLogger> timer_;
+  StageTimes times_;
 
   FrontEnds front_ends_;     ///< trajectories of the sources
   BoxTracker box_tracker_;   ///< boxes of the last detection, on the frames after it

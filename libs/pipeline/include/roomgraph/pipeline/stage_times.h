@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace roomgraph {
+
+/// How long the stages of a run take, call by call: MRPT's time logger keeps sums only, and those do not tell
+/// whether a stage gets slower as the run goes on. Nothing computed depends on it.
+class StageTimes {
+ public:
+  struct Call {
+    double t = 0;       ///< of the record it was made for, s
+    const char* stage;  ///< a literal
+    double ms = 0;      ///< by the clock on the wall
+    double cpu_ms = 0;  ///< of all threads of the program
+  };
+  struct Totals {
+    int calls = 0;
+    double total_ms = 0, max_ms = 0;
+  };
+
+  /// Measures the call of one stage until it goes out of scope.
+  class Measured {
+   public:
+    Measured(StageTimes& times, const char* stage);
+    ~Measured();
+    Measured(const Measured&) = delete;
+    Measured& operator=(const Measured&) = delete;
+
+   private:
+    StageTimes& times_;
+    const char* stage_;
+    std::chrono::steady_clock::time_point started_;
+    double cpu_ms_;
+  };
+
+  /// From now on calls are for the record of that time.
+  void startRecord(double t) { t_ = t; }
+  [[nodiscard]] Measured measure(const char* stage) { return {*this, stage}; }
+
+  /// In the order in which they ended.
+  const std::vector<Call>& calls() const { return calls_; }
+  std::map<std::string, Totals> totals() const;
+
+ private:
+  double t_ = 0;
+  std::vector<Call> calls_;
+};
+
+}  // namespace roomgraph

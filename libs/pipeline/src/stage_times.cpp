@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/stage_times.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace roomgraph {
+namespace {
+
+double processorTime_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+StageTimes::Measured::Measured(StageTimes& times, const char* stage)
+    : times_(times), stage_(stage), started_(std::chrono::steady_clock::now()), cpu_ms_(processorTime_ms()) {}
+
+StageTimes::Measured::~Measured() {
+  const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - started_;
+  times_.calls_.push_back({times_.t_, stage_, passed.count(), processorTime_ms() - cpu_ms_});
+}
+
+std::map<std::string, StageTimes::Totals> StageTimes::totals() const {
+  std::map<std::string, Totals> out;
+  for (const Call& call : calls_) {
+    Totals& totals = out[call.stage];
+    ++totals.calls;
+    totals.total_ms += call.ms;
+    totals.max_ms = std::max(totals.max_ms, call.ms);
+  }
+  return out;
+}
+
+}  // namespace roomgraph
