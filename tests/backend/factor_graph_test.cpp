@@ -123,39 +123,6 @@ TEST(FactorGraph, YawThatNobodyMeasuredStays) {
   EXPECT_NEAR(covariances->at(LandmarkId{0})(3, 3), M_PI * M_PI / 3, 1e-12);
 }
 
-// Two poses see the same side 0.4 m off the landmark, a third the landmark. Springs in a row: of the 0.4 m
-// the error of the side, sigma 0.2 m, takes all but what the sightings' share of the variances is.
-TEST(FactorGraph, SidesTakeTheErrorThatSightingsShare) {
-  FactorGraph graph;
-  const LandmarkId side{0}, landmark{1};
-  graph.addPose(NodeId{0}, Pose3::Identity(), true);
-  graph.addPose(NodeId{1}, poseFromYpr(0.9, 0, 0, 0, 0, 0));
-  graph.addLandmark(side, {});
-  graph.addLandmark(landmark, {});
-  const auto see = [&](int node, LandmarkId what, double x) {
-    graph.add(LandmarkFactor{.node = NodeId{node},
-                             .landmark = what,
-                             .position_in_robot = {x, 0, 0},
-                             .covariance = 1e-4 * Eigen::Matrix4d::Identity(),
-                             .robust_width = 0});
-  };
-  see(0, side, 3.4);
-  see(0, landmark, 3);
-  see(1, side, 2.4);
-  BetweenFactor weak{NodeId{0}, NodeId{1}, poseFromYpr(0.8, 0, 0, 0, 0, 0), Matrix6d::Identity()};
-  weak.covariance.bottomRightCorner<3, 3>() *= 1e-8;
-  graph.add(weak);
-  graph.add(LandmarkSideFactor{.side = side,
-                               .landmark = landmark,
-                               .covariance = 0.04 * Eigen::Matrix4d::Identity(),
-                               .robust_width = 0});
-  ASSERT_TRUE(graph.optimize(100).usable);
-  EXPECT_NEAR(graph.pose(NodeId{1}).translation().x(), 1, 1e-3) << "as the side says, not the movement";
-  const double pulled = 0.4 * 1e-4 / (2e-4 + 0.04);
-  EXPECT_NEAR(graph.landmark(landmark).position.x(), 3 + pulled, 1e-4);
-  EXPECT_NEAR(graph.landmark(side).position.x(), 3.4 - pulled, 1e-4);
-}
-
 TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   FactorGraph graph;
   graph.addPose(NodeId{0}, Pose3::Identity(), true);
@@ -168,15 +135,12 @@ TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   EXPECT_THAT(error(GroundFactor{NodeId{79}}), ::testing::HasSubstr("79"));
   EXPECT_THAT(error(LandmarkFactor{NodeId{0}, LandmarkId{80}}), ::testing::HasSubstr("80"));
   EXPECT_THAT(error(LandmarkFactor{NodeId{81}, LandmarkId{1}}), ::testing::HasSubstr("81"));
-  EXPECT_THAT(error(LandmarkSideFactor{LandmarkId{87}, LandmarkId{1}}), ::testing::HasSubstr("87"));
-  EXPECT_THAT(error(LandmarkSideFactor{LandmarkId{1}, LandmarkId{88}}), ::testing::HasSubstr("88"));
   EXPECT_THAT(error(LandmarkGroundFactor{LandmarkId{82}}), ::testing::HasSubstr("82"));
   EXPECT_THAT(error(LandmarkSizeFactor{LandmarkId{83}}), ::testing::HasSubstr("83"));
   EXPECT_THAT(error(LandmarkBoxFactor{NodeId{0}, LandmarkId{84}}), ::testing::HasSubstr("84"));
   EXPECT_THAT(error(CameraPointFactor{NodeId{0}, PointId{85}}), ::testing::HasSubstr("85"));
   EXPECT_THAT(error(PointLandmarkFactor{PointId{86}, LandmarkId{1}}), ::testing::HasSubstr("86"));
   EXPECT_THROW(graph.add(BetweenFactor{NodeId{0}, NodeId{0}}), std::invalid_argument);
-  EXPECT_THROW(graph.add(LandmarkSideFactor{LandmarkId{1}, LandmarkId{1}}), std::invalid_argument);
   EXPECT_THROW(graph.point(PointId{5}), std::out_of_range);
   EXPECT_THROW(graph.pose(NodeId{5}), std::out_of_range);
   EXPECT_THROW(graph.landmark(LandmarkId{5}), std::out_of_range);

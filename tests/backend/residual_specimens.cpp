@@ -91,19 +91,6 @@ Specimen sightingByHand() {
   return s;
 }
 
-Specimen sideAtMeasurement(Random& random) {
-  const Eigen::Vector3d p = random.vector(3);
-  const double yaw = random.uniform(-3, 3);
-  LandmarkSideFactor f{.has_yaw = random.index(2) == 0, .covariance = randomCovariance<4>(random)};
-  return {sharedCost(f), {{{p.x(), p.y(), p.z(), yaw}}, {{p.x(), p.y(), p.z(), yaw + 2 * M_PI}}}};
-}
-
-// From the side it seems 0.2 m further and 0.1 m higher, and turned from -3 to 3 rad: 6 - 2 pi the short way.
-Specimen sideByHand() {
-  LandmarkSideFactor f{.has_yaw = true, .covariance = 0.01 * Eigen::Matrix4d::Identity()};
-  return {sharedCost(f), {{{1.2, 2, 0.1, 3}}, {{1, 2, 0, -3}}}, {2, 0, 1, (6 - 2 * M_PI) / 0.1}};
-}
-
 Specimen onFloorAtMeasurement(Random& random) {
   return {sharedCost(LandmarkGroundFactor{{}, 0.02}),
           {{{random.uniform(-3, 3), random.uniform(-3, 3), 0, random.uniform(-3, 3)}}}};
@@ -154,10 +141,6 @@ struct SpecimenOf<GroundFactor> : Known<groundAtMeasurement, groundByHand> {
 template <>
 struct SpecimenOf<LandmarkFactor> : Known<sightingAtMeasurement, sightingByHand> {
   static constexpr auto kName = "LandmarkFactor";
-};
-template <>
-struct SpecimenOf<LandmarkSideFactor> : Known<sideAtMeasurement, sideByHand> {
-  static constexpr auto kName = "LandmarkSideFactor";
 };
 template <>
 struct SpecimenOf<LandmarkGroundFactor> : Known<onFloorAtMeasurement, onFloorByHand> {

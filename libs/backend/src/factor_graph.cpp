@@ -133,12 +133,6 @@ Blocks blocksOf(Impl& graph, const LandmarkFactor& f) {
   blocks.push_back(graph.at(f.landmark).value.data());
   return blocks;
 }
-Blocks blocksOf(Impl& graph, const LandmarkSideFactor& f) {
-  if (f.side == f.landmark)
-    throw std::invalid_argument("factor graph: landmark " + std::to_string(f.side.value) +
-                                " is a side of itself");
-  return {graph.at(f.side).value.data(), graph.at(f.landmark).value.data()};
-}
 Blocks blocksOf(Impl& graph, const LandmarkGroundFactor& f) {
   return {graph.at(f.landmark).value.data()};
 }
@@ -181,11 +175,6 @@ template <class OneFactor>
 void release(Impl&, const OneFactor&) {}
 void release(Impl& graph, const LandmarkFactor& f) {
   if (f.has_yaw) graph.freeYaw(f.landmark);
-}
-void release(Impl& graph, const LandmarkSideFactor& f) {
-  if (!f.has_yaw) return;
-  graph.freeYaw(f.side);
-  graph.freeYaw(f.landmark);
 }
 void release(Impl& graph, const LandmarkBoxFactor& f) {
   if (graph.at(f.landmark).kind != ShapeKind::kCylinder) graph.freeYaw(f.landmark);

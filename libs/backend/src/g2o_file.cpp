@@ -56,14 +56,6 @@ Matrix6d informationOf(const LandmarkFactor& factor) {
   return information;
 }
 
-// A side of a landmark has no vertex: who sees it sees the landmark.
-std::map<LandmarkId, LandmarkId> landmarksOfSides(const std::vector<FactorGraph::Impl::Entry>& factors) {
-  std::map<LandmarkId, LandmarkId> out;
-  for (const auto& entry : factors)
-    if (const auto* side = std::get_if<LandmarkSideFactor>(&entry.factor)) out[side->side] = side->landmark;
-  return out;
-}
-
 }  // namespace
 
 void FactorGraph::saveG2o(const std::filesystem::path& file) const {
@@ -75,9 +67,7 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
     out << '\n';
     if (state.fixed) out << "FIX " << id << '\n';
   }
-  const auto of_side = landmarksOfSides(impl_->factors);
   for (const auto& [id, object] : impl_->objects) {
-    if (of_side.contains(id)) continue;
     const LandmarkEstimate estimate = landmark(id);
     const auto& p = estimate.position;
     out << "# LANDMARK " << first_landmark + id.value << ' ' << id << ' ' << toString(object.kind);
@@ -96,9 +86,7 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
   for (const auto& entry : impl_->factors) {
     const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
     if (sighting && sighting->weight > 0) {
-      const auto side = of_side.find(sighting->landmark);
-      const LandmarkId seen = side == of_side.end() ? sighting->landmark : side->second;
-      out << "EDGE_SE3:QUAT " << sighting->node << ' ' << first_landmark + seen.value;
+      out << "EDGE_SE3:QUAT " << sighting->node << ' ' << first_landmark + sighting->landmark.value;
       writeTransform(out, measuredTransform(*sighting));
       writeUpper<6>(out, informationOf(*sighting));
     }

@@ -91,20 +91,17 @@ struct GroundResidual {
   double offset, sigma_normal, sigma_offset;
 };
 
-/// Square root of the information about (x, y, z, yaw); without a measured yaw its row is switched off.
-inline Eigen::Matrix4d sqrtInformation(Eigen::Matrix4d covariance, bool has_yaw) {
-  if (has_yaw) return sqrtInformation<4>(covariance);
-  covariance.row(3).setZero();
-  covariance.col(3).setZero();
-  covariance(3, 3) = 1;
-  Eigen::Matrix4d root = sqrtInformation<4>(covariance);
-  root.row(3).setZero();
-  return root;
-}
-
 struct LandmarkResidual {
-  explicit LandmarkResidual(const LandmarkFactor& f)
-      : factor(f), whitening(sqrtInformation(f.covariance, f.has_yaw)) {}
+  explicit LandmarkResidual(const LandmarkFactor& f) : factor(f) {
+    // Without a measured yaw its row is switched off.
+    if (!f.has_yaw) {
+      factor.covariance.row(3).setZero();
+      factor.covariance.col(3).setZero();
+      factor.covariance(3, 3) = 1;
+    }
+    whitening = sqrtInformation<4>(factor.covariance);
+    if (!f.has_yaw) whitening.row(3).setZero();
+  }
 
   template <class T>
   bool operator()(const T* t, const T* q, const T* landmark, T* out) const {
@@ -122,23 +119,6 @@ struct LandmarkResidual {
   }
 
   LandmarkFactor factor;
-  Eigen::Matrix4d whitening;
-};
-
-struct LandmarkSideResidual {
-  explicit LandmarkSideResidual(const LandmarkSideFactor& f)
-      : whitening(sqrtInformation(f.covariance, f.has_yaw)) {}
-
-  template <class T>
-  bool operator()(const T* side, const T* landmark, T* out) const {
-    Eigen::Matrix<T, 4, 1> error;
-    for (int i = 0; i < 3; ++i) error[i] = side[i] - landmark[i];
-    error[3] = angleDifference(side[3], landmark[3]);
-    Eigen::Map<Eigen::Matrix<T, 4, 1>> whitened(out);
-    whitened = whitening.cast<T>() * error;
-    return true;
-  }
-
   Eigen::Matrix4d whitening;
 };
 

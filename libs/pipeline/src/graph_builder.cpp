@@ -63,7 +63,6 @@ void addClosure(FactorGraph& graph, const RelativePose& closure, const KeyPoses&
 void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vector<Landmark>& landmarks) {
   std::set<LandmarkId> seen;
   for (const auto& sighting : objects.sightings) seen.insert(sighting.landmark);
-  for (const auto& error : objects.side_errors) seen.insert(error.landmark);
   for (const auto& landmark : landmarks) {
     if (!seen.contains(landmark.id)) continue;
     graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
@@ -72,7 +71,7 @@ void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vec
   for (const auto& [id, side] : objects.sides) graph.addLandmark(id, side);
   for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
   for (const auto& factor : objects.sightings) graph.add(factor);
-  for (const auto& factor : objects.side_errors) graph.add(factor);
+  for (const auto& factor : objects.visits) graph.add(factor);
   for (const auto& factor : objects.sizes) graph.add(factor);
   for (const auto& factor : objects.boxes) graph.add(factor);
   for (const auto& factor : objects.views) graph.add(factor);

@@ -146,26 +146,18 @@ std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPo
   return sides;
 }
 
-void addSightings(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
-                  const BackendOptions& options, ObjectFactors& out) {
+void addRevisits(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
+                 const BackendOptions& options, ObjectFactors& out) {
   for (const auto& [direction, visits] : visitsBySide(seen, poses, options.landmark_side_rad)) {
+    if (visits.size() < 2) continue;
     const LandmarkId side{kFirstSide + static_cast<std::int64_t>(out.sides.size())};
     out.sides[side] = {landmark.position, landmark.yaw, landmark.shape};
-    Visit means;
     for (const Visit& visit : visits) {
-      means.push_back(meanSighting(visit));
-      LandmarkFactor sighting = seenFrom(means.back(), poses.node(visit[visit.size() / 2].node));
+      LandmarkFactor sighting = seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node));
       sighting.landmark = side;
       sighting.robust_width = options.landmark_robust_width;
-      out.sightings.push_back(sighting);
+      out.visits.push_back(sighting);
     }
-    const LandmarkFactor typical = meanSighting(means);
-    out.side_errors.push_back({.side = side,
-                               .landmark = landmark.id,
-                               .has_yaw = typical.has_yaw,
-                               .covariance = typical.covariance,
-                               .weight = typical.weight * options.landmark_information_share,
-                               .robust_width = options.landmark_robust_width});
   }
 }
 
@@ -209,7 +201,13 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
   ObjectFactors out;
   for (const auto& [id, seen] : gathered) {
     const Landmark& landmark = *known.at(id);
-    addSightings(seen, landmark, poses, options, out);
+    for (const auto& [node, group] : seen.sightings) {
+      LandmarkFactor mean = meanSighting(group);
+      mean.weight *= options.landmark_information_share;
+      mean.robust_width = options.landmark_robust_width;
+      out.sightings.push_back(mean);
+    }
+    addRevisits(seen, landmark, poses, options, out);
     const ObjectModel* usual = database.find(landmark.class_name);
     if (options.object_boxes && usual) {
       out.sizes.push_back(sizeFactor(landmark, *usual));

@@ -105,8 +105,7 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
   v.add("point_sigma_px", point_sigma_px,
         {.doc = "of such a point in the image", .unit = "px", .min = 0.1, .max = 100});
   v.add("landmark_information_share", landmark_information_share,
-        {.doc = "share of its information with which a side of a landmark, a box or a point speaks of the "
-                "landmark: in a row they share their errors",
+        {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
          .min = 1e-4,
          .max = 1});
   v.add("landmark_side_rad", landmark_side_rad,

@@ -86,9 +86,8 @@ class FactorGraph {
   std::optional<MarginalPrior> marginalize(const Variables& keep) const;
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
-  /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). Priors, points, sides of
-  /// landmarks and robust losses have no place in it; what saw a side is written as seeing the landmark.
-  /// Throws RunError when the file cannot be written.
+  /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). Priors, points and robust
+  /// losses have no place in it. Throws RunError when the file cannot be written.
   void saveG2o(const std::filesystem::path& file) const;
 
   struct Impl;  ///< behind the scenes

@@ -63,16 +63,6 @@ struct LandmarkFactor {
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
-/// Place and yaw that a landmark seems to have from one side, which is a landmark of its own in the graph,
-/// against those it has. All sightings from that side share this error: they are factors of `side`.
-struct LandmarkSideFactor {
-  LandmarkId side, landmark;
-  bool has_yaw = false;
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of side - landmark (x, y, z, yaw), in world
-  double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
-  double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
-};
-
 /// The object stands on the floor: z = 0.
 struct LandmarkGroundFactor {
   LandmarkId landmark;
@@ -148,8 +138,8 @@ struct MarginalPrior {
 
 /// Every kind of measurement a graph can hold. A new one belongs here; the tests don't compile until it has
 /// its specimens (tests/backend/residual_specimens.h).
-using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkSideFactor,
-                            LandmarkGroundFactor, LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor,
-                            PointLandmarkFactor, MarginalPrior>;
+using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkGroundFactor,
+                            LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor, PointLandmarkFactor,
+                            MarginalPrior>;
 
 }  // namespace roomgraph

@@ -28,9 +28,9 @@ struct ObjectFrame {
 
 /// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
-  std::vector<LandmarkFactor> sightings;         ///< of sides
+  std::vector<LandmarkFactor> sightings;
   std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as they seem from one side
-  std::vector<LandmarkSideFactor> side_errors;
+  std::vector<LandmarkFactor> visits;            ///< sightings of sides
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, as the measured depth has them
@@ -38,16 +38,15 @@ struct ObjectFactors {
   std::vector<PointLandmarkFactor> insides;
 };
 
-/// Sightings of a landmark from one direction share an error, the same again whenever the robot comes by. So
-/// they measure the landmark as it seems from that side. All of one visit count like one, from the key pose
-/// in the middle: their errors are nearly the same, and over so short a way the sources of motion are better.
-/// The side differs from the landmark by the error of a single sighting, and as the errors of neighbouring
-/// sides are alike, it says little of the landmark (BackendOptions::landmark_information_share). Hence
-/// objects hardly bend the way of a single visit, but tie a second one to the first. Per key pose and
-/// landmark one box, and points that were seen on a landmark from several key poses; with that share, too.
-/// Weights are association probability x selection confidence x initialisation score. Measurements under
-/// another class' label say nothing of the place; those that rather lie along the viewing ray, because their
-/// depth failed (`model`; may be null), little.
+/// Per key pose and landmark one sighting and one box: the errors of sightings from one place are nearly the
+/// same, so that many count like one, and those from neighbouring places are alike: a single visit says
+/// little of the robot's way (BackendOptions::landmark_information_share). But the error of one direction is
+/// the same again when the robot comes back. Hence sides: what was seen from one direction in two visits or
+/// more is also a landmark of its own, as far off the landmark as it likes, that ties the visits to each
+/// other. All sightings of a visit count like one, from the key pose in the middle. Points that were seen on
+/// a landmark from several key poses. Weights are association probability x selection confidence x
+/// initialisation score. Measurements under another class' label say nothing of the place; those that rather
+/// lie along the viewing ray, because their depth failed (`model`; may be null), little.
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
