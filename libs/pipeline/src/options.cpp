@@ -109,10 +109,7 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .min = 1e-4,
          .max = 1});
   v.add("landmark_side_rad", landmark_side_rad,
-        {.doc = "a landmark's sightings from directions within this share an error: one side of it",
-         .unit = "rad",
-         .min = 0.01,
-         .max = 6.3});
+        {.doc = "directions of view that share an error: a side", .unit = "rad", .min = 0.01, .max = 6.3});
 }
 
 void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {
