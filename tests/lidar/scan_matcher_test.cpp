@@ -64,6 +64,23 @@ TEST(SubmapScanMatcher, RecoversMovementWithoutPrior) {
   expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
 }
 
+// The wheels spin once, by more than the search window.
+TEST(SubmapScanMatcher, ASlipOfTheWheelsDoesNotMoveTheScan) {
+  const auto poses = bow();
+  std::mt19937 random(23);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    std::optional<Pose2> step;
+    if (i > 0) step = poses[i - 1].inverse() * poses[i];
+    if (i == 20) step = *step * Pose2{0.45, 0, 0.25};
+    const ScanMatch match = matcher.match(
+        testing::castScan(testing::asymmetricRoom(), poses[i], 0.1 * static_cast<double>(i), random), step);
+    ASSERT_TRUE(match.matched);
+    expectNear(match.odom_from_robot, poses.front().inverse() * poses[i], 0.06, 0.03);
+  }
+}
+
 TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   std::vector<Pose2> poses{{0, 0, 0}};
   for (int i = 0; i < 30; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});

@@ -64,6 +64,63 @@ TEST(Sighting, MeanWeighsByScoreAndPrecisionButIsNoSurerThanOne) {
   EXPECT_FALSE(meanSighting({factorAt(1, 0, 1, 0.1, false)}).has_yaw);
 }
 
+const Eigen::Vector3d kChair(3, 1, 0);
+
+// Key poses on a short way towards the chair, twice, and one behind it in between.
+KeyPoses twoVisits(const Motion& motion) {
+  KeyPoses poses(motion);
+  for (int i = 0; i < 3; ++i) poses.add(i, poseFromYpr(0.3 * i, 0, 0, 0.2, 0, 0));
+  poses.add(50, poseFromYpr(5, 2, 0, -2, 0, 0));
+  for (int i = 0; i < 3; ++i) poses.add(100 + i, poseFromYpr(0.3 * i, 0.1, 0, 0.1, 0, 0));
+  return poses;
+}
+
+// The chair as every key pose sees it: from the front 0.1 m too far along x, from behind too near.
+std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
+  std::vector<ObjectFrame> frames;
+  for (const auto& node : poses.nodes()) {
+    const double error = node.t == 50 ? -0.1 : 0.1;
+    ObjectDecision decision;
+    decision.landmark = LandmarkId{4};
+    decision.association.probability = 0.8;
+    decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
+    auto& measurement = decision.seen.measurement;
+    measurement.confidence = measurement.proposal.score = 1;
+    measurement.proposal.class_name = "swivel_chair";
+    measurement.proposal.camera_from_object =
+        node.world_from_robot.inverse() * poseFromYpr(kChair.x() + error, kChair.y(), 0, 0, 0, 0);
+    frames.push_back({.frame = {}, .t = node.t, .camera = {}, .decisions = {decision}, .features = {}});
+  }
+  return frames;
+}
+
+TEST(ObjectFactors, AVisitOfASideCountsOnceAndTheNextOneMeasuresTheSameSide) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  Landmark chair;
+  chair.id = LandmarkId{4};
+  chair.class_name = "swivel_chair";
+  chair.position = kChair;
+  const BackendOptions options;
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair}, {}, options);
+  ASSERT_EQ(factors.sightings.size(), poses.nodes().size());
+  for (const auto& sighting : factors.sightings)
+    EXPECT_NEAR(sighting.weight, 0.8 * options.landmark_information_share, 1e-12);
+  ASSERT_EQ(factors.sides.size(), 1u) << "what was seen from behind was not seen again";
+  ASSERT_EQ(factors.visits.size(), 2u);
+  std::vector<std::int64_t> nodes;
+  for (const auto& sighting : factors.visits) {
+    const Pose3& pose = poses.node(sighting.node).world_from_robot;
+    EXPECT_LT((pose * sighting.position_in_robot - kChair - 0.1 * Eigen::Vector3d::UnitX()).norm(), 1e-9);
+    EXPECT_EQ(sighting.landmark, factors.sides.begin()->first);
+    EXPECT_NEAR(sighting.weight, 0.8, 1e-12);
+    EXPECT_TRUE(sighting.covariance.isApprox(0.01 * Eigen::Matrix4d::Identity(), 1e-9));
+    nodes.push_back(sighting.node.value);
+  }
+  EXPECT_EQ(nodes, (std::vector<std::int64_t>{1, 5})) << "the middle of both visits";
+}
+
 Landmark trusted(std::int64_t id) {
   Landmark landmark;
   landmark.id = LandmarkId{id};

@@ -15,6 +15,7 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr int kPyramidLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
+constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 }  // namespace
 
 void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
@@ -82,7 +83,11 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
-  const GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
+  GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
+  if (has_prior && jumps(scan.t, predicted)) {
+    const GridRefinement steady = matchTo(*submaps_->oldest(), points, steadyPose(scan.t), false);
+    if (steady.explained > found.explained + kClearlyBetter) found = steady;
+  }
   if (found.explained < min_score_) {
     if (lost_scans_ < max_lost_scans_) return lose(scan.t, predicted, has_prior, "no overlap");
     ++segment_;
@@ -101,10 +106,19 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
 
 Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_from_current) const {
   if (!last_t_) return {};
-  if (previous_from_current) return last_pose_ * *previous_from_current;
+  return previous_from_current ? last_pose_ * *previous_from_current : steadyPose(t);
+}
+
+Pose2 SubmapScanMatcher::steadyPose(double t) const {
   const double dt = t - *last_t_;
   if (dt > kMaxExtrapolation) return last_pose_;
   return last_pose_ * Pose2{velocity_.x * dt, velocity_.y * dt, velocity_.yaw * dt};
+}
+
+bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
+  if (lost_scans_ > 0 || t - *last_t_ > kMaxExtrapolation) return false;
+  const Pose2 jump = steadyPose(t).inverse() * predicted;
+  return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_deg_ * kRadPerDeg;
 }
 
 GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& points, const Pose2& predicted,

@@ -67,8 +67,10 @@ void addObjects(FactorGraph& graph, const ObjectFactors& objects, const std::vec
     graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
     graph.add(LandmarkGroundFactor{landmark.id, 0.02});
   }
+  for (const auto& [id, side] : objects.sides) graph.addLandmark(id, side);
   for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
   for (const auto& factor : objects.sightings) graph.add(factor);
+  for (const auto& factor : objects.visits) graph.add(factor);
   for (const auto& factor : objects.sizes) graph.add(factor);
   for (const auto& factor : objects.boxes) graph.add(factor);
   for (const auto& factor : objects.views) graph.add(factor);

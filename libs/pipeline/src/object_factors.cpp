@@ -105,6 +105,62 @@ LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model
           {model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m}};
 }
 
+// Landmarks of the graph that stand for sides; the map's own never get that far.
+constexpr std::int64_t kFirstSide = 1'000'000'000;
+constexpr double kVisitPause_s = 3;  // not seen for so long, a side is visited again
+
+Eigen::Matrix4d turned(const Eigen::Matrix4d& covariance, const Eigen::Matrix3d& rotation) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.topLeftCorner<3, 3>() = rotation;
+  return turn * covariance * turn.transpose();
+}
+
+LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
+  sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
+  sighting.yaw_in_robot = wrapAngle(sighting.yaw_in_robot + planarPart(world_from_robot).yaw);
+  sighting.covariance = turned(sighting.covariance, world_from_robot.linear());
+  return sighting;
+}
+
+LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
+  in_world.node = node.id;
+  in_world.position_in_robot = node.world_from_robot.inverse() * in_world.position_in_robot;
+  in_world.yaw_in_robot = wrapAngle(in_world.yaw_in_robot - planarPart(node.world_from_robot).yaw);
+  in_world.covariance = turned(in_world.covariance, node.world_from_robot.linear().transpose());
+  return in_world;
+}
+
+using Visit = std::vector<LandmarkFactor>;  // sightings of one side in a row, placed in world
+
+std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPoses& poses, double side_rad) {
+  std::map<int, std::vector<Visit>> sides;
+  for (const auto& [id, group] : seen.sightings) {
+    const KeyPose& node = poses.node(id);
+    const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
+    const Eigen::Vector3d view = sighting.position_in_robot - node.world_from_robot.translation();
+    auto& visits = sides[static_cast<int>(std::floor(std::atan2(view.y(), view.x()) / side_rad))];
+    if (visits.empty() || node.t - poses.node(visits.back().back().node).t > kVisitPause_s)
+      visits.emplace_back();
+    visits.back().push_back(sighting);
+  }
+  return sides;
+}
+
+void addRevisits(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
+                 const BackendOptions& options, ObjectFactors& out) {
+  for (const auto& [direction, visits] : visitsBySide(seen, poses, options.landmark_side_rad)) {
+    if (visits.size() < 2) continue;
+    const LandmarkId side{kFirstSide + static_cast<std::int64_t>(out.sides.size())};
+    out.sides[side] = {landmark.position, landmark.yaw, landmark.shape};
+    for (const Visit& visit : visits) {
+      LandmarkFactor sighting = seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node));
+      sighting.landmark = side;
+      sighting.robust_width = options.landmark_robust_width;
+      out.visits.push_back(sighting);
+    }
+  }
+}
+
 void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOptions& options,
                ObjectFactors& out) {
   int count = 0;
@@ -151,6 +207,7 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
       mean.robust_width = options.landmark_robust_width;
       out.sightings.push_back(mean);
     }
+    addRevisits(seen, landmark, poses, options, out);
     const ObjectModel* usual = database.find(landmark.class_name);
     if (options.object_boxes && usual) {
       out.sizes.push_back(sizeFactor(landmark, *usual));

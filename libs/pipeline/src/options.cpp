@@ -110,6 +110,8 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
         {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
          .min = 1e-4,
          .max = 1});
+  v.add("landmark_side_rad", landmark_side_rad,
+        {.doc = "directions of view that share an error: a side", .unit = "rad", .min = 0.01, .max = 6.3});
 }
 
 void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {

@@ -13,6 +13,7 @@ namespace roomgraph {
 
 /// Scan-to-submap matching: a correlative search around the predicted pose, then a refinement on the
 /// interpolated grid with a prior on the prediction. After Hess et al. 2016 (Cartographer) and Olson 2009.
+/// Wheels slip: where the given movement jumps away from a steady one, the scan decides between the two.
 class SubmapScanMatcher : public ScanMatcher {
   DEFINE_MRPT_OBJECT(SubmapScanMatcher, roomgraph)
  public:
@@ -23,6 +24,10 @@ class SubmapScanMatcher : public ScanMatcher {
 
  private:
   Pose2 predict(double t, const std::optional<Pose2>& previous_from_current) const;
+  /// If the robot goes on as it went between the last two scans.
+  Pose2 steadyPose(double t) const;
+  /// Whether the prediction lies beyond the search window around the steady pose.
+  bool jumps(double t, const Pose2& predicted) const;
   GridRefinement matchTo(const Submap& submap, const Points2& points, const Pose2& predicted, bool has_prior);
   void accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);

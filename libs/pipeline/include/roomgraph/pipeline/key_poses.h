@@ -27,6 +27,8 @@ class KeyPoses {
   std::vector<KeyPose>& nodes() { return nodes_; }
   /// Key pose closest in time; there must be one. The reference holds until the next key pose is added.
   const KeyPose& nearest(double t) const;
+  /// There must be one of that id.
+  const KeyPose& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id.value)); }
   /// Appends; t must come after the last one.
   NodeId add(double t, const Pose3& world_from_robot);
   /// Pose at any time: from the key poses before and after, blended. Holds the nearest pose when no source of

@@ -29,6 +29,8 @@ struct ObjectFrame {
 /// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
   std::vector<LandmarkFactor> sightings;
+  std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as they seem from one side
+  std::vector<LandmarkFactor> visits;            ///< sightings of sides
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, as the measured depth has them
@@ -37,11 +39,14 @@ struct ObjectFactors {
 };
 
 /// Per key pose and landmark one sighting and one box: the errors of sightings from one place are nearly the
-/// same, so that many count like one. Points that were seen on a landmark from several key poses. Weights are
-/// association probability x selection confidence x initialisation score, scaled by
-/// BackendOptions::landmark_information_share. Measurements under another class' label say nothing of the
-/// place; those that rather lie along the viewing ray, because their depth failed (`model`; may be null),
-/// little.
+/// same, so that many count like one, and those from neighbouring places are alike: a single visit says
+/// little of the robot's way (BackendOptions::landmark_information_share). But the error of one direction is
+/// the same again when the robot comes back. Hence sides: what was seen from one direction in two visits or
+/// more is also a landmark of its own, as far off the landmark as it likes, that ties the visits to each
+/// other. All sightings of a visit count like one, from the key pose in the middle. Points that were seen on
+/// a landmark from several key poses. Weights are association probability x selection confidence x
+/// initialisation score. Measurements under another class' label say nothing of the place; those that rather
+/// lie along the viewing ray, because their depth failed (`model`; may be null), little.
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
