@@ -30,8 +30,8 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
 
 /// The key poses from `first` on. `prior` is what was measured before says of them; without one the first is
 /// held. Poses before it, to which closures reach back, are held. Landmarks are left out: with their
-/// sightings in the window, at one or twenty hundredths of their information, the live pose's error was the
-/// same.
+/// sightings in the window, at one or twenty hundredths of their information, the live pose was no
+/// better.
 FactorGraph buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                         const BackendOptions& options, std::size_t first,
                         const std::optional<MarginalPrior>& prior);
