@@ -61,8 +61,9 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
     EXPECT_NEAR(landmark.shape.width, truth.shape.width, 1e-6);
     EXPECT_GT(landmark.existence, 0.99);
     EXPECT_GT(landmark.observations, 10);
+    EXPECT_TRUE(slam.graph().hasLandmark(landmark.id));
   }
-  EXPECT_EQ(slam.graph().landmarks(), 2u);
+  EXPECT_GT(slam.graph().landmarks(), 2u) << "the drive comes back: sides seen twice";
 }
 
 TEST_F(ObjectStagesTest, SightingsReachTheSinks) {
