@@ -259,6 +259,20 @@ TEST(LandmarkMap, TwoGroupsOfSightingsAreTwoObjects) {
   EXPECT_TRUE(map.splitMixed().empty());
 }
 
+TEST(LandmarkMap, AMovedLandmarkIsPartedWhereItsSightingsWent) {
+  LandmarkMap map;
+  const LandmarkId mixed = born(map, sightingAt(0, 0));
+  for (int i = 1; i < 20; ++i)
+    map.update(sightingAt(i % 2 ? 0.02 * (i % 5) : 0.7 + 0.02 * (i % 5), 0), belongsTo(mixed));
+  map.move(mixed, poseFromYpr(4, 1, 0, M_PI / 2, 0, 0));
+  const auto parted = map.splitMixed();
+  ASSERT_EQ(parted.size(), 1u);
+  const Landmark *a = map.find(mixed), *b = map.find(parted[0].second);
+  EXPECT_NEAR(std::abs(a->position.y() - b->position.y()), 0.7, 0.05);
+  EXPECT_NEAR(a->position.x(), 4, 0.05);
+  EXPECT_NEAR(b->position.x(), 4, 0.05);
+}
+
 TEST(LandmarkMap, OneGroupIsOneObject) {
   LandmarkMap map;
   const LandmarkId id = born(map, sightingAt(0, 0));

@@ -81,7 +81,8 @@ TEST(GraphBuilder, CountsOfPosesAndFactors) {
   EXPECT_EQ(whole.poses(), 40u);
   EXPECT_EQ(whole.factors(), 39u + 39u + 2u);  // movements, planar, closures
   const auto window = [&](std::size_t first) {
-    return buildWindow(poses, scenario.motion, scenario.measurements, scenario.options, first, std::nullopt);
+    return buildWindow(poses, scenario.motion, scenario.measurements, scenario.options, first, std::nullopt)
+        .graph;
   };
   EXPECT_EQ(window(34).poses(), 6u);
   EXPECT_EQ(window(34).factors(), 5u + 5u);  // closures are all older
@@ -92,7 +93,7 @@ TEST(GraphBuilder, CountsOfPosesAndFactors) {
 TEST(GraphBuilder, FirstPoseOfAWindowIsHeld) {
   const Scenario scenario = wheelsOnly();
   const KeyPoses poses = scenario.start();
-  FactorGraph graph = buildWindow(poses, scenario.motion, {}, scenario.options, 30, std::nullopt);
+  FactorGraph graph = buildWindow(poses, scenario.motion, {}, scenario.options, 30, std::nullopt).graph;
   ASSERT_TRUE(graph.optimize().usable);
   EXPECT_TRUE(graph.pose(NodeId{30}).isApprox(poses.nodes()[30].world_from_robot, 1e-9));
 }

@@ -121,6 +121,33 @@ TEST(ObjectFactors, AVisitOfASideCountsOnceAndTheNextOneMeasuresTheSameSide) {
   EXPECT_EQ(nodes, (std::vector<std::int64_t>{1, 5})) << "the middle of both visits";
 }
 
+TEST(ObjectFactors, StandingStillIsOneVisit) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  KeyPoses poses(motion);
+  for (int i = 0; i < 4; ++i) poses.add(5 * i, Pose3::Identity());
+  Landmark chair;
+  chair.id = LandmarkId{4};
+  chair.class_name = "swivel_chair";
+  chair.position = kChair;
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair}, {}, BackendOptions{});
+  EXPECT_EQ(factors.sightings.size(), 4u);
+  EXPECT_TRUE(factors.sides.empty());
+}
+
+TEST(ObjectFactors, VisitsThatWeighNothingMakeNoSide) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  Landmark chair;
+  chair.id = LandmarkId{4};
+  chair.class_name = "swivel_chair";
+  chair.position = kChair;
+  auto frames = framesOf(poses);
+  for (auto& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0;
+  EXPECT_TRUE(objectFactors(frames, poses, {chair}, {}, BackendOptions{}).sides.empty());
+}
+
 Landmark trusted(std::int64_t id) {
   Landmark landmark;
   landmark.id = LandmarkId{id};

@@ -42,6 +42,10 @@ TEST(ObjectMapper, WhenALandmarkIsPartedItsSightingsAre) {
     mapper.observe(stages->proposal_generator->generate(frame, *detections, std::nullopt), frame, {});
   }
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  // The world moves: what was remembered of it then must move along.
+  const Pose3 moved = poseFromYpr(5, -3, 0, 2, 0, 0);
+  poses.nodes()[0].world_from_robot = moved;
+  mapper.moveSince(0, moved);
   mapper.tidy();
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
   std::set<LandmarkId> left, right;
@@ -49,8 +53,11 @@ TEST(ObjectMapper, WhenALandmarkIsPartedItsSightingsAre) {
     (frame.frame.value % 2 ? left : right).insert(frame.decisions.at(0).landmark);
   ASSERT_EQ(left.size(), 1u);
   ASSERT_EQ(right.size(), 1u);
-  EXPECT_NEAR(mapper.landmarks().find(*left.begin())->position.y(), 0.4, 0.05);
-  EXPECT_NEAR(mapper.landmarks().find(*right.begin())->position.y(), -0.4, 0.05);
+  const auto seenAt = [&](const std::set<LandmarkId>& ids) {
+    return (moved.inverse() * mapper.landmarks().find(*ids.begin())->position).y();
+  };
+  EXPECT_NEAR(seenAt(left), 0.4, 0.05);
+  EXPECT_NEAR(seenAt(right), -0.4, 0.05);
   EXPECT_EQ(mapper.seenSpans().size(), 2u);
 }
 

@@ -45,6 +45,23 @@ double distance(const Pose3& a, const Pose3& b) {
   return (a.translation() - b.translation()).norm();
 }
 
+// A closure no surer than the wheels comes early: every slide of the window must leave it the weight of one.
+TEST(PoseEstimator, AClosureCountsOnceHoweverOftenTheWindowSlides) {
+  for (const int nodes : {6, 10, 100}) {
+    Estimation run(nodes);
+    for (int t = 0; t < kNodes; ++t) {
+      ASSERT_TRUE(run.estimator.advance(t));
+      if (t == kNodes - 20) {
+        RelativePose vague = closure(0, t);
+        vague.covariance = 0.01 * Matrix6d::Identity();
+        run.estimator.addClosures({vague}, run.objects);
+      }
+      run.estimator.update(run.objects);
+    }
+    EXPECT_LT(distance(run.last(), run.lastOfBatch()), 0.01) << "window of " << nodes;
+  }
+}
+
 // The closure reaches back behind the window: only the prior knows how far the window may have drifted.
 TEST(PoseEstimator, WindowWithItsPriorEndsWhereTheWholeGraphDoes) {
   for (const int nodes : {4, 8, 100}) {

@@ -169,6 +169,19 @@ void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double
   landmark->covariance = covariance;
 }
 
+void LandmarkMap::move(LandmarkId id, const Pose3& new_from_old) {
+  Landmark* landmark = get(id);
+  if (!landmark) return;
+  for (auto& sighting : records_[id].recent)
+    sighting.place = (new_from_old * Eigen::Vector3d(sighting.place.x(), sighting.place.y(), 0)).head<2>();
+  const Pose3 moved = new_from_old * landmark->worldFromObject();
+  landmark->position = moved.translation();
+  landmark->yaw = planarPart(moved).yaw;
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.topLeftCorner<3, 3>() = new_from_old.linear();
+  landmark->covariance = turn * landmark->covariance * turn.transpose();
+}
+
 // The one seen more often says where it is and how large.
 void LandmarkMap::join(Landmark& kept, const Landmark& removed) {
   const LandmarkId id = kept.id;

@@ -88,7 +88,7 @@ void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
   if (loose) addLooseAnchor(graph, nodes[first]);
   for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
   if (measurements.planar)
-    for (std::size_t i = first + 1; i < nodes.size(); ++i)
+    for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
       graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   const auto since =
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
@@ -114,24 +114,26 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
   return graph;
 }
 
-FactorGraph buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                        const BackendOptions& options, std::size_t first,
-                        const std::optional<MarginalPrior>& prior) {
-  FactorGraph graph;
-  addPoses(graph, poses, motion, measurements, options, first, !prior);
-  if (prior) graph.add(*prior);
+Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                   const BackendOptions& options, std::size_t first,
+                   const std::optional<MarginalPrior>& prior) {
+  Window window;
+  addPoses(window.graph, poses, motion, measurements, options, first, !prior);
+  if (prior) window.graph.add(*prior);
   const KeyPose& oldest = poses.nodes()[first];
+  const double before = first > 0 ? poses.nodes()[first - 1].t : oldest.t;
   std::set<NodeId> held;
   for (const auto& closure : measurements.closures) {
-    if (std::max(closure.t_a, closure.t_b) < oldest.t) continue;
+    if (std::max(closure.t_a, closure.t_b) < before) continue;  // a shortcut: there may be thousands
     const auto factor = closureFactor(closure, poses, options.closure_robust_width);
-    if (!factor) continue;
+    if (!factor || std::max(factor->a, factor->b) < oldest.id) continue;
     for (const NodeId id : {factor->a, factor->b})
       if (id < oldest.id && held.insert(id).second)
-        graph.addPose(id, poses.nodes()[static_cast<std::size_t>(id.value)].world_from_robot, true);
-    graph.add(*factor);
+        window.graph.addPose(id, poses.node(id).world_from_robot, true);
+    window.graph.add(*factor);
   }
-  return graph;
+  window.held.assign(held.begin(), held.end());
+  return window;
 }
 
 }  // namespace roomgraph

@@ -107,7 +107,8 @@ LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model
 
 // Landmarks of the graph that stand for sides; the map's own never get that far.
 constexpr std::int64_t kFirstSide = 1'000'000'000;
-constexpr double kVisitPause_s = 3;  // not seen for so long, a side is visited again
+constexpr double kVisitPause_s = 3;    // not seen for so long, a side is visited again
+constexpr double kLeastWeight = 1e-9;  // a visit that weighs nothing would leave its side free
 
 Eigen::Matrix4d turned(const Eigen::Matrix4d& covariance, const Eigen::Matrix3d& rotation) {
   Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
@@ -139,8 +140,10 @@ std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPo
     const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
     const Eigen::Vector3d view = sighting.position_in_robot - node.world_from_robot.translation();
     auto& visits = sides[static_cast<int>(std::floor(std::atan2(view.y(), view.x()) / side_rad))];
-    if (visits.empty() || node.t - poses.node(visits.back().back().node).t > kVisitPause_s)
-      visits.emplace_back();
+    // Standing still, key poses are rare; gone is what other key poses in between did not see.
+    const bool gone = visits.empty() || (id.value - visits.back().back().node.value > 1 &&
+                                         node.t - poses.node(visits.back().back().node).t > kVisitPause_s);
+    if (gone) visits.emplace_back();
     visits.back().push_back(sighting);
   }
   return sides;
@@ -149,11 +152,15 @@ std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPo
 void addRevisits(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
                  const BackendOptions& options, ObjectFactors& out) {
   for (const auto& [direction, visits] : visitsBySide(seen, poses, options.landmark_side_rad)) {
-    if (visits.size() < 2) continue;
+    std::vector<LandmarkFactor> sightings;
+    for (const Visit& visit : visits) {
+      sightings.push_back(seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node)));
+      if (sightings.back().weight < kLeastWeight) sightings.pop_back();
+    }
+    if (sightings.size() < 2) continue;
     const LandmarkId side{kFirstSide + static_cast<std::int64_t>(out.sides.size())};
     out.sides[side] = {landmark.position, landmark.yaw, landmark.shape};
-    for (const Visit& visit : visits) {
-      LandmarkFactor sighting = seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node));
+    for (LandmarkFactor& sighting : sightings) {
       sighting.landmark = side;
       sighting.robust_width = options.landmark_robust_width;
       out.visits.push_back(sighting);

@@ -135,12 +135,15 @@ void ObjectMapper::tidy() {
 void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
   const Eigen::Vector3d first_place = landmarks().find(first)->position;
   const Eigen::Vector3d second_place = landmarks().find(second)->position;
-  for (auto& frame : frames_)
+  for (auto& frame : frames_) {
+    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;  // poses have moved since
     for (auto& decision : frame.decisions) {
-      const Eigen::Vector3d place = decision.seen.world_from_object.translation();
-      const bool nearer = (place - second_place).norm() < (place - first_place).norm();
-      if (decision.landmark == first && nearer) decision.landmark = second;
+      if (decision.landmark != first) continue;
+      const Eigen::Vector3d place =
+          (world_from_camera * decision.seen.measurement.proposal.camera_from_object).translation();
+      if ((place - second_place).norm() < (place - first_place).norm()) rename(decision, first, second);
     }
+  }
 }
 
 std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() const {
@@ -176,12 +179,8 @@ bool ObjectMapper::reassociate() {
 }
 
 void ObjectMapper::moveSince(double t, const Pose3& new_from_old) {
-  for (const auto& [id, span] : spans_) {
-    const Landmark* landmark = landmarks().find(id);
-    if (!landmark || span.first < t) continue;
-    const Pose3 moved = new_from_old * landmark->worldFromObject();
-    landmarks().correct(id, moved.translation(), planarPart(moved).yaw, landmark->covariance);
-  }
+  for (const auto& [id, span] : spans_)
+    if (span.first >= t) landmarks().move(id, new_from_old);
 }
 
 ObjectFactors ObjectMapper::factors() const {

@@ -51,6 +51,29 @@ void StageChoice::declareParameters(ParameterVisitor& v) {
   v.add("class", stage, {.doc = "implementation of this stage"});
 }
 
+namespace {
+
+void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
+  v.add("object_boxes", o.object_boxes,
+        {.doc = "whether the boxes of objects and their usual sizes are factors of the graph"});
+  v.add("box_sigma_px", o.box_sigma_px,
+        {.doc = "of the sides of a box against the projected model", .unit = "px", .min = 0.1, .max = 1000});
+  v.add("points_per_landmark", o.points_per_landmark,
+        {.doc = "tracked points that tie a landmark to the poses that saw them; 0: none",
+         .min = 0,
+         .max = 10000});
+  v.add("point_sigma_px", o.point_sigma_px,
+        {.doc = "of such a point in the image", .unit = "px", .min = 0.1, .max = 100});
+  v.add("landmark_information_share", o.landmark_information_share,
+        {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
+         .min = 1e-4,
+         .max = 1});
+  v.add("landmark_side_rad", o.landmark_side_rad,
+        {.doc = "directions of view that share an error: a side", .unit = "rad", .min = 0.01, .max = 6.3});
+}
+
+}  // namespace
+
 void BackendOptions::declareParameters(ParameterVisitor& v) {
   v.add("node_distance_m", node_distance_m,
         {.doc = "movement that makes a new pose of the graph", .unit = "m", .min = 0.01, .max = 10});
@@ -74,7 +97,9 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .max = 3.2});
   v.add("max_iterations", max_iterations, {.doc = "of one optimisation", .min = 1, .max = 1000});
   v.add("live_tolerance", live_tolerance,
-        {.doc = "change of the cost that ends an optimisation during the run", .min = 1e-12, .max = 0.1});
+        {.doc = "change of the cost that ends an optimisation of the whole graph during the run",
+         .min = 1e-12,
+         .max = 0.1});
   v.add("closure_robust_width", closure_robust_width,
         {.doc = "Cauchy width for loop closures, in standard deviations; 0: least squares",
          .min = 0,
@@ -96,22 +121,7 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .unit = "m",
          .min = 0,
          .max = 10});
-  v.add("object_boxes", object_boxes,
-        {.doc = "whether the boxes of objects and their usual sizes are factors of the graph"});
-  v.add("box_sigma_px", box_sigma_px,
-        {.doc = "of the sides of a box against the projected model", .unit = "px", .min = 0.1, .max = 1000});
-  v.add("points_per_landmark", points_per_landmark,
-        {.doc = "tracked points that tie a landmark to the poses that saw them; 0: none",
-         .min = 0,
-         .max = 10000});
-  v.add("point_sigma_px", point_sigma_px,
-        {.doc = "of such a point in the image", .unit = "px", .min = 0.1, .max = 100});
-  v.add("landmark_information_share", landmark_information_share,
-        {.doc = "share of a sighting's information that counts: sightings in a row share their errors",
-         .min = 1e-4,
-         .max = 1});
-  v.add("landmark_side_rad", landmark_side_rad,
-        {.doc = "directions of view that share an error: a side", .unit = "rad", .min = 0.01, .max = 6.3});
+  declareObjectFactors(*this, v);
 }
 
 void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {

@@ -87,9 +87,9 @@ void PoseEstimator::update(ObjectMapper& objects) {
 void PoseEstimator::slideWindow() {
   const auto& nodes = poses_.nodes();
   if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
-  Variables keep;
+  Variables keep{.nodes = window_.held};  // closures to them are added to the next window again
   for (std::size_t i = first_ + 1; i + 1 < nodes.size(); ++i) keep.nodes.push_back(nodes[i].id);
-  prior_ = window_.marginalize(keep);
+  prior_ = window_.graph.marginalize(keep);
   ++first_;
 }
 
@@ -104,8 +104,9 @@ void PoseEstimator::optimizeWindow() {
   auto& nodes = poses_.nodes();
   slideWindow();
   window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
-  if (!window_.optimize(options_.max_iterations).usable) return;
-  for (std::size_t i = first_; i < nodes.size(); ++i) nodes[i].world_from_robot = window_.pose(nodes[i].id);
+  if (!window_.graph.optimize(options_.max_iterations).usable) return;
+  for (std::size_t i = first_; i < nodes.size(); ++i)
+    nodes[i].world_from_robot = window_.graph.pose(nodes[i].id);
 }
 
 bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
@@ -115,16 +116,16 @@ bool PoseEstimator::optimizeAll(ObjectMapper& objects) {
 bool PoseEstimator::optimizeAll(ObjectMapper& objects, const SolveOptions& until) {
   if (poses_.empty()) return true;
   nodes_since_optimization_ = 0;
-  surprised_ = false;
   objects.tidy();
   measurements_.objects = objects.factors();
   LandmarkMap& landmarks = objects.landmarks();
   graph_ = buildGraph(poses_, motion_, measurements_, landmarks.landmarks(), options_);
-  const bool usable = graph_.optimize(until).usable;
-  if (usable)
+  const SolveReport report = graph_.optimize(until);
+  surprised_ = surprised_ && report.usable && report.iterations >= until.max_iterations;
+  if (report.usable)
     for (auto& node : poses_.nodes()) node.world_from_robot = graph_.pose(node.id);
   restartWindow();
-  if (!usable) return false;
+  if (!report.usable) return false;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks.landmarks())) {
     if (!graph_.hasLandmark(landmark.id)) continue;
     const LandmarkEstimate estimate = graph_.landmark(landmark.id);

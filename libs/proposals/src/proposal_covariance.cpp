@@ -47,7 +47,7 @@ Eigen::Matrix4d constructed(const PlacedShape& placed) {
   out.topLeftCorner<2, 2>() =
       placed.covariance->topLeftCorner<2, 2>() + std::pow(0.2 * misfit, 2) * Eigen::Matrix2d::Identity();
   out(2, 2) = kHeightSigma * kHeightSigma;
-  out(3, 3) = (*placed.covariance)(2, 2);
+  out(3, 3) = placed.has_yaw ? (*placed.covariance)(2, 2) : std::numbers::pi * std::numbers::pi;
   return out;
 }
 

@@ -39,6 +39,9 @@ class LandmarkMap : public Configurable {
   /// Sets place, yaw and covariance after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
 
+  /// Takes a landmark, with what is remembered of its places, into another frame.
+  void move(LandmarkId id, const Pose3& new_from_old);
+
   /// Joins landmarks of one class that are one object; returns (removed, kept) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> mergeDuplicates();
 

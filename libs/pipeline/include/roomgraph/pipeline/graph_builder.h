@@ -28,12 +28,18 @@ bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const std::vector<Landmark>& landmarks, const BackendOptions& options);
 
+/// The latest key poses, and the older ones that closures reach back to.
+struct Window {
+  FactorGraph graph;
+  std::vector<NodeId> held;
+};
+
 /// The key poses from `first` on. `prior` is what was measured before says of them; without one the first is
 /// held. Poses before it, to which closures reach back, are held. Landmarks are left out: with their
-/// sightings in the window, at one or twenty hundredths of their information, the live pose was no
+/// sightings in the window, with 1 % or 20 % of their information, the live pose was no
 /// better.
-FactorGraph buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                        const BackendOptions& options, std::size_t first,
-                        const std::optional<MarginalPrior>& prior);
+Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                   const BackendOptions& options, std::size_t first,
+                   const std::optional<MarginalPrior>& prior);
 
 }  // namespace roomgraph

@@ -48,7 +48,7 @@ class PoseEstimator {
   KeyPoses poses_;
   Measurements measurements_;
   FactorGraph graph_;
-  FactorGraph window_;                  ///< of the latest key poses
+  Window window_;                       ///< of the latest key poses
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< what was measured before says of them, since all was optimised
   int nodes_since_optimization_ = 0;
