@@ -158,6 +158,7 @@ TEST(DoorOnPlane, CovarianceOfAConstructionIsKeptAndGrowsWithMisfit) {
   PlacedShape placed;
   placed.covariance = Eigen::Vector3d(0.04, 0.0009, 0.0004).asDiagonal();
   placed.quality = 1;
+  placed.has_yaw = true;
   const Eigen::Matrix4d good = covarianceOf(placed, evidence, 0.01);
   EXPECT_NEAR(good(0, 0), 0.04, 1e-12);
   EXPECT_NEAR(good(1, 1), 0.0009, 1e-12);
@@ -167,6 +168,8 @@ TEST(DoorOnPlane, CovarianceOfAConstructionIsKeptAndGrowsWithMisfit) {
   const Eigen::Matrix4d poor = covarianceOf(placed, evidence, 0.01);
   EXPECT_GT(poor(1, 1), 2 * good(1, 1));
   EXPECT_NEAR(poor(3, 3), good(3, 3), 1e-12);  // the plane's direction does not depend on the box
+  placed.has_yaw = false;
+  EXPECT_NEAR(covarianceOf(placed, evidence, 0.01)(3, 3), M_PI * M_PI, 1e-12);
 }
 
 TEST(DoorFromImage, RangeOfASideFromFloorAndTop) {
