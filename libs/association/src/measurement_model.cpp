@@ -107,7 +107,8 @@ double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landma
 double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
   const double ray = rayDensity(seen, landmark, shared_error_m, gate_sigma);
-  // The proposal's place is already what the box and its depth say; only where the depth failed is the box more.
+  // The proposal's place is already what the box and its depth say; only where the depth failed is the box
+  // more.
   return (1 - failed) * placeDensity(seen, landmark) +
          (ray > 0 ? failed * ray * boxRatio(seen, landmark) : 0);
 }

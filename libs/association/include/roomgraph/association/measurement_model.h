@@ -40,10 +40,10 @@ struct MeasurementModel {
   /// Whether the measurement can be the landmark: class, and gate or viewing ray.
   bool inGate(const WorldMeasurement& seen, const Landmark& landmark) const;
 
-  /// Density of the measurement given the landmark, 1/m^2. Of its place: a bivariate Student t, because
-  /// proposals fail now and then by more than their covariance says; and, for those whose depth came from
-  /// something in front or behind (the likelier the lower their score), a stripe along the viewing ray. Times
-  /// the boxRatio.
+  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail now
+  /// and then by more than their covariance says; and, for those whose depth came from something in front or
+  /// behind (the likelier the lower their score), a stripe along the viewing ray, which counts as much as the
+  /// boxRatio says.
   double density(const WorldMeasurement& seen, const Landmark& landmark) const;
 
   /// How much better (or worse) the landmark explains the detection's box than the proposal itself does:
