@@ -90,6 +90,8 @@ def main(argv=None):
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "long_run")
     parser.add_argument("--program", type=Path, default=seeds.PROGRAM)
     arguments = parser.parse_args(argv)
+    if not arguments.world.is_file():
+        parser.error(f"{arguments.world}: no such file")
     program, out = seeds.Program(arguments.program), arguments.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
     world = out / f"{arguments.world.stem}_{arguments.minutes:g}_minutes.json"

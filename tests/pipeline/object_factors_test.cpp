@@ -75,6 +75,14 @@ KeyPoses twoVisits(const Motion& motion) {
   return poses;
 }
 
+Landmark chair() {
+  Landmark out;
+  out.id = LandmarkId{4};
+  out.class_name = "swivel_chair";
+  out.position = kChair;
+  return out;
+}
+
 // The chair as every key pose sees it: from the front 0.1 m too far along x, from behind too near.
 std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
   std::vector<ObjectFrame> frames;
@@ -98,12 +106,8 @@ TEST(ObjectFactors, AVisitOfASideCountsOnceAndTheNextOneMeasuresTheSameSide) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
-  Landmark chair;
-  chair.id = LandmarkId{4};
-  chair.class_name = "swivel_chair";
-  chair.position = kChair;
   const BackendOptions options;
-  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair}, {}, options);
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);
   ASSERT_EQ(factors.sightings.size(), poses.nodes().size());
   for (const auto& sighting : factors.sightings)
     EXPECT_NEAR(sighting.weight, 0.8 * options.landmark_information_share, 1e-12);
@@ -126,11 +130,7 @@ TEST(ObjectFactors, StandingStillIsOneVisit) {
   const Motion motion{none, none, none};
   KeyPoses poses(motion);
   for (int i = 0; i < 4; ++i) poses.add(5 * i, Pose3::Identity());
-  Landmark chair;
-  chair.id = LandmarkId{4};
-  chair.class_name = "swivel_chair";
-  chair.position = kChair;
-  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair}, {}, BackendOptions{});
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, BackendOptions{});
   EXPECT_EQ(factors.sightings.size(), 4u);
   EXPECT_TRUE(factors.sides.empty());
 }
@@ -139,13 +139,9 @@ TEST(ObjectFactors, VisitsThatWeighNothingMakeNoSide) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
-  Landmark chair;
-  chair.id = LandmarkId{4};
-  chair.class_name = "swivel_chair";
-  chair.position = kChair;
   auto frames = framesOf(poses);
   for (auto& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0;
-  EXPECT_TRUE(objectFactors(frames, poses, {chair}, {}, BackendOptions{}).sides.empty());
+  EXPECT_TRUE(objectFactors(frames, poses, {chair()}, {}, BackendOptions{}).sides.empty());
 }
 
 Landmark trusted(std::int64_t id) {

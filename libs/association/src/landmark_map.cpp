@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "roomgraph/geometry/place_covariance.h"
+
 namespace roomgraph {
 namespace {
 
@@ -177,9 +179,7 @@ void LandmarkMap::move(LandmarkId id, const Pose3& new_from_old) {
   const Pose3 moved = new_from_old * landmark->worldFromObject();
   landmark->position = moved.translation();
   landmark->yaw = planarPart(moved).yaw;
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() = new_from_old.linear();
-  landmark->covariance = turn * landmark->covariance * turn.transpose();
+  landmark->covariance = turned(landmark->covariance, new_from_old.linear());
 }
 
 // The one seen more often says where it is and how large.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "roomgraph/geometry/place_covariance.h"
+
 namespace roomgraph {
 
 LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landmark, const KeyPose& node,
@@ -19,9 +21,7 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landma
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
   if (std::abs(wrapAngle(node_yaw + factor.yaw_in_robot - landmark.yaw)) > std::numbers::pi / 2)
     factor.yaw_in_robot = wrapAngle(factor.yaw_in_robot + std::numbers::pi);
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() = node.world_from_robot.linear().transpose();
-  factor.covariance = turn * decision.seen.covariance * turn.transpose();
+  factor.covariance = turned(decision.seen.covariance, node.world_from_robot.linear().transpose());
   factor.weight = decision.association.probability * measurement.confidence * measurement.proposal.score;
   return factor;
 }
@@ -109,12 +109,6 @@ LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model
 constexpr std::int64_t kFirstSide = 1'000'000'000;
 constexpr double kVisitPause_s = 3;    // not seen for so long, a side is visited again
 constexpr double kLeastWeight = 1e-9;  // a visit that weighs nothing would leave its side free
-
-Eigen::Matrix4d turned(const Eigen::Matrix4d& covariance, const Eigen::Matrix3d& rotation) {
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
-  turn.topLeftCorner<3, 3>() = rotation;
-  return turn * covariance * turn.transpose();
-}
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;

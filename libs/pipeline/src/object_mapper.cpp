@@ -7,6 +7,7 @@
 
 #include "roomgraph/association/reassociation.h"
 #include "roomgraph/geometry/ground.h"
+#include "roomgraph/geometry/place_covariance.h"
 #include "roomgraph/pipeline/visibility.h"
 
 namespace roomgraph {
@@ -21,9 +22,9 @@ WorldMeasurement toWorld(const ObjectMeasurement& measurement, const PinholeCame
   WorldMeasurement out{measurement, world_from_camera * measurement.proposal.camera_from_object, {}, camera};
   const Pose3 world_from_ground = world_from_camera * cameraFromGround(groundInCamera(world_from_camera));
   const double heading = planarPart(world_from_ground).yaw;
-  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(heading).toRotationMatrix();
-  out.covariance = turn * measurement.proposal.covariance * turn.transpose();
+  out.covariance = turned(measurement.proposal.covariance, turn);
   out.covariance.topLeftCorner<2, 2>() += pose_sigma_m * pose_sigma_m * Eigen::Matrix2d::Identity();
   return out;
 }

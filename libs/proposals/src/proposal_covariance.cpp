@@ -19,14 +19,8 @@ struct Deviations {
 // Of a good fit to the points. A real sofa differs from a box, and its back is not seen.
 Deviations withDepth(ShapeKind kind, double range) {
   const double z2 = range * range;
-  switch (kind) {
-    case ShapeKind::kCylinder:
-      return {0.025 + 0.003 * z2, 0.015 + 0.003 * range, 0};
-    case ShapeKind::kPlanar:
-      return {0.02 + 0.004 * z2, 0.04 + 0.01 * range, 0.05};
-    default:
-      return {0.08 + 0.003 * z2, 0.05 + 0.005 * range, 0.06};
-  }
+  if (kind == ShapeKind::kCylinder) return {0.025 + 0.003 * z2, 0.015 + 0.003 * range, 0};
+  return {0.08 + 0.003 * z2, 0.05 + 0.005 * range, 0.06};
 }
 
 // From the box alone; paper Eq. 2 differentiated by the camera's pitch and by the row of the box's bottom.
