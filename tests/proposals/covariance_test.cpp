@@ -11,12 +11,8 @@
 namespace roomgraph {
 namespace {
 
+using test::database;
 using test::Scene;
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
-  return db;
-}
 
 PlacedShape chairAt(double x, double y) {
   PlacedShape placed;

@@ -16,12 +16,8 @@
 namespace roomgraph {
 namespace {
 
+using test::database;
 using test::Scene;
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
-  return db;
-}
 
 BoxEvidence evidenceOf(const Scene& scene, bool with_depth) {
   cv::Mat labels;

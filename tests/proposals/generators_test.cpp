@@ -15,12 +15,8 @@
 namespace roomgraph {
 namespace {
 
+using test::database;
 using test::Scene;
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
-  return db;
-}
 
 Scene sceneAhead() {
   Scene scene;

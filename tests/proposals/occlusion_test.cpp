@@ -11,12 +11,8 @@
 namespace roomgraph {
 namespace {
 
+using test::database;
 using test::Scene;
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
-  return db;
-}
 
 BoxEvidence evidenceOf(const Scene& scene, const std::string& class_name, bool with_depth = true) {
   cv::Mat labels;

@@ -9,6 +9,7 @@
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/observations/detection.h"
 #include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/object_database.h"
 
 namespace roomgraph::test {
 
@@ -187,5 +188,10 @@ height_m = 1.7
 symmetry = 0
 landmark = false
 )";
+
+inline const ObjectDatabase& database() {
+  static const ObjectDatabase db = ObjectDatabase::fromText(kObjects);
+  return db;
+}
 
 }  // namespace roomgraph::test

@@ -14,12 +14,8 @@
 namespace roomgraph {
 namespace {
 
+using test::database;
 using test::Scene;
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase db = ObjectDatabase::fromText(test::kObjects);
-  return db;
-}
 
 class StageTest : public ::testing::Test {
  protected:
