@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "roomgraph/association/measurement_model.h"
+#include "roomgraph/geometry/box_sides.h"
 #include "roomgraph/geometry/projection.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kBorder_px = 2;
 constexpr double kAnywhere = 2;  // widths of the box over which a hidden side may lie
 
 struct BoxNoise {
@@ -28,13 +28,12 @@ double boxDensity(const Box2& box, const std::optional<ProjectedShape>& projecte
                   const PinholeCamera& camera, const BoxNoise& noise) {
   const double far = 1e9;
   const Box2 model = projected ? projected->visible : Box2{far, far, far, far};
+  const auto inside = sidesInside(box, camera);
   double density = 1;
-  if (box.u_min > kBorder_px) density *= sideDensity(model.u_min - box.u_min, box.width(), noise);
-  if (box.v_min > kBorder_px) density *= sideDensity(model.v_min - box.v_min, box.height(), noise);
-  if (box.u_max < camera.width - kBorder_px)
-    density *= sideDensity(model.u_max - box.u_max, box.width(), noise);
-  if (box.v_max < camera.height - kBorder_px)
-    density *= sideDensity(model.v_max - box.v_max, box.height(), noise);
+  if (inside[0]) density *= sideDensity(model.u_min - box.u_min, box.width(), noise);
+  if (inside[1]) density *= sideDensity(model.v_min - box.v_min, box.height(), noise);
+  if (inside[2]) density *= sideDensity(model.u_max - box.u_max, box.width(), noise);
+  if (inside[3]) density *= sideDensity(model.v_max - box.v_max, box.height(), noise);
   return density;
 }
 

@@ -6,6 +6,7 @@
 
 #include "projected_box.h"
 #include "residuals.h"
+#include "roomgraph/geometry/box_sides.h"
 
 namespace roomgraph {
 
@@ -54,13 +55,6 @@ struct CameraPointResidual {
 
   CameraPointFactor factor;
 };
-
-/// Which sides (left, top, right, bottom) of a measured box lie inside the image, not on its border.
-inline std::array<bool, 4> sidesInside(const Box2& box, const PinholeCamera& camera) {
-  constexpr double kBorder_px = 2;  // a detector's box hardly ever ends on the very last pixel
-  return {box.u_min > kBorder_px, box.v_min > kBorder_px, box.u_max < camera.width - kBorder_px,
-          box.v_max < camera.height - kBorder_px};
-}
 
 struct LandmarkBoxResidual {
   LandmarkBoxResidual(const LandmarkBoxFactor& f, ShapeKind shape)
