@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <ctime>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "configuration.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/evaluation/frame_files.h"
@@ -16,7 +17,6 @@
 #include "roomgraph/evaluation/report_proposals.h"
 #include "roomgraph/evaluation/trajectory_file.h"
 #include "roomgraph/pipeline/stages.h"
-#include "shared_files.h"
 
 namespace roomgraph {
 namespace {
@@ -138,13 +138,10 @@ void addFrame(const Frame& frame, ProposalGenerator& generator, const BenchInput
 }
 
 void benchProposals(const BenchOptions& options) {
-  const std::filesystem::path config_file =
-      options.config.empty() ? sharedFile("config.ini") : std::filesystem::path(options.config);
-  Config config = Config::fromFile(config_file);
-  for (const auto& assignment : options.overrides) config.override(assignment);
+  Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const char* unused : {"tracking", "lidar", "detection"})
-    config.override(std::string(unused) + ".enabled=false");
-  const auto stages = makeStages(config, config_file.parent_path());
+    configuration.config.override(std::string(unused) + ".enabled=false");
+  const auto stages = makeStages(configuration.config, configuration.objects_file);
   const BenchInput in = load(options, stages->database);
   RawlogReader reader(options.input, {true, false, false});
   Progress progress(&std::cerr, "bench", "", 1);
@@ -162,9 +159,7 @@ void benchProposals(const BenchOptions& options) {
   for (auto& [boxes, ms] : run.cpu_ms) result.cpu_ms[boxes] = summarize(std::move(ms));
   std::cout << toTable(result);
   if (options.json.empty()) return;
-  std::ofstream out(options.json);
-  out << toJson(result);
-  if (!out.flush()) throw RunError(options.json + ": cannot be written");
+  writeFileAtomically(options.json, toJson(result));
 }
 
 void addProposals(CLI::App& parent) {
@@ -183,10 +178,10 @@ void addProposals(CLI::App& parent) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--max-distance", o->max_distance_m, "... and nearer, m")
-      ->check(CLI::PositiveNumber)
+      ->check(aboveZero())
       ->capture_default_str();
   command->add_option("--every", o->every, "Look at every n-th frame")
-      ->check(CLI::PositiveNumber)
+      ->check(aboveZero())
       ->capture_default_str();
   command->add_option("--json", o->json, "Write the figures here, too");
   command->footer(

@@ -19,4 +19,8 @@ void addConfigReferenceCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 
+// Checks of numbers on the command line.
+CLI::Validator atLeastZero();
+CLI::Validator aboveZero();
+
 }  // namespace roomgraph

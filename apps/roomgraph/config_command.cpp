@@ -25,7 +25,6 @@ constexpr const char* kObjects =
 
 void addConfigReferenceCommand(CLI::App& app) {
   auto* command = app.add_subcommand("config-reference", "Reference of all configuration keys, in Markdown");
-  command->group("");  // for maintainers: not listed in the help
   command->callback(
       [] { std::cout << kHeader << configSchema().markdown() << kObjects << ObjectDatabase::markdown(); });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/evaluation/association_error.h"
 #include "roomgraph/evaluation/detection_error.h"
 #include "roomgraph/evaluation/map_error.h"
@@ -34,9 +34,7 @@ template <class... Errors>
 void report(const std::string& json_file, const Errors&... errors) {
   (std::cout << ... << toTable(errors));
   if (json_file.empty()) return;
-  std::ofstream out(json_file);
-  out << toJson(errors...);
-  if (!out.flush()) throw RunError(json_file + ": cannot be written");
+  writeFileAtomically(json_file, toJson(errors...));
 }
 
 struct PathArguments {
@@ -74,17 +72,17 @@ void addTrajectory(CLI::App& parent) {
   command->add_option("--json", a->json, "Write the figures here, too");
   command
       ->add_option("--max-difference", a->options.max_difference_s, "Largest difference of paired stamps, s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(atLeastZero())
       ->capture_default_str();
   command->add_flag("--interpolate", a->options.interpolate_truth,
                     "Interpolate the truth at the estimate's stamps");
   command->add_flag("--no-align", a->unaligned, "Compare as they are");
   auto* seconds =
       command->add_option("--delta", a->options.rpe_delta_s, "Time between the poses of a relative error, s")
-          ->check(CLI::PositiveNumber)
+          ->check(aboveZero())
           ->capture_default_str();
   command->add_option("--delta-frames", a->options.rpe_delta_frames, "That many pairs instead of seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(aboveZero())
       ->excludes(seconds);
   command->footer(
       "Example:\n  roomgraph evaluate trajectory groundtruth.txt OUT/trajectory_camera.tum --json ate.json");
@@ -149,7 +147,7 @@ void addObjects(CLI::App& parent) {
   command->add_option("landmarks", a->landmarks, "Mapped objects: landmarks.json")->required();
   command->add_option("--json", a->json, "Write the figures here, too");
   command->add_option("--gate", a->options.gate_m, "Largest distance of the centres on the ground, m")
-      ->check(CLI::PositiveNumber)
+      ->check(aboveZero())
       ->capture_default_str();
   command->add_option("--min-existence", a->options.min_existence, "Skip landmarks that are less probable")
       ->check(CLI::Range(0.0, 1.0))
@@ -207,11 +205,11 @@ void addDetections(CLI::App& parent) {
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--min-height-px", a->options.min_height_px, "... and higher, px")
-      ->check(CLI::NonNegativeNumber)
+      ->check(atLeastZero())
       ->capture_default_str();
   command
       ->add_option("--max-difference", a->options.max_difference_s, "Largest difference of paired stamps, s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(atLeastZero())
       ->capture_default_str();
   command->footer(
       "Example:\n  roomgraph evaluate detections lab_a/boxes.jsonl OUT/detections.jsonl --iou 0.5");
@@ -237,7 +235,7 @@ void addMap(CLI::App& parent) {
   command
       ->add_option("--tolerance", a->options.tolerance_cells,
                    "How far an occupied cell may be from one of the other map, cells")
-      ->check(CLI::NonNegativeNumber)
+      ->check(atLeastZero())
       ->capture_default_str();
   addPaths(*command, a->paths);
   command->footer(

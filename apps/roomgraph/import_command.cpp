@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "interrupts.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/datasets/tum_import.h"
@@ -18,11 +19,14 @@ struct Arguments {
 
 void importFolder(const Arguments& arguments) {
   std::unique_ptr<Progress> line;
+  catchInterrupts();
   const auto result = importTum(
       arguments.folder, arguments.rawlog, arguments.options, [&](std::size_t done, std::size_t total) {
         if (!line)
           line = std::make_unique<Progress>(&std::cerr, "import", "images", static_cast<double>(total));
         line->update(static_cast<double>(done));
+        if (interrupted())
+          throw Interrupted("interrupted: " + arguments.rawlog.string() + " was not written");
       });
   if (line) line->finish();
   for (const auto& warning : result.warnings) std::cerr << "roomgraph: warning: " << warning << "\n";
@@ -57,7 +61,7 @@ void addImportCommand(CLI::App& app) {
                   "depth PNG value / scale = metres (TUM, ICL-NUIM: 5000)");
   tum->add_option("--max-difference", options.max_time_difference_s,
                   "largest time between colour and depth, s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(atLeastZero())
       ->capture_default_str();
   tum->add_option("--frame-rate", options.frame_rate_hz, "time stamps are frame numbers at this rate, Hz");
   tum->add_option("--label", options.label, "sensor label of the records")->capture_default_str();

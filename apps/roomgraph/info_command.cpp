@@ -4,13 +4,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/datasets/rawlog_report.h"
 
@@ -164,10 +163,7 @@ void writeJson(const RawlogReport& report, const std::filesystem::path& file) {
                                {"place", finding.place},
                                {"what", finding.what},
                                {"hint", finding.hint}});
-  std::ofstream stream(file);
-  stream << out.dump(1) << "\n";
-  stream.close();
-  if (!stream) throw RunError(file.string() + ": cannot be written");
+  writeFileAtomically(file, out.dump(1) + "\n");
 }
 
 void inspect(const std::filesystem::path& rawlog, const std::filesystem::path& json) {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "program.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/observations/register_classes.h"
@@ -54,9 +55,12 @@ int failUsage(const CLI::App& app, const CLI::ParseError& error) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Object-level semantic SLAM on MRPT rawlogs (RGB-D, 2D lidar, odometry).", "roomgraph"};
-  app.set_version_flag("--version", ROOMGRAPH_VERSION);
+  app.set_version_flag("--version", std::string(roomgraph::kVersion) + " (" + roomgraph::kRevision + ")");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read.");
+  app.footer(
+      "Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read, 4 interrupted "
+      "(what was done so far is complete).\n"
+      "All keys of the configuration: roomgraph config-reference.");
   roomgraph::observations::registerClasses();
   roomgraph::addImportCommand(app);
   roomgraph::addInfoCommand(app);

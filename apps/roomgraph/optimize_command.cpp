@@ -78,7 +78,7 @@ void addOptimizeCommand(CLI::App& app) {
   command->add_option("GRAPH", arguments->graph, "g2o file (VERTEX_SE2 or VERTEX_SE3:QUAT)")->required();
   command->add_option("-o,--output", arguments->output, "g2o file to write")->required();
   command->add_option("--max-iterations", arguments->max_iterations, "stop after so many")
-      ->check(CLI::PositiveNumber)
+      ->check(aboveZero())
       ->capture_default_str();
   command->add_flag("--keep-start", arguments->keep_start,
                     "start from the file's poses even where the chordal start is better");

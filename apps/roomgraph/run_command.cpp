@@ -1,83 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <tbb/global_control.h>
+
 #include <chrono>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <optional>
 
 #include "commands.h"
+#include "configuration.h"
+#include "interrupts.h"
+#include "program.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
-#include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
 #include "roomgraph/rendering/snapshot.h"
-#include "shared_files.h"
+#include "run_report.h"
 
 namespace roomgraph {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 struct RunOptions {
   std::string input, output, config, map, recording, pictures;
   std::vector<std::string> overrides;
   int threads = 0;
-  double from_s = 0, until_s = 0;
+  ReplaySpan span;
   bool quiet = false, no_snapshot = false;
 };
 
-struct Replay {
-  ReadStatistics read;
-  double first_t = 0, last_t = 0;
-  bool stopped = false;
+/// Wall-clock time, for people.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string rateText(int records, double span_s, std::chrono::steady_clock::time_point started) {
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  char text[96];
-  std::snprintf(text, sizeof text, "%.1f s replayed, %.0f records/s, %.1f x real time", span_s,
-                records / elapsed, span_s / elapsed);
-  return text;
+void check(const RunOptions& options, const Stages& stages) {
+  if (options.span.until_s > 0 && options.span.from_s >= options.span.until_s)
+    throw ConfigError("--from is not before --until: there is nothing between");
+  if (!stages.tracking.enabled && !stages.lidar.enabled && !stages.odometry.enabled)
+    throw ConfigError("every source of motion is switched off: [tracking], [lidar] and [odometry] enabled");
 }
 
-Replay replay(const RunOptions& options, RawlogReader& reader, RecordSorter& sorter, SemanticSlam& slam) {
-  Replay done;
-  Progress progress(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
-  const auto started = std::chrono::steady_clock::now();
-  int records = 0;
-  std::optional<double> start;
-  bool ended = false;
-  while (!interrupted) {
-    std::optional<Record> record = sorter.pop(ended);
-    if (!record && ended) break;
-    if (!record) {
-      if (auto next = reader.next()) {
-        sorter.push(std::move(*next));
-      } else {
-        ended = true;
-      }
-      continue;
-    }
-    const double t = timeOf(*record);
-    if (!start) done.first_t = *(start = t);
-    if (t - *start < options.from_s) continue;
-    if (options.until_s > 0 && t - *start > options.until_s) break;
-    slam.process(*record);
-    done.last_t = t;
-    progress.update(reader.progress(), rateText(++records, t - *start, started));
-  }
-  progress.finish();
-  done.stopped = interrupted != 0;
-  done.read = reader.statistics();
-  return done;
+// Files that are read are not to be written.
+void protectInputs(const RunOptions& options, const Configuration& configuration,
+                   const OutputFolder& output) {
+  for (const auto& file : {std::filesystem::path(options.input), std::filesystem::path(options.map),
+                           configuration.file, configuration.objects_file})
+    output.protect(file);
+  for (const auto& entry : configuration.config.entries()) output.protect(entry.folder / entry.value);
 }
 
 // Sinks that the command line asks for, besides the run's own files.
@@ -101,22 +80,51 @@ ExtraSinks addSinks(const RunOptions& options, Stages& stages) {
   return sinks;
 }
 
-void printSummary(const RunOptions& options, const Replay& replayed, const SlamResult& result,
-                  const std::string& detector_warning, double seconds) {
-  const auto& counts = result.counts;
-  const double span = replayed.last_t - replayed.first_t;
-  std::cout << counts.frames << " frames (" << counts.frames_lost << " not tracked), " << counts.scans
-            << " scans (" << counts.scans_unmatched << " not matched), " << counts.odometry
-            << " odometry readings; " << counts.key_poses << " key poses, " << counts.loop_closures
-            << " loop closures, " << result.map.landmarks.size() << " objects\n";
-  std::cout << span << " s of data in " << seconds << " s\n";
-  for (const auto& [reason, count] : counts.reasons) std::cout << "  " << count << " x " << reason << "\n";
-  for (const auto& [reason, count] : replayed.read.skipped)
-    std::cout << "  skipped " << count << " x " << reason << "\n";
-  for (const std::string& warning : {replayed.read.warning, detector_warning})
-    if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
-  if (replayed.stopped) std::cerr << "roomgraph: interrupted; the results cover what was replayed\n";
-  std::cout << "results in " << options.output << "\n";
+ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam) {
+  Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
+  const Stopwatch watch;
+  catchInterrupts();
+  const ReplayState state =
+      replay(reader, slam, options.span,
+             {[&](const ReplayState& now) { line.update(now.share, describeProgress(now, watch.seconds())); },
+              interrupted});
+  line.finish();
+  return state;
+}
+
+// A run without poses has no result, and there is a reason.
+void requireRecords(const RunOptions& options, const Stages& stages, const ReplayState& replayed,
+                    const SlamResult& result) {
+  char span[96];
+  std::snprintf(span, sizeof span, "nothing between %g s and the end (%.1f s)", options.span.from_s,
+                replayed.last_t - replayed.start_t);
+  if (replayed.records == 0 && options.span.from_s > 0) throw InputError(options.input + ": " + span);
+  const bool sensors = stages.tracking.enabled || stages.lidar.enabled;
+  if (replayed.records == 0 || (sensors && result.counts.frames + result.counts.scans == 0))
+    throw InputError(options.input +
+                     ": no usable record of a camera (RGB-D) or a lidar (2D scans); "
+                     "'roomgraph info' tells what is inside");
+  if (result.world_from_robot.empty()) throw RunError(options.input + ": no pose could be found");
+}
+
+// Without a renderer there is a run all the same.
+bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png) {
+  try {
+    renderSnapshot(map, database, {.title = map.origin}, png);
+    return true;
+  } catch (const NoRenderer& error) {
+    std::cerr << "roomgraph: warning: no snapshot.png: " << error.what()
+              << " (--no-snapshot: not asked for)\n";
+    return false;
+  }
+}
+
+std::string whatWasReplayed(const ReplayState& replayed) {
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "interrupted: the results cover %.1f s of the recording, %.0f %% of what was asked for",
+                replayed.seconds(), 100 * replayed.share);
+  return text;
 }
 
 void run(const RunOptions& options) {
@@ -125,42 +133,42 @@ void run(const RunOptions& options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
     cv::setNumThreads(options.threads);
   }
-  const std::filesystem::path config_file =
-      options.config.empty() ? sharedFile("config.ini") : std::filesystem::path(options.config);
-  Config config = Config::fromFile(config_file);
-  for (const auto& assignment : options.overrides) config.override(assignment);
-  auto stages = makeStages(config, config_file.parent_path());
-  const ObjectDatabase database = stages->database;
+  const Configuration configuration = readConfiguration(options.config, options.overrides);
+  auto stages = makeStages(configuration.config, configuration.objects_file);
+  check(options, *stages);
   RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
                                       stages->lidar.enabled, stages->odometry.enabled});
-  RecordSorter sorter(stages->general.lookahead_s);
+  std::optional<CSemanticMap> earlier;
+  if (!options.map.empty()) earlier = loadMap(options.map);
   auto output = std::make_shared<RunOutput>(options.output);
+  protectInputs(options, configuration, output->files());
   const ExtraSinks extra = addSinks(options, *stages);
   SemanticSlam slam(std::move(stages));
-  if (!options.map.empty()) slam.setMap(loadMap(options.map));
+  if (earlier) slam.setMap(std::move(*earlier));
   slam.addSink(output);
   if (extra.recording) slam.addSink(extra.recording);
   if (extra.pictures) slam.addSink(extra.pictures);
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
 
-  const auto started = std::chrono::steady_clock::now();
-  const Replay replayed = replay(options, reader, sorter, slam);
+  const Stopwatch watch;
+  const ReplayState replayed = replayWithProgress(options, reader, slam);
   if (extra.recording) extra.recording->finish();
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  output->writeResult(slam, result, replayed.read,
-                      {{"input", options.input},
-                       {"version", ROOMGRAPH_VERSION},
-                       {"interrupted", replayed.stopped ? "yes" : "no"}});
-  if (result.world_from_robot.empty())
-    throw InputError(options.input +
-                     ": no usable sensor records (RGB-D, 2D scans); 'roomgraph info' tells what is inside");
-  if (!options.no_snapshot)
-    renderSnapshot(result.map, database, {.title = result.map.origin}, output->folder() / "snapshot.png");
-  const auto& detector = slam.stages().detector;
-  printSummary(options, replayed, result, detector ? detector->warning() : "", seconds);
+  requireRecords(options, slam.stages(), replayed, result);
+  output->writeResult(slam, result, reader.statistics(), replayed,
+                      {options.input, kVersion, kRevision, commandLine()});
+  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.stages().database,
+                                                          output->files().pending("snapshot.png"));
+  output->files().publish();
+
+  std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
+  const std::string detector = slam.stages().detector ? slam.stages().detector->warning() : "";
+  for (const std::string& warning : {reader.statistics().warning, detector})
+    if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
+  std::cout << "results in " << options.output;
+  if (drawn) std::cout << "; look at " << (output->files().folder() / "snapshot.png").string();
+  std::cout << "\n";
+  if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
 }
 
 }  // namespace
@@ -176,12 +184,13 @@ void addRunCommand(CLI::App& app) {
       "--map", options->map,
       "map.rgmap of an earlier run: results are in its frame once its objects are recognised");
   command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--from", options->from_s, "start this many seconds after the first record")
-      ->check(CLI::NonNegativeNumber);
+      ->check(atLeastZero());
+  command->add_option("--from", options->span.from_s, "start this many seconds after the first record")
+      ->check(atLeastZero());
   command
-      ->add_option("--until", options->until_s, "stop this many seconds after the first record; 0: the end")
-      ->check(CLI::NonNegativeNumber);
+      ->add_option("--until", options->span.until_s,
+                   "stop this many seconds after the first record; 0: the end")
+      ->check(atLeastZero());
   command->add_option("--record-detections", options->recording,
                       "also write this rawlog: the input with what the detector found; to be replayed with "
                       "--set detection.class=RecordedDetector");
@@ -200,7 +209,10 @@ void addRunCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m_1.5x-416.onnx \\\n"
       "      --record-detections lab_boxes.rawlog\n"
       "  roomgraph run lab_boxes.rawlog -o out/again --set detection.class=RecordedDetector\n"
-      "Ctrl-C ends the replay; the results then cover what was replayed.");
+      "The same again, from the files of a run:\n"
+      "  roomgraph run lab.rawlog -o out/again --config out/lab/config.ini\n"
+      "Ctrl-C (or SIGTERM, SIGHUP) ends the replay; the results then cover what was replayed, and the exit "
+      "code is 4.");
   command->callback([options] { run(*options); });
 }
 

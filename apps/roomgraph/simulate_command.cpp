@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include <csignal>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 
 #include "commands.h"
+#include "interrupts.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/simulation/simulate.h"
 #include "roomgraph/simulation/world_file.h"
 
 namespace roomgraph {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 struct Arguments {
   std::filesystem::path world, folder;
@@ -22,12 +22,11 @@ struct Arguments {
 
 void simulateWorld(const Arguments& arguments) {
   const World world = readWorld(arguments.world);
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  catchInterrupts();
   std::unique_ptr<Progress> line;
   SimulateOptions options;
   options.seed = arguments.seed;
-  options.interrupted = [] { return interrupted != 0; };
+  options.interrupted = interrupted;
   options.progress = [&](double done, double total) {
     if (!line)
       line = std::make_unique<Progress>(arguments.quiet ? nullptr : &std::cerr, "simulate", "s", total);
@@ -35,11 +34,11 @@ void simulateWorld(const Arguments& arguments) {
   };
   const SimulateResult result = simulate(world, arguments.folder, options);
   if (line) line->finish();
-  std::cout << result.rawlog.string() << ": " << result.seconds << " s, " << result.frames
-            << " RGB-D frames, " << result.scans << " scans, " << result.odometry << " odometry readings, "
-            << result.detections << " detection records\n"
+  std::cout << result.rawlog.string() << ": " << std::setprecision(4) << result.seconds << " s, "
+            << result.frames << " RGB-D frames, " << result.scans << " scans, " << result.odometry
+            << " odometry readings, " << result.detections << " detection records\n"
             << arguments.folder.string() << ": truth of " << result.objects << " objects\n";
-  if (result.interrupted) std::cerr << "roomgraph: interrupted; recording and truth end there\n";
+  if (result.interrupted) throw Interrupted("interrupted: recording and truth end there");
 }
 
 }  // namespace
@@ -55,7 +54,7 @@ void addSimulateCommand(CLI::App& app) {
   command->footer(
       "Example:\n"
       "  roomgraph simulate worlds/lab.json -o data/lab\n"
-      "Ctrl-C ends the recording; what was simulated so far is complete.");
+      "Ctrl-C ends the recording; what was simulated so far is complete, and the exit code is 4.");
   command->callback([arguments] { simulateWorld(*arguments); });
 }
 

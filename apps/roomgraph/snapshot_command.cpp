@@ -2,12 +2,15 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/rendering/snapshot.h"
+#include "run_report.h"
+#include "shared_files.h"
 
 namespace roomgraph {
 namespace {
@@ -27,17 +30,17 @@ SnapshotOptions toOptions(const Arguments& arguments) {
     throw ConfigError("--size " + arguments.size +
                       ": give WIDTHxHEIGHT in pixels, 64 to 8192, as in 1280x960");
   options.title = arguments.title;
+  if (std::filesystem::path(arguments.output).extension() != ".png")
+    throw ConfigError("--output " + arguments.output + ": a picture is a PNG: name it something.png");
   return options;
 }
 
-/// The database that was asked for; else objects.ini beside the map or in the current folder; else none
-/// (grey).
+/// The database that was asked for; else objects.ini beside the map; else the shipped one.
 ObjectDatabase colours(const Arguments& arguments) {
   if (!arguments.objects.empty()) return ObjectDatabase::fromFile(arguments.objects);
-  for (const auto& folder : {std::filesystem::path(arguments.map).parent_path(), std::filesystem::path()})
-    if (std::filesystem::is_regular_file(folder / "objects.ini"))
-      return ObjectDatabase::fromFile(folder / "objects.ini");
-  return {};
+  const auto beside = std::filesystem::path(arguments.map).parent_path() / "objects.ini";
+  return ObjectDatabase::fromFile(std::filesystem::is_regular_file(beside) ? beside
+                                                                           : sharedFile("objects.ini"));
 }
 
 }  // namespace
@@ -52,16 +55,19 @@ void addSnapshotCommand(CLI::App& app) {
       ->check(CLI::IsMember({"top", "orbit", "robot"}))
       ->capture_default_str();
   command->add_option("--size", arguments->size, "WIDTHxHEIGHT, px")->capture_default_str();
-  command->add_option(
-      "--objects", arguments->objects,
-      "Object database with the classes' colours (default: objects.ini beside the map or here)");
+  command->add_option("--objects", arguments->objects,
+                      "Object database with the classes' colours (default: objects.ini beside the map, else "
+                      "the shipped one)");
   command->add_option("--title", arguments->title, "Title; default: the name of the recording");
+  command->footer(
+      "Example:\n  roomgraph snapshot out/lab/map.rgmap -o lab.png --view orbit --size 1920x1080");
   command->callback([arguments] {
-    const SnapshotOptions requested = toOptions(*arguments);
+    SnapshotOptions options = toOptions(*arguments);
     const CSemanticMap map = loadMap(arguments->map);
-    auto options = requested;
     if (options.title.empty()) options.title = map.origin;
     renderSnapshot(map, colours(*arguments), options, arguments->output);
+    std::cout << arguments->output << ": " << options.width << "x" << options.height << " px, "
+              << describeObjects(map.landmarks) << "\n";
   });
 }
 

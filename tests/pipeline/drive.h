@@ -14,7 +14,7 @@ namespace roomgraph::testing {
 
 /// Stages of the shipped object database with the given settings.
 inline std::unique_ptr<Stages> stagesWith(const std::string& config) {
-  return makeStages(Config::fromText(config, "test"), ROOMGRAPH_SOURCE_DIR);
+  return makeStages(Config::fromText(config, "test"), ROOMGRAPH_SOURCE_DIR "/objects.ini");
 }
 
 /// A lap of 12 s through the asymmetric room; the world is the first pose.

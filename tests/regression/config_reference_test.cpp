@@ -31,7 +31,7 @@ TEST(ConfigReference, NamesEveryKeyThatTheProgramKnows) {
 TEST(ShippedConfig, IsAccepted) {
   const Config config = Config::fromFile(kSource / "config.ini");
   EXPECT_NO_THROW(configSchema().check(config));
-  const auto stages = makeStages(config, kSource);
+  const auto stages = makeStages(config, kSource / "objects.ini");
   EXPECT_TRUE(stages->rgbd_odometry && stages->scan_matcher && stages->detector && stages->associator);
   for (const char* name : {"swivel_chair", "sofa", "door", "person"})
     EXPECT_TRUE(stages->database.find(name)) << name;
@@ -39,8 +39,10 @@ TEST(ShippedConfig, IsAccepted) {
 }
 
 TEST(ShippedConfig, EffectiveConfigMakesTheSameStages) {
-  const auto stages = makeStages(Config::fromFile(kSource / "config.ini"), kSource);
-  const auto again = makeStages(Config::fromText(stages->effective_config, "effective"), kSource);
+  const auto stages = makeStages(Config::fromFile(kSource / "config.ini"), kSource / "objects.ini");
+  Config effective = Config::fromText(stages->effective_config, "effective");
+  effective.override("pipeline.objects_file=" + (kSource / "objects.ini").string());
+  const auto again = makeStages(effective, "none");
   EXPECT_EQ(again->effective_config, stages->effective_config);
 }
 

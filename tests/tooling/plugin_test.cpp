@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 // A plug-in outside libs/ is loaded as a shared library and its stage is made by name.
+#include <dlfcn.h>
 #include <gmock/gmock.h>
+
+#include <cstdio>
 
 #include "errors_of.h"
 #include "roomgraph/association/associator.h"
@@ -58,6 +61,13 @@ TEST(Plugin, IsLoadedAndItsStageRuns) {
 
   Config::fromText("[association]\ngate_m = 0.2\n").read("association", *stage);
   EXPECT_FALSE(stage->associate(seen, map)[0].landmark.valid()) << "a smaller gate leaves it new";
+}
+
+TEST(Plugin, ALibraryWithoutStagesIsNone) {
+  Dl_info c_library{};
+  ASSERT_NE(dladdr(reinterpret_cast<void*>(&std::fopen), &c_library), 0);
+  EXPECT_THAT(messageOf<ConfigError>([&] { loadPlugin(c_library.dli_fname); }),
+              HasSubstr(": is a shared library, but registers no stage"));
 }
 
 TEST(Plugin, WhatIsNoSharedLibraryIsAConfigError) {

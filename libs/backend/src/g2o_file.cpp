@@ -3,25 +3,21 @@
 #include "roomgraph/backend/g2o_file.h"
 
 #include <array>
-#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "g2o_convention.h"
 #include "graph_state.h"
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 
 namespace roomgraph {
 namespace {
 
-std::ofstream openForWriting(const std::filesystem::path& file) {
-  std::ofstream out(file);
+// Numbers that are read back as they are.
+std::ostringstream exactText() {
+  std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
   return out;
-}
-
-void finish(std::ofstream& out, const std::filesystem::path& file) {
-  out.flush();
-  if (!out) throw RunError(file.string() + ": cannot be written");
 }
 
 void writeTransform(std::ostream& out, const Pose3& pose) {
@@ -59,7 +55,7 @@ Matrix6d informationOf(const LandmarkFactor& factor) {
 }  // namespace
 
 void FactorGraph::saveG2o(const std::filesystem::path& file) const {
-  std::ofstream out = openForWriting(file);
+  std::ostringstream out = exactText();
   const std::int64_t first_landmark = impl_->poses.empty() ? 0 : impl_->poses.rbegin()->first.value + 1;
   for (const auto& [id, state] : impl_->poses) {
     out << "VERTEX_SE3:QUAT " << id;
@@ -91,11 +87,11 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
       writeUpper<6>(out, informationOf(*sighting));
     }
   }
-  finish(out, file);
+  writeFileAtomically(file, out.str());
 }
 
 void saveG2o(const PlanarGraph& graph, const std::filesystem::path& file) {
-  std::ofstream out = openForWriting(file);
+  std::ostringstream out = exactText();
   for (const auto& [id, pose] : graph.poses) {
     out << "VERTEX_SE2 " << id << ' ' << pose.x << ' ' << pose.y << ' ' << pose.yaw << '\n';
     if (graph.fixed.contains(id)) out << "FIX " << id << '\n';
@@ -105,7 +101,7 @@ void saveG2o(const PlanarGraph& graph, const std::filesystem::path& file) {
     out << "EDGE_SE2 " << edge.a << ' ' << edge.b << ' ' << p.x << ' ' << p.y << ' ' << p.yaw;
     writeUpper<3>(out, edge.information);
   }
-  finish(out, file);
+  writeFileAtomically(file, out.str());
 }
 
 }  // namespace roomgraph

@@ -2,9 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/core/class_registry.h"
 
+#include <dlfcn.h>
 #include <mrpt/system/os.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "roomgraph/core/suggest.h"
 
@@ -14,6 +16,16 @@ namespace {
 std::string withoutNamespace(const std::string& name) {
   const auto colon = name.rfind("::");
   return colon == std::string::npos ? name : name.substr(colon + 2);
+}
+
+// Whether a registered stage lives in this shared library.
+bool holdsStage(const std::filesystem::path& library) {
+  const auto stages = mrpt::rtti::getAllRegisteredClassesChildrenOf(CLASS_ID(Stage));
+  return std::any_of(stages.begin(), stages.end(), [&](const mrpt::rtti::TRuntimeClassId* id) {
+    Dl_info home{};
+    std::error_code error;
+    return dladdr(id, &home) && std::filesystem::equivalent(home.dli_fname, library, error);
+  });
 }
 
 }  // namespace
@@ -44,6 +56,8 @@ void loadPlugin(const std::string& file) {
   std::string error;
   if (!mrpt::system::loadPluginModule(file, error)) throw ConfigError("plug-in " + file + ": " + error);
   mrpt::rtti::registerAllPendingClasses();
+  if (!holdsStage(file))
+    throw ConfigError("plug-in " + file + ": is a shared library, but registers no stage");
 }
 
 }  // namespace roomgraph

@@ -10,6 +10,19 @@
 namespace roomgraph {
 namespace {
 
+std::string inFolder(const std::filesystem::path& folder, const std::string& file) {
+  return file.empty() ? file : (folder / file).lexically_normal().string();
+}
+
+void completeFiles(const std::filesystem::path& folder, std::string& file) {
+  file = inFolder(folder, file);
+}
+void completeFiles(const std::filesystem::path& folder, std::vector<std::string>& files) {
+  for (auto& file : files) file = inFolder(folder, file);
+}
+template <class Number>
+void completeFiles(const std::filesystem::path&, Number&) {}
+
 class Reader : public ParameterVisitor {
  public:
   Reader(const std::vector<IniEntry>& entries, const std::string& section)
@@ -33,6 +46,7 @@ class Reader : public ParameterVisitor {
       if (entry.section != section_ || entry.key != key) continue;
       try {
         parseParameter(entry.value, info, value);
+        if (info.file) completeFiles(entry.folder, value);
       } catch (const std::invalid_argument& allowed) {
         throw ConfigError(entry.place + ": [" + section_ + "] " + entry.key + " = '" + entry.value +
                           "' is not allowed; allowed: " + allowed.what());
@@ -77,7 +91,7 @@ void Config::override(const std::string& assignment) {
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 >= equals)
     throw ConfigError("--set " + assignment + ": expected section.key=value");
   IniEntry entry{assignment.substr(0, dot), assignment.substr(dot + 1, equals - dot - 1),
-                 assignment.substr(equals + 1), "--set"};
+                 assignment.substr(equals + 1), "--set", std::filesystem::current_path()};
   std::erase_if(entries_,
                 [&](const IniEntry& e) { return e.section == entry.section && e.key == entry.key; });
   entries_.push_back(std::move(entry));

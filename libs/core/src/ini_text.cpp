@@ -37,7 +37,8 @@ std::string withoutComment(const std::string& line) {
 std::vector<IniEntry> parseIni(const std::string& text, const std::string& name) {
   std::vector<IniEntry> entries;
   std::map<std::pair<std::string, std::string>, std::string> seen;
-  std::istringstream stream(text);
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // put there by editors on Windows
+  std::istringstream stream(text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text);
   std::string section;
   int number = 0;
   for (std::string raw; std::getline(stream, raw);) {
@@ -62,11 +63,14 @@ std::vector<IniEntry> parseIni(const std::string& text, const std::string& name)
 }
 
 std::vector<IniEntry> parseIniFile(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) throw InputError(file.string() + ": is a folder, not a file");
   std::ifstream in(file);
   if (!in) throw InputError(file.string() + ": cannot be opened");
   std::ostringstream text;
   text << in.rdbuf();
-  return parseIni(text.str(), file.string());
+  auto entries = parseIni(text.str(), file.string());
+  for (auto& entry : entries) entry.folder = std::filesystem::absolute(file).parent_path();
+  return entries;
 }
 
 }  // namespace roomgraph

@@ -3,23 +3,19 @@
 #include "roomgraph/datasets/rawlog_copy.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <string_view>
 
 #include "image_folder.h"
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/rawlog_writer.h"
 
 namespace roomgraph {
 namespace {
@@ -54,25 +50,21 @@ void linkImages(const fs::path& input, const fs::path& output) {
                    error.message());
 }
 
+// Refused before the copy gets its file: it would be the input's.
+const fs::path& notTheInput(const fs::path& input, const fs::path& output) {
+  std::error_code error;
+  if (fs::equivalent(input, output, error))
+    throw RunError(output.string() + ": is the input; give the copy another name");
+  return output;
+}
+
 }  // namespace
 
 struct RawlogCopy::Impl {
-  Impl(const fs::path& input, const fs::path& output) : source(input), name(output.string()) {
-    std::error_code error;
-    if (fs::equivalent(input, output, error))
-      throw RunError(name + ": is the input; give the copy another name");
-    file = gzopen(name.c_str(), "wb1");
-    if (!file) throw RunError(name + ": cannot be written: " + std::strerror(errno));
-    linkImages(input, output);
-  }
-  ~Impl() {
-    if (file) gzclose(file);
+  Impl(const fs::path& in, const fs::path& out) : source(in), writer(notTheInput(in, out)) {
+    linkImages(in, out);
   }
 
-  void write(std::string_view bytes) {
-    if (!bytes.empty() && gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size())) <= 0)
-      throw RunError(name + ": writing failed (disk full?)");
-  }
   // The next record that is to be copied, in `waiting`; false at the end of the input.
   bool fill() {
     while (waiting.empty()) {
@@ -86,14 +78,13 @@ struct RawlogCopy::Impl {
   }
   void copyUntil(double t) {
     while (fill() && waiting_t < t) {
-      write(waiting);
+      writer.write(waiting);
       waiting.clear();
     }
   }
 
   RecordSource source;
-  std::string name;
-  gzFile file = nullptr;
+  RawlogWriter writer;
   std::string waiting;  ///< a record that was read and not yet written
   double waiting_t = 0;
 };
@@ -101,28 +92,16 @@ struct RawlogCopy::Impl {
 RawlogCopy::RawlogCopy(const fs::path& input, const fs::path& output)
     : impl_(std::make_unique<Impl>(input, output)) {}
 
-RawlogCopy::~RawlogCopy() {
-  try {
-    finish();
-  } catch (const std::exception&) {
-    // On the way out of another error, which is the one to be reported.
-  }
-}
+RawlogCopy::~RawlogCopy() = default;
 
 void RawlogCopy::insert(const CObservationDetections& detections) {
   impl_->copyUntil(mrpt::Clock::toDouble(detections.timestamp));
-  mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream) << detections;
-  impl_->write({static_cast<const char*>(stream.getRawBufferData()),
-                static_cast<std::size_t>(stream.getTotalBytesCount())});
+  impl_->writer.write(detections);
 }
 
 void RawlogCopy::finish() {
-  if (!impl_->file) return;
   impl_->copyUntil(std::numeric_limits<double>::infinity());
-  const int code = gzclose(impl_->file);
-  impl_->file = nullptr;
-  if (code != Z_OK) throw RunError(impl_->name + ": writing failed (disk full?)");
+  impl_->writer.finish();
 }
 
 }  // namespace roomgraph

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 
 namespace roomgraph {
 
@@ -26,7 +26,7 @@ fs::path findGroundTruth(const fs::path& folder) {
 void copyGroundTruth(const fs::path& from, const fs::path& to, bool mirrored,
                      std::optional<double> frame_rate_hz) {
   std::ifstream in(from);
-  std::ofstream out(to);
+  std::ostringstream out;
   for (std::string line; std::getline(in, line);) {
     double t, x, y, z, qx, qy, qz, qw;
     std::istringstream words(line);
@@ -44,8 +44,7 @@ void copyGroundTruth(const fs::path& from, const fs::path& to, bool mirrored,
                   sign * qx, qy, sign * qz, qw);
     out << text;
   }
-  out.close();
-  if (!out) throw RunError(to.string() + ": cannot be written");
+  writeFileAtomically(to, out.str());
 }
 
 }  // namespace roomgraph

@@ -3,15 +3,16 @@
 #include "roomgraph/datasets/tum_import.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <mrpt/serialization/CArchive.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
+#include "roomgraph/observations/rawlog_writer.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
 #include "tum_lists.h"
@@ -39,13 +40,17 @@ class Writer {
  public:
   Writer(const fs::path& rawlog, const TumCamera& camera, const TumImportOptions& options)
       : rawlog_(rawlog), camera_(camera), options_(options) {
-    if (!stream_.open(rawlog.string())) throw RunError(rawlog.string() + ": cannot be written");
-    if (options.external_images) {
-      images_ = rawlog.parent_path() / (rawlog.stem().string() + "_Images");
-      std::error_code error;
-      fs::create_directories(images_, error);
-      if (error) throw RunError(images_.string() + ": cannot be made: " + error.message());
-    }
+    if (!options.external_images) return;
+    images_ = rawlog.parent_path() / (rawlog.stem().string() + "_Images");
+    pending_images_ = images_.string() + ".unfinished";
+    std::error_code error;
+    fs::remove_all(pending_images_, error);
+    fs::create_directories(pending_images_, error);
+    if (error) throw RunError(pending_images_.string() + ": cannot be made: " + error.message());
+  }
+  ~Writer() {
+    std::error_code ignored;
+    if (!pending_images_.empty()) fs::remove_all(pending_images_, ignored);
   }
 
   /// Empty, or why the pair was left out. Throws InputError when the images do not fit the camera.
@@ -64,8 +69,16 @@ class Writer {
     const double rate = options_.frame_rate_hz.value_or(1);
     record.timestamp = mrpt::Clock::fromDouble(pair.t / rate);
     if (options_.external_images) storeOutside(record, pair);
-    mrpt::serialization::archiveFrom(stream_) << record;
+    rawlog_.write(record);
     return "";
+  }
+  /// Puts images and rawlog into their places.
+  void finish() {
+    std::error_code error;
+    if (!images_.empty()) fs::remove_all(images_, error);
+    if (!images_.empty()) fs::rename(pending_images_, images_, error);
+    if (error) throw RunError("cannot write " + images_.string() + ": " + error.message());
+    rawlog_.finish();
   }
   const PinholeCamera& camera() const { return camera_.camera; }
 
@@ -99,16 +112,21 @@ class Writer {
     const std::string name = options_.label + stamp;
     const std::string color = name + "_rgb" + pair.color.extension().string();
     std::error_code error;
-    fs::copy_file(pair.color, images_ / color, fs::copy_options::overwrite_existing, error);
-    if (error) throw RunError((images_ / color).string() + ": cannot be written: " + error.message());
+    fs::copy_file(pair.color, pending_images_ / color, fs::copy_options::overwrite_existing, error);
+    if (error) throw RunError("cannot write " + (pending_images_ / color).string() + ": " + error.message());
     record.intensityImage.setExternalStorage(color);
-    record.rangeImage_convertToExternalStorage(name + "_depth.bin", images_.string() + "/");
+    const std::string depth = name + "_depth.bin";
+    const auto bytes = record.rangeImage.size() * sizeof(std::uint16_t);
+    record.rangeImage_convertToExternalStorage(depth, pending_images_.string() + "/");
+    // MRPT says nothing about a full disk.
+    if (fs::file_size(pending_images_ / depth, error) < bytes || error)
+      failToWrite(pending_images_ / depth, ENOSPC);
   }
 
-  fs::path rawlog_, images_;
+  RawlogWriter rawlog_;
+  fs::path images_, pending_images_;  ///< empty: images are in the rawlog
   TumCamera camera_;
   const TumImportOptions& options_;
-  mrpt::io::CFileGZOutputStream stream_;
 };
 
 bool lookLikeFrameNumbers(const std::vector<TumPair>& pairs) {
@@ -147,21 +165,16 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
         "fy < 0: |fy| is used and the ground truth is mirrored in y to a right-handed world");
   if (!options.frame_rate_hz && lookLikeFrameNumbers(pairs))
     result.warnings.push_back("the time stamps look like frame numbers: give the frame rate (ICL-NUIM: 30)");
-  try {
-    Writer writer(rawlog, camera, options);
-    writeAll(writer, pairs, result, progress);
-    if (result.written == 0)
-      throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
-                       " pairs can be used; " + result.warnings.back());
-  } catch (const std::exception&) {
-    std::error_code ignored;
-    fs::remove(rawlog, ignored);
-    throw;
-  }
+  Writer writer(rawlog, camera, options);
+  writeAll(writer, pairs, result, progress);
+  if (result.written == 0)
+    throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
+                     " pairs can be used; " + result.warnings.back());
   if (const auto truth = findGroundTruth(folder); !truth.empty()) {
     result.ground_truth = rawlog.parent_path() / (rawlog.stem().string() + ".groundtruth.txt");
     copyGroundTruth(truth, result.ground_truth, camera.mirrored, options.frame_rate_hz);
   }
+  writer.finish();
   return result;
 }
 

@@ -53,8 +53,9 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
   v.add("models", models_,
         {.doc = "network files, each path[:format] with format auto, nanodet, yolox, darknet or "
                 "ade20k; all run on each image and their boxes are merged; Darknet .weights need "
-                "the .cfg of the same name beside them"});
-  v.add("labels_file", labels_file_, {.doc = "one label per line; empty: labels.txt beside each network"});
+                "the .cfg of the same name beside them",
+         .file = true});
+  v.add("labels_file", labels_file_, {.doc = "one label per line; empty: labels.txt beside each network", .file = true});
   v.add("segmentation_labels", segmentation_labels_,
         {.doc = "labels taken from a segmentation network; box detectors are better at the others"});
   v.add("input_size_px", input_size_px_,

@@ -19,7 +19,8 @@ IMPLEMENTS_MRPT_OBJECT(RecordedDetector, Detector, roomgraph)
 void RecordedDetector::declareParameters(ParameterVisitor& v) {
   v.add("file", file_,
         {.doc = "recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`; empty: "
-                "only those inside the rawlog"});
+                "only those inside the rawlog",
+         .file = true});
   v.add("tolerance_s", tolerance_s_,
         {.doc = "largest time between a frame and its record", .unit = "s", .min = 0, .max = 10});
   v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0, .max = 1});

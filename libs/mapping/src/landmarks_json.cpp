@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roomgraph/core/errors.h"
-#include "roomgraph/mapping/atomic_file.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {

@@ -7,7 +7,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include "roomgraph/core/errors.h"
-#include "roomgraph/mapping/atomic_file.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/observations/register_classes.h"
 

@@ -6,8 +6,11 @@ namespace roomgraph {
 
 void GeneralOptions::declareParameters(ParameterVisitor& v) {
   v.add("plugins", plugins,
-        {.doc = "shared libraries with further stages, loaded before the stages are made"});
-  v.add("objects_file", objects_file, {.doc = "object database; relative to the config file"});
+        {.doc = "shared libraries with further stages, loaded before the stages are made", .file = true});
+  v.add("objects_file", objects_file,
+        {.doc = "object database; empty: objects.ini beside the config file, else the one shipped with the "
+                "program",
+         .file = true});
   v.add("lookahead_s", lookahead_s,
         {.doc = "records are put in order of time within this span", .unit = "s", .min = 0, .max = 10});
 }

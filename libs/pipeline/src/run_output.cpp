@@ -6,8 +6,8 @@
 
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
@@ -71,29 +71,53 @@ double peakMemoryMb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
-                         const std::map<std::string, std::string>& facts) {
-  ordered_json summary;
-  for (const auto& [key, value] : facts) summary[key] = value;
+ordered_json replayJson(const ReplayState& replayed) {
+  return {{"from_s", replayed.records ? replayed.first_t - replayed.start_t : 0},
+          {"to_s", replayed.records ? replayed.last_t - replayed.start_t : 0},
+          {"records", replayed.records},
+          {"share_of_span", replayed.interrupted ? replayed.share : 1}};
+}
+
+ordered_json timingsJson(const StageTimes& times) {
+  ordered_json out = ordered_json::object();
+  for (const auto& [stage, spent] : times.totals())
+    out[stage] = {{"calls", spent.calls},
+                  {"mean_ms", spent.total_ms / spent.calls},
+                  {"max_ms", spent.max_ms},
+                  {"total_ms", spent.total_ms}};
+  return out;
+}
+
+ordered_json countsJson(const SlamResult& result) {
   const auto& counts = result.counts;
-  summary["counts"] = {{"frames", counts.frames},
-                       {"frames_lost", counts.frames_lost},
-                       {"scans", counts.scans},
-                       {"scans_unmatched", counts.scans_unmatched},
-                       {"odometry", counts.odometry},
-                       {"recorded_detections", counts.detections},
-                       {"key_poses", counts.key_poses},
-                       {"loop_closures", counts.loop_closures},
-                       {"landmarks", result.map.landmarks.size()}};
-  summary["reasons"] = counts.reasons;
+  return {{"frames", counts.frames},
+          {"frames_lost", counts.frames_lost},
+          {"scans", counts.scans},
+          {"scans_unmatched", counts.scans_unmatched},
+          {"odometry", counts.odometry},
+          {"recorded_detections", counts.detections},
+          {"key_poses", counts.key_poses},
+          {"loop_closures", counts.loop_closures},
+          {"landmarks", result.map.landmarks.size()}};
+}
+
+ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
+                         const ReplayState& replayed, const RunOrigin& origin) {
+  ordered_json summary{{"input", origin.input},
+                       {"version", origin.version},
+                       {"revision", origin.revision},
+                       {"command", origin.command},
+                       {"interrupted", replayed.interrupted ? "yes" : "no"},
+                       {"replay", replayJson(replayed)},
+                       {"counts", countsJson(result)}};
+  if (result.earlier)
+    summary["earlier_map"] = {{"recognised", result.earlier->recognised},
+                              {"objects_in_common", result.earlier->common}};
+  summary["reasons"] = result.counts.reasons;
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;
-  for (const auto& [stage, spent] : slam.times().totals())
-    summary["timings"][stage] = {{"calls", spent.calls},
-                                 {"mean_ms", spent.total_ms / spent.calls},
-                                 {"max_ms", spent.max_ms},
-                                 {"total_ms", spent.total_ms}};
+  summary["timings"] = timingsJson(slam.times());
   summary["peak_memory_mb"] = peakMemoryMb();
   return summary;
 }
@@ -111,50 +135,48 @@ void writeTum(std::ostream& out, const std::vector<StampedPose>& poses) {
   for (const auto& stamped : poses) writeStamped(out, stamped.t, stamped.pose);
 }
 
-RunOutput::RunOutput(const std::filesystem::path& folder) : folder_(folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw RunError("output folder " + folder_.string() + ": cannot be made: " + error.message());
-  live_ = open("live.tum");
-  detections_ = open("detections.jsonl");
-  associations_ = open("associations_live.jsonl");
-}
-
-std::ofstream RunOutput::open(const std::string& name) const {
-  std::ofstream out(folder_ / name);
-  if (!out) throw RunError("output folder " + folder_.string() + ": " + name + " cannot be written");
-  return out;
-}
+RunOutput::RunOutput(const std::filesystem::path& folder)
+    : files_(folder, {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
+                      "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "map.pgm", "map.yaml",
+                      "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "snapshot.png",
+                      "summary.json"}),
+      live_(files_.pending("live.tum")),
+      detections_(files_.pending("detections.jsonl")),
+      associations_(files_.pending("associations_live.jsonl")) {}
 
 void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   writeStamped(live_, report.t, report.world_from_robot);
   if (report.detector_ran || report.boxes_carried) detections_ << detectionsJson(report) << '\n';
   if (!report.decisions.empty()) associations_ << associationsJson(report.t, report.decisions) << '\n';
+  for (OutputFile* file : {&live_, &detections_, &associations_}) file->check();
+}
+
+void RunOutput::write(const std::string& name, const std::string& text) const {
+  writeFileAtomically(files_.pending(name), text);
 }
 
 void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
-                            const std::map<std::string, std::string>& facts) {
-  live_.flush();
-  detections_.flush();
-  associations_.flush();
-  auto robot = open("trajectory.tum");
+                            const ReplayState& replayed, const RunOrigin& origin) {
+  for (OutputFile* file : {&live_, &detections_, &associations_}) file->finish();
+  std::ostringstream robot, camera, associations, timings;
   writeTum(robot, result.world_from_robot);
-  auto camera = open("trajectory_camera.tum");
   writeTum(camera, result.world_from_camera);
-  auto associations = open("associations.jsonl");
   for (const auto& frame : slam.objects().frames())
     associations << associationsJson(frame.t, frame.decisions) << '\n';
-  saveLandmarksJson(result.map.landmarks, folder_ / "landmarks.json");
-  if (result.map.occupancy) saveOccupancyRos(*result.map.occupancy, folder_ / "map");
-  saveMap(result.map, folder_ / "map.rgmap");
-  slam.graph().saveG2o(folder_ / "graph.g2o");
-  open("config.ini") << slam.stages().effective_config;
-  auto timings = open("timings.csv");
   writeTimings(timings, slam.times());
-  open("summary.json") << summaryJson(slam, result, read, facts).dump(2) << '\n';
-  if (!live_ || !detections_ || !associations_ || !associations || !robot || !camera || !timings)
-    throw RunError("output folder " + folder_.string() + ": writing failed (disk full?)");
+  write("trajectory.tum", robot.str());
+  write("trajectory_camera.tum", camera.str());
+  write("associations.jsonl", associations.str());
+  saveLandmarksJson(result.map.landmarks, files_.pending("landmarks.json"));
+  if (result.map.occupancy)
+    saveOccupancyRos(*result.map.occupancy, files_.pending("map.pgm").replace_extension());
+  saveMap(result.map, files_.pending("map.rgmap"));
+  slam.graph().saveG2o(files_.pending("graph.g2o"));
+  write("config.ini", slam.stages().effective_config);
+  write("objects.ini", slam.stages().objects);
+  write("timings.csv", timings.str());
+  write("summary.json", summaryJson(slam, result, read, replayed, origin).dump(2) + "\n");
 }
 
 }  // namespace roomgraph

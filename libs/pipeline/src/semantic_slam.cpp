@@ -277,8 +277,6 @@ void SemanticSlam::refine() {
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round)
     estimator_.optimizeAll(objects_);
-  if (map_ && !anchored_)
-    ++counts_.reasons["map: its objects were not recognised; results are in the run's own frame"];
 }
 
 SlamResult SemanticSlam::collect() {
@@ -294,7 +292,13 @@ SlamResult SemanticSlam::collect() {
     for (auto& landmark : result.map.landmarks)
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
-  if (anchored_) result.map.landmarks = joined(result.map.landmarks, map_->map().landmarks);
+  if (map_) result.earlier = EarlierMap{};
+  if (anchored_) {
+    const auto& earlier = map_->map().landmarks;
+    const std::size_t apart = result.map.landmarks.size() + earlier.size();
+    result.map.landmarks = joined(result.map.landmarks, earlier);
+    result.earlier = EarlierMap{true, static_cast<int>(apart - result.map.landmarks.size())};
+  }
   Trajectory dense;
   for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));

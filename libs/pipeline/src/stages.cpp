@@ -2,7 +2,9 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/stages.h"
 
+#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
@@ -42,6 +44,11 @@ class Loader {
 
   void read(const std::string& section, Configurable& target) {
     config_.read(section, target);
+    note(section, target);
+  }
+
+  /// The parameters of the target as they are now are effective.
+  void note(const std::string& section, Configurable& target) {
     std::string& text = sectionText(section);
     for (const auto& [key, value] : currentValues(target)) text += key + " = " + value + "\n";
   }
@@ -102,6 +109,12 @@ void makeObjectStages(Stages& stages, Loader& loader) {
   loader.read("object_loop_closing", stages.object_loops);
 }
 
+std::string contentOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
 void prepareAll(Stages& stages) {
   for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
                                                     stages.scan_loop_closer.get(), stages.detector.get(),
@@ -122,15 +135,20 @@ void registerAllClasses() {
   association::registerClasses();
 }
 
-std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& folder) {
+std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& objects_file) {
   registerAllClasses();
   auto stages = std::make_unique<Stages>();
+  GeneralOptions& general = stages->general;
   Loader loader(config);
-  loader.read("pipeline", stages->general);
-  for (const auto& plugin : stages->general.plugins)
-    loadPlugin(std::filesystem::path(plugin).is_absolute() ? plugin : (folder / plugin).string());
+  config.read("pipeline", general);
+  for (const auto& plugin : general.plugins) loadPlugin(plugin);
   configSchema().check(config);
-  stages->database = ObjectDatabase::fromFile(folder / stages->general.objects_file);
+  const std::filesystem::path objects =
+      general.objects_file.empty() ? objects_file : std::filesystem::path(general.objects_file);
+  stages->database = ObjectDatabase::fromFile(objects);
+  stages->objects = contentOf(objects);
+  general.objects_file = "objects.ini";
+  loader.note("pipeline", general);
   makeFrontEnds(*stages, loader);
   makeObjectStages(*stages, loader);
   loader.read("backend", stages->backend);

@@ -9,7 +9,7 @@
 
 #include "overlay.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/mapping/atomic_file.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/rendering/scene.h"
 
 namespace roomgraph {
@@ -26,11 +26,9 @@ cv::Mat render(const mrpt::opengl::COpenGLScene& scene, const SnapshotOptions& o
                                       static_cast<unsigned>(factor * options.height));
     renderer.getCamera(scene) = scene.getViewport()->getCamera();
     renderer.render_RGB(scene, image);
-  } catch (const std::exception& error) {
-    const std::string what = error.what();
-    throw RunError(
-        "no off-screen renderer (EGL with software OpenGL: packages libegl1 and libgl1-mesa-dri): " +
-        what.substr(0, what.find("Call stack")));
+  } catch (const std::exception&) {
+    throw NoRenderer(
+        "no off-screen renderer: it needs EGL with (software) OpenGL, packages libegl1 and libgl1-mesa-dri");
   }
   cv::Mat small;
   cv::resize(image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), small, {options.width, options.height}, 0, 0,

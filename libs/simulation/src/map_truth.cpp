@@ -48,7 +48,8 @@ void fill(TruthGrid& grid) {
 
 }  // namespace
 
-void writeMapTruth(const std::filesystem::path& folder, const std::vector<Segment>& outlines) {
+void writeMapTruth(const std::filesystem::path& pgm, const std::filesystem::path& yaml,
+                   const std::vector<Segment>& outlines) {
   TruthGrid grid = gridAround(outlines);
   for (const auto& segment : outlines) {
     const int steps = 1 + static_cast<int>((segment.b - segment.a).norm() / (kCell_m / 10));
@@ -56,17 +57,17 @@ void writeMapTruth(const std::filesystem::path& folder, const std::vector<Segmen
       grid.cells.at<uchar>(grid.cellOf(segment.a + (segment.b - segment.a) * i / steps)) = kOccupied;
   }
   fill(grid);
-  TruthFile picture(folder / "map_truth.pgm");
-  picture.stream() << "P5\n" << grid.cells.cols << " " << grid.cells.rows << "\n255\n";
+  TruthFile picture(pgm);
+  picture << "P5\n" << grid.cells.cols << " " << grid.cells.rows << "\n255\n";
   for (int row = grid.cells.rows - 1; row >= 0; --row)
-    picture.stream().write(reinterpret_cast<const char*>(grid.cells.ptr(row)), grid.cells.cols);
-  picture.close();
-  TruthFile text(folder / "map_truth.yaml");
+    picture.write(reinterpret_cast<const char*>(grid.cells.ptr(row)), grid.cells.cols);
+  picture.finish();
+  TruthFile text(yaml);
   text.line(
       "image: map_truth.pgm\nresolution: %.3f\norigin: [%.3f, %.3f, 0.0]\nnegate: 0\noccupied_thresh: "
       "0.65\nfree_thresh: 0.196",
       kCell_m, grid.origin.x(), grid.origin.y());
-  text.close();
+  text.finish();
 }
 
 }  // namespace roomgraph

@@ -3,13 +3,12 @@
 #include "roomgraph/simulation/simulate.h"
 
 #include <mrpt/img/CImage.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/serialization/CArchive.h>
 #include <tbb/task_group.h>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_folder.h"
+#include "roomgraph/observations/rawlog_writer.h"
 #include "roomgraph/simulation/color_renderer.h"
 #include "roomgraph/simulation/scene.h"
 #include "truth_files.h"
@@ -70,42 +69,39 @@ class Simulation {
   Random random(Stream stream, int index = 0) const {
     return Random(options_.seed, stream, static_cast<std::uint64_t>(index));
   }
-  template <class Observation>
-  void write(const Observation& observation) {
-    mrpt::serialization::archiveFrom(stream_) << observation;
-  }
 
   const World& world_;
-  std::filesystem::path folder_;
+  OutputFolder folder_;
   const SimulateOptions& options_;
   Scene scene_;
   std::unique_ptr<ColorRenderer> renderer_;
   std::unique_ptr<LidarCaster> caster_;
   std::vector<Pose2> odometry_;
-  mrpt::io::CFileGZOutputStream stream_;
+  RawlogWriter rawlog_;
   TruthFile camera_truth_, robot_truth_, odometry_truth_, boxes_, persons_;
   Clock frames_, scans_, readings_;
   SimulateResult result_;
 };
 
-std::filesystem::path made(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw RunError(folder.string() + ": cannot be made: " + error.message());
-  return folder;
+// objects.json is the last to be put into place.
+std::vector<std::string> fileNames(const World& world) {
+  return {world.name + ".rawlog", "groundtruth.txt", "groundtruth_robot.txt", "odometry.txt",
+          "boxes.jsonl",          "persons.txt",     "calibration.json",      "map_truth.pgm",
+          "map_truth.yaml",       "objects.json"};
 }
 
 Simulation::Simulation(const World& world, const std::filesystem::path& folder,
                        const SimulateOptions& options)
     : world_(world),
-      folder_(made(folder)),
+      folder_(folder, fileNames(world)),
       options_(options),
       scene_(world),
-      camera_truth_(folder / "groundtruth.txt"),
-      robot_truth_(folder / "groundtruth_robot.txt"),
-      odometry_truth_(folder / "odometry.txt"),
-      boxes_(folder / "boxes.jsonl"),
-      persons_(folder / "persons.txt") {
+      rawlog_(folder_.pending(world.name + ".rawlog")),
+      camera_truth_(folder_.pending("groundtruth.txt")),
+      robot_truth_(folder_.pending("groundtruth_robot.txt")),
+      odometry_truth_(folder_.pending("odometry.txt")),
+      boxes_(folder_.pending("boxes.jsonl")),
+      persons_(folder_.pending("persons.txt")) {
   if (world.camera) {
     frames_.rate_hz = world.camera->rate_hz;
     renderer_ = std::make_unique<ColorRenderer>(scene_, world.camera->model);
@@ -117,10 +113,8 @@ Simulation::Simulation(const World& world, const std::filesystem::path& folder,
     caster_ = std::make_unique<LidarCaster>(scene_, world.lidar->at_m.z());
   }
   if (world.odometry) prepareOdometry();
-  result_.rawlog = folder_ / (world.name + ".rawlog");
+  result_.rawlog = folder / (world.name + ".rawlog");
   result_.objects = static_cast<int>(scene_.objects().size());
-  if (!stream_.open(result_.rawlog.string(), 1))
-    throw RunError(result_.rawlog.string() + ": cannot be written");
   camera_truth_.line(
       "# camera optical frame (x right, y down, z forward) in the world\n# timestamp tx ty tz qx qy qz qw");
   robot_truth_.line(
@@ -170,7 +164,7 @@ void Simulation::frame(double t) {
   for (int v = 0; v < depth.rows; ++v)
     for (int u = 0; u < depth.cols; ++u) record.rangeImage(v, u) = depth.at<std::uint16_t>(v, u);
   record.cameraParams = record.cameraParamsIntensity = toMrpt(spec.model);
-  write(record);
+  rawlog_.write(record);
 
   if (world_.detections) {
     auto found = measureDetections(exact.views, scene_, spec.model, *world_.detections,
@@ -178,7 +172,7 @@ void Simulation::frame(double t) {
     found.timestamp = record.timestamp;
     found.sensorLabel = "DETECTIONS";
     found.image_label = record.sensorLabel;
-    write(found);
+    rawlog_.write(found);
     ++result_.detections;
   }
   writePose(camera_truth_, kStart + t, world_from_camera);
@@ -197,7 +191,7 @@ void Simulation::scan(double t) {
   auto record = measureScan(distances, spec, random(kLidarStream, scans_.count));
   record.timestamp = stamp(t);
   record.sensorLabel = "LIDAR";
-  write(record);
+  rawlog_.write(record);
   writePose(robot_truth_, kStart + t, scene_.worldFromRobot(t));
   ++scans_.count;
 }
@@ -208,7 +202,7 @@ void Simulation::odometry(double t) {
   record.timestamp = stamp(t);
   record.sensorLabel = "ODOMETRY";
   record.odometry = {pose.x, pose.y, pose.yaw};
-  write(record);
+  rawlog_.write(record);
   odometry_truth_.line("%.3f %.5f %.5f %.6f", kStart + t, pose.x, pose.y, pose.yaw);
   ++readings_.count;
 }
@@ -234,12 +228,14 @@ SimulateResult Simulation::run() {
 }
 
 void Simulation::finish() {
-  stream_.close();
-  for (auto* file : {&camera_truth_, &robot_truth_, &odometry_truth_, &boxes_, &persons_}) file->close();
-  writeObjects(folder_ / "objects.json", scene_);
-  writeCalibration(folder_ / "calibration.json", world_, scene_);
+  rawlog_.finish();
+  for (auto* file : {&camera_truth_, &robot_truth_, &odometry_truth_, &boxes_, &persons_}) file->finish();
+  writeObjects(folder_.pending("objects.json"), scene_);
+  writeCalibration(folder_.pending("calibration.json"), world_, scene_);
   const double height = world_.lidar ? world_.lidar->at_m.z() : LidarSpec{}.at_m.z();
-  writeMapTruth(folder_, LidarCaster(scene_, height).fixedOutlines());
+  writeMapTruth(folder_.pending("map_truth.pgm"), folder_.pending("map_truth.yaml"),
+                LidarCaster(scene_, height).fixedOutlines());
+  folder_.publish();
   result_.frames = frames_.count;
   result_.scans = scans_.count;
   result_.odometry = readings_.count;

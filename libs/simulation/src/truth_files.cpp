@@ -29,22 +29,13 @@ Json list(const cv::Rect& box) {
 
 }  // namespace
 
-TruthFile::TruthFile(std::filesystem::path file) : file_(std::move(file)), out_(file_) {
-  if (!out_) throw RunError(file_.string() + ": cannot be written");
-}
-
 void TruthFile::line(const char* format, ...) {
   char text[512];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
-  out_ << text << "\n";
-}
-
-void TruthFile::close() {
-  out_.close();
-  if (!out_) throw RunError(file_.string() + ": cannot be written completely");
+  *this << text << "\n";
 }
 
 void writePose(TruthFile& file, double t, const Pose3& pose) {
@@ -71,7 +62,7 @@ void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectVi
   }
   char stamp[32];
   std::snprintf(stamp, sizeof stamp, "%.3f", t);
-  file.stream() << "{\"frame\":" << frame << ",\"t\":" << stamp << ",\"objects\":" << objects.dump() << "}\n";
+  file << "{\"frame\":" << frame << ",\"t\":" << stamp << ",\"objects\":" << objects.dump() << "}\n";
 }
 
 void writeObjects(const std::filesystem::path& file, const Scene& scene) {
@@ -96,10 +87,9 @@ void writeObjects(const std::filesystem::path& file, const Scene& scene) {
     objects.push_back(std::move(item));
   }
   TruthFile out(file);
-  out.stream() << Json{{"frame", "world: z up, origin at the robot's first pose"}, {"objects", objects}}.dump(
-                      1)
-               << "\n";
-  out.close();
+  out << Json{{"frame", "world: z up, origin at the robot's first pose"}, {"objects", objects}}.dump(1)
+      << "\n";
+  out.finish();
 }
 
 void writeCalibration(const std::filesystem::path& file, const World& world, const Scene& scene) {
@@ -139,8 +129,8 @@ void writeCalibration(const std::filesystem::path& file, const World& world, con
   if (world.robot) out["robot"] = {{"radius", world.robot->radius_m}, {"drive", "differential"}};
   if (world.odometry) out["odometry_rate_hz"] = world.odometry->rate_hz;
   TruthFile writer(file);
-  writer.stream() << out.dump(1) << "\n";
-  writer.close();
+  writer << out.dump(1) << "\n";
+  writer.finish();
 }
 
 }  // namespace roomgraph

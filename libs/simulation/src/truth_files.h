@@ -3,26 +3,19 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/simulation/id_raster.h"
 #include "roomgraph/simulation/scene.h"
 #include "roomgraph/simulation/sensors.h"
 
 namespace roomgraph {
 
-/// Text file that is checked when closed. Throws RunError when it cannot be written.
-class TruthFile {
+class TruthFile : public OutputFile {
  public:
-  explicit TruthFile(std::filesystem::path file);
+  using OutputFile::OutputFile;
   /// printf-like line.
   void line(const char* format, ...) __attribute__((format(printf, 2, 3)));
-  std::ostream& stream() { return out_; }
-  void close();
-
- private:
-  std::filesystem::path file_;
-  std::ofstream out_;
 };
 
 /// One line "t tx ty tz qx qy qz qw".
@@ -32,7 +25,8 @@ void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectVi
                 const Scene& scene);
 void writeObjects(const std::filesystem::path& file, const Scene& scene);
 void writeCalibration(const std::filesystem::path& file, const World& world, const Scene& scene);
-/// map_truth.pgm and .yaml: outlines at the lidar's height occupied, what can be reached from the start free.
-void writeMapTruth(const std::filesystem::path& folder, const std::vector<Segment>& outlines);
+/// A picture and its yaml: outlines at the lidar's height occupied, what can be reached from the start free.
+void writeMapTruth(const std::filesystem::path& pgm, const std::filesystem::path& yaml,
+                   const std::vector<Segment>& outlines);
 
 }  // namespace roomgraph

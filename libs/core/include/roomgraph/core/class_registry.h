@@ -26,7 +26,8 @@ std::shared_ptr<Interface> createStage(const std::string& name, const std::strin
       createByName(name, &Interface::GetRuntimeClassIdStatic(), asked_by));
 }
 
-/// Loads a shared library whose initialiser registers classes. Throws ConfigError with the loader's message.
+/// Loads a shared library whose initialiser registers stages. Throws ConfigError with the loader's message,
+/// or when there is no stage in it.
 void loadPlugin(const std::string& file);
 
 }  // namespace roomgraph

@@ -20,11 +20,12 @@ class Config {
   static Config fromFile(const std::filesystem::path& file);
   static Config fromText(const std::string& text, const std::string& name = "config");
 
-  /// Applies "section.key=value" as given to --set. Throws ConfigError when it does not have that form.
+  /// Applies "section.key=value" as given to --set; relative files are in the working directory. Throws
+  /// ConfigError when it does not have that form.
   void override(const std::string& assignment);
 
-  /// Reads every declared parameter that has an entry in `section`; others keep their defaults.
-  /// Throws ConfigError with file, section, key, value and what is allowed.
+  /// Reads every declared parameter that has an entry in `section`; others keep their defaults. Files come
+  /// out with absolute paths. Throws ConfigError with file, section, key, value and what is allowed.
   void read(const std::string& section, Configurable& target) const;
 
   /// Raw text of one entry, or `fallback`.

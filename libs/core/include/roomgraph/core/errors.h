@@ -3,6 +3,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace roomgraph {
 
@@ -26,6 +27,11 @@ struct ConfigError : Error {
 /// An input file is missing, unreadable or not what it should be. Exit code 3.
 struct InputError : Error {
   explicit InputError(const std::string& what) : Error(what, 3) {}
+};
+
+/// Ended by a signal before all was done; what was written covers what was done. Exit code 4.
+struct Interrupted : Error {
+  explicit Interrupted(const std::string& what) : Error(what, 4) {}
 };
 
 }  // namespace roomgraph

@@ -16,6 +16,7 @@ struct ParameterInfo {
   double min = -std::numeric_limits<double>::infinity();  ///< smallest allowed value, inclusive
   double max = std::numeric_limits<double>::infinity();   ///< largest allowed value, inclusive
   std::vector<std::string_view> choices = {};             ///< allowed texts; empty: any
+  bool file = false;  ///< names files: relative ones are completed by the place of the entry
 };
 
 /// Walks over declared parameters. Reading a config, checking it, writing the effective one and generating

@@ -16,7 +16,7 @@ class RawlogCopy {
  public:
   /// Throws InputError (input missing, not a rawlog) or RunError (output cannot be written, or is the input).
   RawlogCopy(const std::filesystem::path& input, const std::filesystem::path& output);
-  /// Finishes the file if finish() was not called.
+  /// Leaves no file when finish() was not called.
   ~RawlogCopy();
   RawlogCopy(const RawlogCopy&) = delete;
   RawlogCopy& operator=(const RawlogCopy&) = delete;
@@ -24,7 +24,7 @@ class RawlogCopy {
   /// Copies all records older than the detections, then writes them: they come before their image, so that
   /// whoever reads the copy has them when the image comes. Calls in order of time.
   void insert(const CObservationDetections& detections);
-  /// Copies the rest and closes the file. Throws RunError when writing failed (disk full).
+  /// Copies the rest and gives the file its name. Throws RunError when writing failed (disk full).
   void finish();
 
  private:

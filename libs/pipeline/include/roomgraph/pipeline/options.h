@@ -14,7 +14,7 @@ namespace roomgraph {
 /// [pipeline]
 struct GeneralOptions : Configurable {
   std::vector<std::string> plugins;
-  std::string objects_file = "objects.ini";
+  std::string objects_file;
   double lookahead_s = 0.5;
   void declareParameters(ParameterVisitor& v) override;
 };

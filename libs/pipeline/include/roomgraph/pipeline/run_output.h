@@ -3,34 +3,45 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
+#include <vector>
 
+#include "roomgraph/core/output_file.h"
+#include "roomgraph/core/output_folder.h"
+#include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph {
 
-/// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end,
-/// so a run that is interrupted leaves valid files.
+/// Where a run comes from.
+struct RunOrigin {
+  std::string input;                 ///< the recording
+  std::string version, revision;     ///< of the program
+  std::vector<std::string> command;  ///< the words of the command line
+};
+
+/// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end.
+/// They get into their places by files().publish(). Throws RunError naming the file when one cannot be
+/// written.
 class RunOutput : public Sink {
  public:
-  /// Makes the folder. Throws RunError when it cannot be written.
+  /// Makes and locks the folder.
   explicit RunOutput(const std::filesystem::path& folder);
 
   void onStep(const StepReport& report) override;
 
   /// Final files: trajectories, landmarks, occupancy, map, graph, effective config, summary.
   void writeResult(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
-                   const std::map<std::string, std::string>& facts);
+                   const ReplayState& replayed, const RunOrigin& origin);
 
-  const std::filesystem::path& folder() const { return folder_; }
+  /// `snapshot.png` is theirs, too.
+  OutputFolder& files() { return files_; }
 
  private:
-  std::ofstream open(const std::string& name) const;
+  void write(const std::string& name, const std::string& text) const;
 
-  std::filesystem::path folder_;
-  std::ofstream live_, detections_, associations_;
+  OutputFolder files_;
+  OutputFile live_, detections_, associations_;
 };
 
 /// "t tx ty tz qx qy qz qw" lines.

@@ -28,6 +28,12 @@ struct RunCounts {
   std::map<std::string, int> reasons;  ///< expected failures by reason
 };
 
+/// What came of the earlier map that a run was given.
+struct EarlierMap {
+  bool recognised = false;  ///< the results are in its frame
+  int common = 0;           ///< objects in it that were seen again
+};
+
 /// The result of a run.
 struct SlamResult {
   std::vector<StampedPose>
@@ -35,6 +41,7 @@ struct SlamResult {
   std::vector<StampedPose> world_from_camera;  ///< at every frame (optical)
   CSemanticMap map;
   RunCounts counts;
+  std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
 };
 
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.

@@ -44,13 +44,15 @@ struct Stages {
   LandmarkMap landmarks;
   ObjectLoopOptions object_loops;
   OccupancyMapper mapper;
-  std::string effective_config;  ///< INI text of every parameter as it is used
+  /// INI text of every parameter as it is used, and of the object database, which it expects beside itself as
+  /// objects.ini.
+  std::string effective_config, objects;
 };
 
-/// Loads the plug-ins, makes the stages and gives them their parameters. `folder`: where relative files are
-/// looked up. Throws ConfigError (unknown section, key, class, value) or InputError (object database, network
-/// file).
-std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& folder);
+/// Loads the plug-ins, makes the stages and gives them their parameters. `objects_file`: the object database
+/// when the config names none. Throws ConfigError (unknown section, key, class, value) or InputError (object
+/// database, network file).
+std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& objects_file);
 
 /// Every section and key that a config may hold, with all registered implementations.
 ConfigSchema configSchema();

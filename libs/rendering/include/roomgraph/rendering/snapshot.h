@@ -5,10 +5,16 @@
 #include <filesystem>
 #include <string>
 
+#include "roomgraph/core/errors.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/observations/object_database.h"
 
 namespace roomgraph {
+
+/// This machine cannot render off-screen.
+struct NoRenderer : RunError {
+  using RunError::RunError;
+};
 
 enum class SnapshotView { kTop, kOrbit, kRobot };
 
@@ -19,8 +25,8 @@ struct SnapshotOptions {
 };
 
 /// Renders a semantic map off-screen (EGL, no display) into a PNG: occupancy, footprints and boxes in class
-/// colours, labels, trajectory, scale. Throws RunError when the file cannot be written or no renderer is
-/// available.
+/// colours, labels, trajectory, scale. Throws RunError when the file cannot be written, NoRenderer when there
+/// is no OpenGL.
 void renderSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const SnapshotOptions& options,
                     const std::filesystem::path& png);
 

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+namespace roomgraph {
+
+/// From now on the first Ctrl-C, SIGTERM or SIGHUP (a closed terminal) only raises a flag, so that what was
+/// done so far can be written; the second one ends the program at once.
+void catchInterrupts();
+bool interrupted();
+
+}  // namespace roomgraph

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace roomgraph {
+
+/// Of the program: the release, and the commit that it was built from ("unknown" outside a git checkout;
+/// "-dirty" when files were changed).
+extern const char* const kVersion;
+extern const char* const kRevision;
+
+/// The words of the command line, the program's name first.
+std::vector<std::string> commandLine();
+
+}  // namespace roomgraph

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "run_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "roomgraph/core/suggest.h"
+
+namespace roomgraph {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+std::string describeEarlier(const EarlierMap& earlier) {
+  if (!earlier.recognised) return "earlier map recognised: no; results are in the run's own frame\n";
+  return format("earlier map recognised: yes, %d objects in common\n", earlier.common);
+}
+
+}  // namespace
+
+std::string describeProgress(const ReplayState& state, double elapsed_s) {
+  return format("%.1f s replayed, %.0f records/s, %.1f x real time", state.seconds(),
+                state.records / std::max(elapsed_s, 1e-9), state.seconds() / std::max(elapsed_s, 1e-9));
+}
+
+std::string describeObjects(const std::vector<Landmark>& landmarks) {
+  std::map<std::string, int> classes;
+  for (const auto& landmark : landmarks) ++classes[landmark.class_name];
+  std::vector<std::pair<int, std::string>> ordered;
+  for (const auto& [name, count] : classes) ordered.emplace_back(-count, name);
+  std::sort(ordered.begin(), ordered.end());
+  std::vector<std::string> words;
+  for (const auto& [count, name] : ordered) words.push_back(std::to_string(-count) + " " + name);
+  const std::string total =
+      landmarks.size() == 1 ? "1 object" : std::to_string(landmarks.size()) + " objects";
+  return total + (words.empty() ? "" : ": " + join(words));
+}
+
+std::string describeRun(const SlamResult& result, const ReplayState& replayed, const ReadStatistics& read,
+                        double elapsed_s) {
+  const auto& counts = result.counts;
+  std::string text =
+      format("%d frames (%d not tracked), %d scans (%d not matched), %d odometry readings; ", counts.frames,
+             counts.frames_lost, counts.scans, counts.scans_unmatched, counts.odometry) +
+      format("%d key poses, %d loop closures\n", counts.key_poses, counts.loop_closures);
+  text += describeObjects(result.map.landmarks) + "\n";
+  if (result.earlier) text += describeEarlier(*result.earlier);
+  text += format("%.1f s of data in %.1f s\n", replayed.seconds(), elapsed_s);
+  for (const auto& [reason, count] : counts.reasons) text += format("  %d x ", count) + reason + "\n";
+  for (const auto& [reason, count] : read.skipped) text += format("  skipped %d x ", count) + reason + "\n";
+  return text;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "roomgraph/pipeline/replay.h"
+
+namespace roomgraph {
+
+/// Progress of a replay in words: how much, how fast.
+std::string describeProgress(const ReplayState& state, double elapsed_s);
+
+/// "3 objects: 2 swivel_chair, 1 sofa".
+std::string describeObjects(const std::vector<Landmark>& landmarks);
+
+/// What was found and how long it took, in lines.
+std::string describeRun(const SlamResult& result, const ReplayState& replayed, const ReadStatistics& read,
+                        double elapsed_s);
+
+}  // namespace roomgraph

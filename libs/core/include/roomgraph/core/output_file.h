@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+namespace roomgraph {
+
+/// A text file being written. A stream alone is silent about a full disk.
+class OutputFile : public std::ofstream {
+ public:
+  /// Makes or empties the file. Throws RunError naming file and cause.
+  explicit OutputFile(std::filesystem::path file);
+  /// Throws RunError naming file and cause when something could not be written so far.
+  void check();
+  /// Writes what is left, checks, closes.
+  void finish();
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// A file under a temporary name beside its place until it is whole: whatever goes wrong, the place holds
+/// what it held before, or all of the new content.
+class PendingFile {
+ public:
+  /// Reserves the temporary name. Throws RunError: the folder cannot be written, or another process is
+  /// writing the same file.
+  explicit PendingFile(const std::filesystem::path& place);
+  /// Removes what was not put into place.
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  /// Where to write.
+  const std::filesystem::path& path() const { return temporary_; }
+  /// Puts the file, which has been closed, into its place. Throws RunError.
+  void commit();
+
+ private:
+  std::filesystem::path place_, temporary_;
+  int lock_ = -1;
+};
+
+/// Writes all of a file at once, by way of a PendingFile; what is not a regular file (a pipe, /dev/stdout) is
+/// written directly. Throws RunError naming file and cause.
+void writeFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+
+/// Waits until the file is on the disk: some file systems find only then that it is full. Throws RunError.
+void flushToDisk(const std::filesystem::path& file);
+
+/// "cannot write FILE: CAUSE", the cause being that of `error` (errno).
+[[noreturn]] void failToWrite(const std::filesystem::path& file, int error);
+
+}  // namespace roomgraph

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/core/output_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "errors_of.h"
+#include "roomgraph/core/errors.h"
+#include "temporary_folder.h"
+
+namespace roomgraph {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::messageOf;
+using testing::TemporaryFolder;
+
+class OutputFolderTest : public ::testing::Test {
+ protected:
+  void put(const OutputFolder& out, const std::string& name, const std::string& text) {
+    std::ofstream(out.pending(name)) << text;
+  }
+  TemporaryFolder folder;
+  const std::vector<std::string> names{"path", "picture", "summary"};
+};
+
+TEST_F(OutputFolderTest, FormerResultsStayUntilTheNewOnesAreWhole) {
+  for (const auto& name : names) folder.write(name, "old");
+  folder.write("notes of the user", "mine");
+  {
+    OutputFolder out(folder.path(), names);
+    put(out, "path", "half");
+  }
+  EXPECT_EQ(folder.read("path"), "old");
+  EXPECT_EQ(folder.count(), 4u) << "nothing is left of what was given up";
+
+  OutputFolder out(folder.path(), names);
+  put(out, "path", "new");
+  put(out, "summary", "new");
+  out.publish();
+  EXPECT_EQ(folder.read("path"), "new");
+  EXPECT_EQ(folder.read("summary"), "new");
+  EXPECT_EQ(folder.read("notes of the user"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder.file("picture"))) << "of the former results";
+  EXPECT_EQ(folder.count(), 3u);
+}
+
+TEST_F(OutputFolderTest, WhatAKilledProcessLeftIsRemoved) {
+  std::filesystem::create_directory(folder.file("unfinished"));
+  folder.write("unfinished/picture", "of long ago");
+  OutputFolder out(folder.path(), names);
+  put(out, "summary", "new");
+  out.publish();
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST_F(OutputFolderTest, IsLockedWhileInUse) {
+  {
+    const OutputFolder first(folder.path(), names);
+    EXPECT_THAT(messageOf<RunError>([&] { OutputFolder second(folder.path(), names); }),
+                HasSubstr("another process is writing into it"));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("unfinished"))) << "the first one's work";
+  }
+  EXPECT_NO_THROW(OutputFolder(folder.path(), names));
+}
+
+TEST_F(OutputFolderTest, InputsAreNotReplaced) {
+  const OutputFolder out(folder.path(), names);
+  folder.write("path", "input");
+  folder.write("other", "input");
+  std::filesystem::create_symlink(folder.file("path"), folder.file("alias"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { out.protect(folder.file("path")); }), HasSubstr("choose another"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { out.protect(folder.file("alias")); }), HasSubstr("alias"));
+  EXPECT_NO_THROW(out.protect(folder.file("other")));
+  EXPECT_NO_THROW(out.protect(folder.file("none")));
+  EXPECT_NO_THROW(out.protect(""));
+}
+
+TEST_F(OutputFolderTest, ForeignNamesAreAMistakeOfTheProgram) {
+  const OutputFolder out(folder.path(), names);
+  EXPECT_THROW(out.pending("unknown"), std::logic_error);
+}
+
+int caught = 0;
+
+TEST_F(OutputFolderTest, SignalHandlersAreAsBefore) {
+  const auto former = std::signal(SIGTERM, [](int) { ++caught; });
+  OutputFolder out(folder.path(), names);
+  put(out, "summary", "new");
+  out.publish();
+  std::raise(SIGTERM);
+  EXPECT_EQ(caught, 1);
+  std::signal(SIGTERM, former);
+}
+
+}  // namespace
+}  // namespace roomgraph
