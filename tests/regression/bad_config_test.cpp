@@ -32,6 +32,12 @@ TEST_F(BadConfig, ValueOutOfRangeSaysWhatIsAllowed) {
   expectOneLine(runWith("lidar.noise_per_m=fast"), 2, AllOf(HasSubstr("noise_per_m"), HasSubstr("fast")));
 }
 
+TEST_F(BadConfig, NothingToMoveBy) {
+  expectOneLine(call(folder.path(), {"run", "any.rawlog", "-o", "out", "--set", "tracking.enabled=false",
+                                     "--set", "lidar.enabled=false", "--set", "odometry.enabled=false"}),
+                2, HasSubstr("switched off"));
+}
+
 TEST_F(BadConfig, AssignmentWithoutItsForm) {
   expectOneLine(runWith("tracking"), 2, HasSubstr("section.key=value"));
 }
@@ -60,7 +66,8 @@ TEST_F(BadConfig, FilesThatAreMissingOrBroken) {
   const auto runFile = [&](const std::filesystem::path& config) {
     return call(folder.path(), {"run", "any.rawlog", "-o", "out", "--config", config.string()});
   };
-  expectOneLine(runFile(folder.path() / "none.ini"), 3, HasSubstr("none.ini"));
+  expectOneLine(runFile(folder.path() / "none.ini"), 2, HasSubstr("none.ini"));
+  expectOneLine(runFile(folder.path()), 2, HasSubstr("is a folder"));
   expectOneLine(runFile(folder.write("broken.ini", "[pipeline\nx\n")), 2, HasSubstr("broken.ini"));
   expectOneLine(runFile(folder.write("key.ini", "[pipeline]\nlookahead=1\n")), 2,
                 AllOf(HasSubstr("key.ini"), HasSubstr("lookahead_s")));
@@ -80,7 +87,8 @@ TEST(Misuse, SaysWhatIsWrongAndPrintsTheUsage) {
   expectOneLine(misuse({"--fast"}), 2, AllOf(usage, HasSubstr("--fast")));
   expectOneLine(misuse({"run"}), 2, AllOf(HasSubstr("INPUT"), HasSubstr("Usage: roomgraph run")));
   expectOneLine(misuse({"run", "x.rawlog", "-o", "out", "--fast"}), 2, AllOf(HasSubstr("--fast"), usage));
-  expectOneLine(misuse({"run", "x.rawlog", "-o", "out", "--threads", "-1"}), 2, HasSubstr("--threads"));
+  expectOneLine(misuse({"run", "x.rawlog", "-o", "out", "--threads", "-1"}), 2,
+                AllOf(HasSubstr("--threads"), HasSubstr("must be a number, 0 or more")));
   expectOneLine(misuse({"run", "x.rawlog", "-o", "out", "--from", "soon"}), 2, HasSubstr("--from"));
   expectOneLine(misuse({"evaluate"}), 2, HasSubstr("Usage: roomgraph evaluate"));
 }
@@ -96,7 +104,7 @@ TEST(Misuse, HelpAndVersionAreNoErrors) {
   for (const char* command : {"run", "import", "info", "evaluate", "snapshot"})
     EXPECT_THAT(help.out, HasSubstr(command));
   EXPECT_THAT(run.out, HasSubstr("--set"));
-  EXPECT_THAT(version.out, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  EXPECT_THAT(version.out, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+ \\([-0-9a-z]+\\)\n"));
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_F(BadInput, RawlogWithoutUsableSensors) {
   comment->timestamp = mrpt::Clock::fromDouble(5);
   test::writeRawlog(folder.file("talk.rawlog"), {comment, comment, comment});
   expectOneLine(run(folder.file("talk.rawlog")), 3,
-                AllOf(HasSubstr("talk.rawlog"), HasSubstr("no usable sensor records")));
+                AllOf(HasSubstr("talk.rawlog"), HasSubstr("no usable record of a camera")));
 }
 
 TEST_F(BadInput, MissingExternalImagesAreCountedAndNamed) {
@@ -103,7 +103,19 @@ TEST_F(BadInput, SpanBeyondTheEndHasNothingToUse) {
   test::writeRawlog(folder.file("good.rawlog"), recording.records({true, false, true}));
   expectOneLine(call(folder.path(), {"run", folder.file("good.rawlog").string(), "-o", out.string(),
                                      "--quiet", "--from", "100"}),
-                3, HasSubstr("good.rawlog"));
+                3, HasSubstr("good.rawlog: nothing between 100 s and the end (0.9 s)"));
+  expectOneLine(call(folder.path(), {"run", folder.file("good.rawlog").string(), "-o", out.string(), "--from",
+                                     "5", "--until", "2"}),
+                2, HasSubstr("--from is not before --until"));
+}
+
+TEST_F(BadInput, OdometryAloneIsNoRecordingUnlessThatWasMeant) {
+  test::writeRawlog(folder.file("wheels.rawlog"), recording.records({false, false, true}));
+  expectOneLine(run(folder.file("wheels.rawlog")), 3, HasSubstr("no usable record of a camera"));
+  EXPECT_EQ(call(folder.path(), {"run", folder.file("wheels.rawlog").string(), "-o", out.string(), "--quiet",
+                                 "--set", "tracking.enabled=false", "--set", "lidar.enabled=false"})
+                .exit_code,
+            0);
 }
 
 }  // namespace

@@ -40,7 +40,9 @@ struct CallResult {
 /// The built executable, started with arguments; its output goes to files in `folder`.
 class Program {
  public:
-  Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments) : folder_(folder) {
+  Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+          const std::filesystem::path& working_directory = std::filesystem::current_path())
+      : folder_(folder) {
     std::vector<std::string> words{ROOMGRAPH_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
@@ -54,6 +56,7 @@ class Program {
     };
     redirect(1, "stdout.txt");
     redirect(2, "stderr.txt");
+    posix_spawn_file_actions_addchdir_np(&actions, working_directory.c_str());
     const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0) << ROOMGRAPH_PROGRAM << " cannot be started";
@@ -72,8 +75,9 @@ class Program {
   pid_t pid_ = -1;
 };
 
-inline CallResult call(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
-  return Program(folder, arguments).wait();
+inline CallResult call(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                       const std::filesystem::path& working_directory = std::filesystem::current_path()) {
+  return Program(folder, arguments, working_directory).wait();
 }
 
 /// The contract of every failure: its exit code, and one line on stderr that begins with the program's name.

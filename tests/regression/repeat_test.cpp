@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <signal.h>
+#include <string.h>
 
 #include <chrono>
 #include <map>
@@ -47,7 +48,9 @@ TEST(Repeat, SameInputGivesTheSameBitsWhateverTheThreads) {
 }
 
 // The replay is interrupted as soon as the first live poses are on disk.
-TEST(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
+class Interrupt : public ::testing::TestWithParam<int> {};
+
+TEST_P(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
   constexpr int kSteps = 1500;
   TemporaryFolder folder;
   test::writeRawlog(folder.file("long.rawlog"), TinyRecording(kSteps).records({true, false, true}), false);
@@ -55,21 +58,26 @@ TEST(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
   Program program(folder.path(), {"run", folder.file("long.rawlog").string(), "-o", out.string(), "--quiet"});
   for (int i = 0; i < 3000; ++i) {
     std::error_code none_yet;
-    if (std::filesystem::file_size(out / "live.tum", none_yet) > 0 && !none_yet) break;
+    if (std::filesystem::file_size(out / "unfinished" / "live.tum", none_yet) > 0 && !none_yet) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  ASSERT_EQ(kill(program.pid(), SIGINT), 0);
+  ASSERT_EQ(kill(program.pid(), GetParam()), 0);
   const CallResult result = program.wait();
-  expectOneLine(result, 0, ::testing::HasSubstr("interrupted"));
+  expectOneLine(result, 4, ::testing::HasSubstr("interrupted"));
   const auto poses = linesOf(contentOf(out / "trajectory.tum"));
   EXPECT_GT(poses.size(), 10u);
   EXPECT_LT(poses.size(), static_cast<std::size_t>(kSteps)) << "it was not interrupted";
   EXPECT_EQ(linesOf(contentOf(out / "live.tum")).size(), poses.size());
   const auto summary = nlohmann::json::parse(contentOf(out / "summary.json"));
   EXPECT_EQ(summary["interrupted"], "yes");
+  EXPECT_GT(summary["replay"]["to_s"], 0.5);
+  EXPECT_LT(summary["replay"]["share_of_span"], 1);
   EXPECT_EQ(summary["counts"]["scans"], poses.size());
   EXPECT_TRUE(contentOf(out / "snapshot.png").starts_with("\x89PNG"));
 }
+
+INSTANTIATE_TEST_SUITE_P(EverySignal, Interrupt, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& signal) { return std::string(sigabbrev_np(signal.param)); });
 
 }  // namespace
 }  // namespace roomgraph::testing

@@ -113,7 +113,10 @@ TEST_F(RunOutputTest, MapCanBeDrawnAgain) {
       call(folder.path(), {"snapshot", (out / "map.rgmap").string(), "-o", picture.string()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, ::testing::HasSubstr(picture.string()));
   EXPECT_TRUE(contentOf(picture).starts_with("\x89PNG\r\n"));
+  expectOneLine(call(folder.path(), {"snapshot", (out / "map.rgmap").string(), "-o", "picture.txt"}), 2,
+                ::testing::HasSubstr("something.png"));
 }
 
 TEST_F(RunOutputTest, EffectiveConfigRepeatsTheRun) {
@@ -121,14 +124,89 @@ TEST_F(RunOutputTest, EffectiveConfigRepeatsTheRun) {
   ASSERT_EQ(run({"backend.node_distance_m=0.1"}).exit_code, 0);
   const std::string config = contentOf(out / "config.ini"), poses = contentOf(out / "trajectory.tum");
   EXPECT_THAT(config, ::testing::HasSubstr("node_distance_m = 0.1\n"));
-  std::filesystem::copy(std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "objects.ini",
-                        folder.file("objects.ini"));
-  folder.write("again.ini", config);
+  EXPECT_EQ(contentOf(out / "objects.ini"),
+            contentOf(std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "objects.ini"));
+  const auto repeated = folder.path() / "repeated";
   const CallResult again =
-      call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", out.string(), "--quiet",
-                           "--config", folder.file("again.ini").string()});
+      call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", repeated.string(), "--quiet",
+                           "--config", (out / "config.ini").string()});
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(contentOf(out / "trajectory.tum"), poses);
+  EXPECT_EQ(contentOf(repeated / "trajectory.tum"), poses);
+  EXPECT_EQ(contentOf(repeated / "config.ini"), config);
+  const json summary = json::parse(contentOf(repeated / "summary.json"));
+  EXPECT_EQ(summary["command"].back(), (out / "config.ini").string());
+  EXPECT_FALSE(summary["revision"].get<std::string>().empty());
+}
+
+TEST_F(RunOutputTest, FilesAreRelativeToWhoNamesThem) {
+  record(recording.records({true, false, true}));
+  std::filesystem::create_directories(folder.path() / "settings");
+  folder.write("settings/mine.ini", "[pipeline]\nobjects_file = chairs.ini\n");
+  folder.write("settings/chairs.ini", "[armchair]\nlabels = armchair\nshape = cylinder\n");
+  folder.write("here.ini", "[stool]\nlabels = stool\nshape = cylinder\n");
+  const auto runMine = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "run",      folder.file("tiny.rawlog").string(),      "-o", out.string(), "--quiet",
+        "--config", folder.file("settings/mine.ini").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CallResult result = call(folder.path(), arguments, folder.path());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return contentOf(out / "objects.ini");
+  };
+  EXPECT_THAT(runMine({}), ::testing::HasSubstr("armchair"));
+  EXPECT_THAT(runMine({"--set", "pipeline.objects_file=here.ini"}), ::testing::HasSubstr("stool"));
+}
+
+// A config of one's own needs no object database of one's own.
+TEST_F(RunOutputTest, ShippedObjectsServeAnyConfig) {
+  record(recording.records({true, false, true}));
+  folder.write("mine.ini", "\xef\xbb\xbf[lidar]\nenabled = true\n");  // as editors on Windows write it
+  const CallResult result =
+      call(folder.path(), {"run", folder.file("tiny.rawlog").string(), "-o", out.string(), "--quiet",
+                           "--config", folder.file("mine.ini").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(contentOf(out / "objects.ini"), ::testing::HasSubstr("[swivel_chair]"));
+}
+
+TEST_F(RunOutputTest, InputsInTheOutputFolderAreKept) {
+  record(recording.records({true, false, true}));
+  ASSERT_EQ(run().exit_code, 0);
+  const auto refused = [&](const std::vector<std::string>& arguments) {
+    const auto before = contentOf(out / "summary.json");
+    expectOneLine(call(folder.path(), arguments), 2, ::testing::HasSubstr("choose another output folder"));
+    EXPECT_EQ(contentOf(out / "summary.json"), before);
+  };
+  const std::string tiny = folder.file("tiny.rawlog").string();
+  refused({"run", tiny, "-o", out.string(), "--config", (out / "config.ini").string()});
+  refused({"run", tiny, "-o", out.string(), "--map", (out / "map.rgmap").string()});
+  std::filesystem::copy_file(tiny, out / "map.rgmap", std::filesystem::copy_options::overwrite_existing);
+  refused({"run", (out / "map.rgmap").string(), "-o", out.string()});
+  EXPECT_EQ(contentOf(out / "map.rgmap"), contentOf(tiny));
+}
+
+TEST_F(RunOutputTest, NothingOfAnEarlierRunStays) {
+  record(recording.records({true, false, true}));
+  ASSERT_EQ(run().exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out / "snapshot.png"));
+  ASSERT_EQ(call(folder.path(),
+                 {"run", folder.file("tiny.rawlog").string(), "-o", out.string(), "--quiet", "--no-snapshot"})
+                .exit_code,
+            0);
+  EXPECT_FALSE(std::filesystem::exists(out / "snapshot.png"));
+  EXPECT_FALSE(std::filesystem::exists(out / "unfinished"));
+}
+
+// No OpenGL on this machine, as far as the program can see.
+TEST_F(RunOutputTest, ARunNeedsNoPicture) {
+  record(recording.records({true, false, true}));
+  setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent", 1);
+  const CallResult result = run(), picture = call(folder.path(), {"snapshot", (out / "map.rgmap").string(),
+                                                                  "-o", folder.file("x.png").string()});
+  unsetenv("__EGL_VENDOR_LIBRARY_DIRS");
+  expectOneLine(result, 0, ::testing::HasSubstr("--no-snapshot"));
+  EXPECT_FALSE(tumOf(out / "trajectory.tum").empty());
+  EXPECT_FALSE(std::filesystem::exists(out / "snapshot.png"));
+  expectOneLine(picture, 1, ::testing::HasSubstr("libegl1"));
 }
 
 TEST_F(RunOutputTest, AnySubsetOfTheSensorsWillDo) {

@@ -46,6 +46,7 @@ void OutputFile::check() {
 }
 
 void OutputFile::finish() {
+  check();  // before errno is forgotten
   errno = 0;
   flush();
   check();
