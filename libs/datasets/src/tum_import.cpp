@@ -4,7 +4,10 @@
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -34,6 +37,16 @@ mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
   const auto& d = camera.distortion;
   if (d != std::array<double, 5>{}) out.setDistortionPlumbBob(d[0], d[1], d[2], d[3], d[4]);
   return out;
+}
+
+// Bytes that can be read back. MRPT says nothing when the disk is full.
+std::size_t sizeOfGzip(const fs::path& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  std::array<char, 1 << 16> block;
+  std::size_t size = 0;
+  for (int got = 1; in && got > 0; size += static_cast<std::size_t>(std::max(got, 0)))
+    got = gzread(in.get(), block.data(), block.size());
+  return size;
 }
 
 class Writer {
@@ -118,9 +131,7 @@ class Writer {
     const std::string depth = name + "_depth.bin";
     const auto bytes = record.rangeImage.size() * sizeof(std::uint16_t);
     record.rangeImage_convertToExternalStorage(depth, pending_images_.string() + "/");
-    // MRPT says nothing about a full disk.
-    if (fs::file_size(pending_images_ / depth, error) < bytes || error)
-      failToWrite(pending_images_ / depth, ENOSPC);
+    if (sizeOfGzip(pending_images_ / depth) < bytes) failToWrite(pending_images_ / depth, ENOSPC);
   }
 
   RawlogWriter rawlog_;

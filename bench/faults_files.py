@@ -1,0 +1,186 @@
+"""Faults of files and processes: disks that are full, signals at any moment. Used by faults.py.
+
+A case is good when the folder holds the former results or the complete new ones, never some of each."""
+import os
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RECORDINGS = ROOT / "rawlogs"
+TIMED = {"summary.json", "timings.csv"}  # differ between runs of the same input
+
+
+def call(words, **more):
+    return subprocess.run([str(w) for w in words], capture_output=True, text=True, **more)
+
+
+def contents(folder):
+    """Bytes of every file below a folder, by relative path."""
+    folder = Path(folder)
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+def verdict(before, after, complete):
+    """'old', 'new' or 'mixture': which results a folder holds. `complete`: what a run without faults leaves."""
+    telling = {name for name in set(before) | set(complete) if name not in TIMED
+               and before.get(name) != complete.get(name)}
+    if all(after.get(n) == before.get(n) for n in telling):
+        return "old" if after.keys() == before.keys() else "mixture"
+    if any(before.get(n) is not None and after.get(n) == before.get(n) for n in telling):
+        return "mixture"
+    return "new" if after.keys() == complete.keys() else "mixture"
+
+
+class Disk:
+    """A file system in memory of a given size (needs root)."""
+
+    def __init__(self, size):
+        self.path = Path(tempfile.mkdtemp(prefix="roomgraph_disk_"))
+        if call(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", self.path]).returncode:
+            raise SystemExit("full-disk: cannot mount a file system in memory; be root")
+
+    def __enter__(self):
+        return self.path
+
+    def __exit__(self, *_):
+        call(["umount", self.path])
+        self.path.rmdir()
+
+
+def total(files):
+    return sum(4096 * (1 + len(data) // 4096) for data in files.values())
+
+
+class FullDisk:
+    """One command on disks of several sizes. `prepare(place)` puts what is there before, `command(place)` gives
+    the words to call."""
+
+    def __init__(self, name, prepare, command, shares):
+        self.name, self.prepare, self.command, self.shares = name, prepare, command, shares
+
+    def run(self, program):
+        with tempfile.TemporaryDirectory() as roomy:
+            self.prepare(Path(roomy))
+            before = contents(roomy)
+            done = call([program, *self.command(Path(roomy))])
+            if done.returncode:
+                raise SystemExit(f"{self.name}: fails without a fault: {done.stderr}")
+            complete = contents(roomy)
+        written = total(complete)
+        for share in self.shares:
+            with Disk(total(before) + 8192 + int(share * written)) as place:
+                self.prepare(place)
+                done = call([program, *self.command(place)])
+                lines = [line for line in done.stderr.splitlines() if line.startswith("roomgraph:")]
+                yield {"case": f"{self.name}, room for {share:.0%}", "exit": done.returncode,
+                       "holds": verdict(before, contents(place), complete),
+                       "says": lines[-1].replace(str(place), "DISK") if lines else ""}
+
+
+def full_disk_cases(program, scratch):
+    """20 cases: every command that writes more than a line."""
+    tiny, handheld = RECORDINGS / "tiny_room.rawlog", RECORDINGS / "tiny_handheld.rawlog"
+    old = scratch / "old"
+    call([program, "run", handheld, "-o", old, "--quiet"], check=True)
+    busy = scratch / "busy"
+    call([program, "run", tiny, "-o", busy, "--quiet"], check=True)
+    images = scratch / "tum"
+    make_tum_folder(images)
+
+    def former(place):
+        shutil.copytree(old, place / "out")
+
+    def nothing(place):
+        pass
+
+    def graph(place):
+        shutil.copy(busy / "graph.g2o", place / "graph.g2o")
+
+    return [
+        FullDisk("second run", former, lambda p: ["run", tiny, "-o", p / "out", "--quiet"],
+                 [.05, .15, .25, .35, .45, .55, .6]),
+        FullDisk("first run", nothing, lambda p: ["run", tiny, "-o", p / "out", "--quiet"], [.1, .5]),
+        FullDisk("run --record-detections", nothing,
+                 lambda p: ["run", tiny, "-o", scratch / "other", "--quiet", "--record-detections", p / "copy.rawlog"],
+                 [.1, .6]),
+        FullDisk("optimize in place", graph,
+                 lambda p: ["optimize", p / "graph.g2o", "-o", p / "graph.g2o", "--quiet"], [.2, .6]),
+        FullDisk("snapshot", nothing, lambda p: ["snapshot", old / "map.rgmap", "-o", p / "map.png"], [.1, .6]),
+        FullDisk("import", nothing, lambda p: ["import", "tum", images, "-o", p / "x.rawlog"], [.1, .6]),
+        FullDisk("import with external images", nothing,
+                 lambda p: ["import", "tum", images, "-o", p / "x.rawlog", "--external-images"], [.6]),
+        FullDisk("simulate", nothing,
+                 lambda p: ["simulate", RECORDINGS / "tiny_handheld.json", "-o", p / "world", "--quiet"], [.1, .6]),
+    ]
+
+
+def make_tum_folder(folder, count=12, width=160, height=120):
+    """Noise images as PNG and PGM-free 16 bit PNG: enough for the importer."""
+    import struct
+    import zlib
+
+    def png(path, depth, channels, rows):
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        header = struct.pack(">IIBBBBB", width, height, depth, 2 if channels == 3 else 0, 0, 0, 0)
+        raw = b"".join(b"\0" + row for row in rows)
+        path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw))
+                         + chunk(b"IEND", b""))
+
+    generator = random.Random(1)
+    for name in ("rgb", "depth"):
+        (folder / name).mkdir(parents=True)
+    lists = {"rgb": [], "depth": []}
+    for i in range(count):
+        t = f"{1000 + i / 10:.6f}"
+        png(folder / "rgb" / f"{t}.png", 8, 3, [generator.randbytes(3 * width) for _ in range(height)])
+        png(folder / "depth" / f"{t}.png", 16, 1,
+            [b"".join(struct.pack(">H", 10000 + generator.randrange(4000)) for _ in range(width))
+             for _ in range(height)])
+        for name in lists:
+            lists[name].append(f"{t} {name}/{t}.png\n")
+    for name, lines in lists.items():
+        (folder / f"{name}.txt").write_text("".join(lines))
+    (folder / "camera.json").write_text(
+        f'{{"fx": 130, "fy": 130, "cx": {width / 2}, "cy": {height / 2}, "depth_scale": 5000}}')
+
+
+def full_disk(program):
+    with tempfile.TemporaryDirectory() as scratch:
+        for case in full_disk_cases(program, Path(scratch)):
+            yield from case.run(program)
+
+
+def signals(program, count, seed=1):
+    """Ends runs over former results at random moments, the signals in turn."""
+    kinds = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL]
+    generator = random.Random(seed)
+    tiny, handheld = RECORDINGS / "tiny_room.rawlog", RECORDINGS / "tiny_handheld.rawlog"
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
+        old, new = scratch / "old", scratch / "new"
+        call([program, "run", handheld, "-o", old, "--quiet"], check=True)
+        started = time.monotonic()
+        call([program, "run", tiny, "-o", new, "--quiet"], check=True)
+        usual = time.monotonic() - started
+        before, complete = contents(old), contents(new)
+        for i in range(count):
+            kind, out = kinds[i % len(kinds)], scratch / "out"
+            shutil.rmtree(out, ignore_errors=True)
+            shutil.copytree(old, out)
+            run = subprocess.Popen([program, "run", tiny, "-o", out, "--quiet"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+            wait = generator.uniform(0, 1.1 * usual)
+            time.sleep(wait)
+            run.send_signal(kind)
+            code = run.wait()
+            if kind == signal.SIGKILL:
+                shutil.rmtree(out / "unfinished", ignore_errors=True)
+            # An interrupted run has results of its own: none of the former ones, and all files.
+            yield {"case": f"{kind.name} after {wait:.2f} s", "exit": code,
+                   "holds": verdict(before, contents(out), complete), "says": ""}
