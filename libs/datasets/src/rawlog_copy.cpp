@@ -20,6 +20,7 @@
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/detection_comment.h"
 
 namespace roomgraph {
 namespace {
@@ -39,6 +40,13 @@ double timeOf(const CSerializable::Ptr& object) {
     for (const auto& observation : *frame)
       if (const auto t = toSeconds(observation->timestamp)) earliest = std::min(earliest, *t);
   return std::isfinite(earliest) ? earliest : kAtOnce;
+}
+
+// In either form; the new ones stand for them.
+bool isDetections(const CSerializable::Ptr& object) {
+  const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+  return comment ? holdsDetections(*comment)
+                 : std::dynamic_pointer_cast<CObservationDetections>(object) != nullptr;
 }
 
 void linkImages(const fs::path& input, const fs::path& output) {
@@ -78,7 +86,7 @@ struct RawlogCopy::Impl {
     while (waiting.empty()) {
       const auto item = source.next();
       if (!item) return false;
-      if (!item->object || std::dynamic_pointer_cast<CObservationDetections>(item->object)) continue;
+      if (!item->object || isDetections(item->object)) continue;
       waiting = source.bytesSince(item->offset);
       waiting_t = timeOf(item->object);
     }
@@ -112,7 +120,7 @@ RawlogCopy::~RawlogCopy() {
 void RawlogCopy::insert(const CObservationDetections& detections) {
   impl_->copyUntil(mrpt::Clock::toDouble(detections.timestamp));
   mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream) << detections;
+  mrpt::serialization::archiveFrom(stream) << toComment(detections);
   impl_->write({static_cast<const char*>(stream.getRawBufferData()),
                 static_cast<std::size_t>(stream.getTotalBytesCount())});
 }

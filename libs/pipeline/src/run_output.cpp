@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 
+#include "graph_file.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 
@@ -145,10 +146,12 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   auto associations = open("associations.jsonl");
   for (const auto& frame : slam.objects().frames())
     associations << associationsJson(frame.t, frame.decisions) << '\n';
-  saveLandmarksJson(result.map.landmarks, folder_ / "landmarks.json");
+  const auto version = facts.find("version");
+  saveLandmarksJson(result.map.landmarks, folder_ / "landmarks.json",
+                    {result.map.origin, version == facts.end() ? "" : version->second, result.seen});
   if (result.map.occupancy) saveOccupancyRos(*result.map.occupancy, folder_ / "map");
   saveMap(result.map, folder_ / "map.rgmap");
-  slam.graph().saveG2o(folder_ / "graph.g2o");
+  saveGraph(slam, result.map.planar, folder_ / "graph.g2o");
   open("config.ini") << slam.stages().effective_config;
   auto timings = open("timings.csv");
   writeTimings(timings, slam.times());

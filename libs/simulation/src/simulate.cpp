@@ -10,6 +10,7 @@
 #include <tbb/task_group.h>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/simulation/color_renderer.h"
 #include "roomgraph/simulation/scene.h"
 #include "truth_files.h"
@@ -178,7 +179,7 @@ void Simulation::frame(double t) {
     found.timestamp = record.timestamp;
     found.sensorLabel = "DETECTIONS";
     found.image_label = record.sensorLabel;
-    write(found);
+    write(toComment(found));
     ++result_.detections;
   }
   writePose(camera_truth_, kStart + t, world_from_camera);
