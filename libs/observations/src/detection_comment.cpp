@@ -54,6 +54,8 @@ CObservationDetections::Item itemFrom(const Json& json) {
 void fill(CObservationDetections& out, const Json& json) {
   if (const int version = json.at(kMarker).get<int>(); version != kVersion)
     throw std::invalid_argument("version " + std::to_string(version) + " is not known");
+  // MRPT 2.5 does not write the label of a comment; where a later one does, a tool may have changed it.
+  if (out.sensorLabel.empty()) out.sensorLabel = json.at("sensor_label").get<std::string>();
   out.image_label = json.at("image_label").get<std::string>();
   out.image_width = countFrom(json.at("image_size").at(0));
   out.image_height = countFrom(json.at("image_size").at(1));
@@ -72,6 +74,7 @@ CObservationComment toComment(const CObservationDetections& detections) {
   mrpt::poses::CPose3D pose;
   detections.getSensorPose(pose);
   Json json{{kMarker, kVersion},
+            {"sensor_label", detections.sensorLabel},
             {"image_label", detections.image_label},
             {"image_size", {detections.image_width, detections.image_height}},
             {"model", detections.model},
