@@ -26,6 +26,11 @@ Json toJson(const CObservationDetections::Item& item) {
   return out;
 }
 
+// x, y, z, yaw, pitch, roll; MRPT's identity has a pitch of -0, which nobody wants to read.
+Json numbersOf(const mrpt::poses::CPose3D& pose) {
+  return {pose.x(), pose.y(), pose.z(), pose.yaw() + 0.0, pose.pitch() + 0.0, pose.roll() + 0.0};
+}
+
 // nlohmann converts -1 and 1e12 as C does, without a word.
 std::uint32_t countFrom(const Json& json) {
   if (!json.is_number_unsigned() || json.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
@@ -81,7 +86,7 @@ CObservationComment toComment(const CObservationDetections& detections) {
             {"model_hash", detections.model_hash},
             {"score_threshold", detections.score_threshold},
             {"nms_threshold", detections.nms_threshold},
-            {"sensor_pose", {pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll()}},
+            {"sensor_pose", numbersOf(pose)},
             {"items", Json::array()}};
   for (const auto& item : detections.items) json["items"].push_back(toJson(item));
   CObservationComment out;
