@@ -17,7 +17,7 @@ echo "== 1. A recording of mrpt-common =="
 echo
 echo "== 2. A simulated flat (about two minutes) =="
 "$roomgraph" simulate worlds/lab.json -o out/demo/world
-"$roomgraph" run out/demo/world/lab.rawlog -o out/demo/lab --set detection.class=RecordedDetector
+"$roomgraph" run out/demo/world/lab.rawlog -o out/demo/lab
 "$roomgraph" evaluate trajectory out/demo/world/groundtruth_robot.txt out/demo/lab/trajectory.tum --json out/demo/lab/trajectory_error.json
 "$roomgraph" evaluate objects out/demo/world/objects.json out/demo/lab/landmarks.json --truth-boxes out/demo/world/boxes.jsonl \
   --truth-trajectory out/demo/world/groundtruth_robot.txt --trajectory out/demo/lab/trajectory.tum --json out/demo/lab/objects_error.json

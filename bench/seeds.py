@@ -9,7 +9,7 @@ A table of ablations is one command, for instance
 
     bench/seeds.py worlds/lab.json --variants no_lidar=lidar.enabled=false no_loops=tracking.loop_closing=false,lidar.loop_closing=false
 
-Worlds with simulated detections need --set detection.class=RecordedDetector, others --set detection.models=NETWORK.onnx.
+Worlds without simulated detections need --set detection.models=NETWORK.onnx.
 The variant `default` (nothing but --set) always comes first. Simulated sequences are kept in DIR/sequences and used again
 by every variant and every later call, until the world file or the simulator changes. DIR/figures.json keeps each seed's figures.
 """

@@ -27,16 +27,17 @@ double chiSquared(const FactorGraph& graph) {
 bool initializePoses(FactorGraph& graph) {
   return graph.initializePoses();
 }
-void saveG2o(const FactorGraph& graph, const std::filesystem::path& file) {
-  graph.saveG2o(file);
+void saveG2o(const FactorGraph& graph, const std::filesystem::path& file, const NodeTimes& times) {
+  graph.saveG2o(file, times);
 }
 std::string describe(const FactorGraph& graph) {
   return "3D, " + std::to_string(graph.poses()) + " poses, " + std::to_string(graph.landmarks()) +
          " landmarks, " + std::to_string(graph.factors()) + " edges";
 }
 std::string describe(const PlanarGraph& graph) {
-  return "2D, " + std::to_string(graph.poses.size()) + " poses, " + std::to_string(graph.edges.size()) +
-         " edges";
+  return "2D, " + std::to_string(graph.poses.size() - graph.landmarks.size()) + " poses, " +
+         (graph.landmarks.empty() ? "" : std::to_string(graph.landmarks.size()) + " landmarks, ") +
+         std::to_string(graph.edges.size()) + " edges";
 }
 
 std::string decimal(double value) {
@@ -46,7 +47,7 @@ std::string decimal(double value) {
 }
 
 template <class Graph>
-void run(Graph& graph, const Arguments& arguments) {
+void run(Graph& graph, const NodeTimes& times, const Arguments& arguments) {
   std::cout << arguments.graph.string() << ": " << describe(graph) << "\n"
             << "chi2 before " << decimal(chiSquared(graph)) << std::endl;
   if (!arguments.keep_start && initializePoses(graph))
@@ -57,7 +58,7 @@ void run(Graph& graph, const Arguments& arguments) {
   const SolveReport report = optimize(graph, options);
   line.finish();
   if (!report.usable) throw RunError(arguments.graph.string() + ": cannot be optimised: " + report.message);
-  saveG2o(graph, arguments.output);
+  saveG2o(graph, arguments.output, times);
   std::cout << "chi2 after  " << decimal(chiSquared(graph)) << " (" << report.iterations << " iterations)\n"
             << arguments.output.string() << ": written\n";
 }
@@ -67,7 +68,7 @@ void optimizeFile(const Arguments& arguments) {
   for (const auto& [tag, lines] : content.skipped)
     std::cerr << "roomgraph: warning: " << arguments.graph.string() << ": " << lines << " lines '" << tag
               << "' skipped\n";
-  std::visit([&](auto& graph) { run(graph, arguments); }, content.graph);
+  std::visit([&](auto& graph) { run(graph, content.times, arguments); }, content.graph);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
+#include "roomgraph/pipeline/detection_source.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
 #include "roomgraph/rendering/snapshot.h"
@@ -138,6 +139,8 @@ void run(const RunOptions& options) {
   check(options, *stages);
   RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
                                       stages->lidar.enabled, stages->odometry.enabled});
+  if (const std::string advice = missingDetections(*stages, options.input); !advice.empty())
+    std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
   auto output = std::make_shared<RunOutput>(options.output);
@@ -192,8 +195,8 @@ void addRunCommand(CLI::App& app) {
                    "stop this many seconds after the first record; 0: the end")
       ->check(atLeastZero());
   command->add_option("--record-detections", options->recording,
-                      "also write this rawlog: the input with what the detector found; to be replayed with "
-                      "--set detection.class=RecordedDetector");
+                      "also write this rawlog: the input with what the detector found; a run of it needs no "
+                      "network");
   command->add_option("--debug-images", options->pictures,
                       "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command->add_flag("--quiet", options->quiet, "no progress");
@@ -208,7 +211,7 @@ void addRunCommand(CLI::App& app) {
       "Run the network once, then as often as you like without it:\n"
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m_1.5x-416.onnx \\\n"
       "      --record-detections lab_boxes.rawlog\n"
-      "  roomgraph run lab_boxes.rawlog -o out/again --set detection.class=RecordedDetector\n"
+      "  roomgraph run lab_boxes.rawlog -o out/again\n"
       "The same again, from the files of a run:\n"
       "  roomgraph run lab.rawlog -o out/again --config out/lab/config.ini\n"
       "Ctrl-C (or SIGTERM, SIGHUP) ends the replay; the results then cover what was replayed, and the exit "

@@ -73,5 +73,19 @@ TEST(ConfigSchema, MarkdownNamesEverything) {
   EXPECT_THAT(page, HasSubstr("## [sound]\n"));
 }
 
+TEST(ConfigSchema, AKeyOfSeveralClassesIsOneLine) {
+  Volume volume;
+  ConfigSchema out;
+  out.add("sound", volume, "Trumpet");
+  out.add("sound", volume, "Violin");
+  volume.level_db = 30;
+  out.add("sound", volume, "Lute");
+  const auto page = out.markdown();
+  EXPECT_THAT(page,
+              HasSubstr("| `level_db` | `60` | a number <= 120 | dB | how loud | `Trumpet`, `Violin` |"));
+  EXPECT_THAT(page, HasSubstr("| `level_db` | `30` | a number <= 120 | dB | how loud | `Lute` |"))
+      << "another default is another line";
+}
+
 }  // namespace
 }  // namespace roomgraph

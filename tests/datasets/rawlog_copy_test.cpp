@@ -8,6 +8,7 @@
 #include "rawlog_maker.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/observations/detection_comment.h"
 
 namespace roomgraph {
 namespace {
@@ -19,6 +20,11 @@ std::shared_ptr<CObservationDetections> detectionsAt(double t, const std::string
   out->timestamp = mrpt::Clock::fromDouble(t);
   out->items.push_back({label, 0.5, 1, 2, 3, 4, 7});
   return out;
+}
+
+// The form in which they are written.
+std::shared_ptr<mrpt::obs::CObservationComment> commentAt(double t, const std::string& label = "chair") {
+  return std::make_shared<mrpt::obs::CObservationComment>(toComment(*detectionsAt(t, label)));
 }
 
 std::string unzipped(const std::filesystem::path& file) {
@@ -53,16 +59,18 @@ TEST_F(RawlogCopyTest, BytesStayAndDetectionsComeBeforeTheirImage) {
     copy.insert(*detectionsAt(1.2, "sofa"));
     copy.finish();
     // Pictures are compressed when they are written: only a copy of the bytes is the same.
-    EXPECT_EQ(unzipped(out), joined({input[0], detectionsAt(1.1), input[1], input[2],
-                                     detectionsAt(1.2, "sofa"), input[3], input[4]}));
+    EXPECT_EQ(unzipped(out), joined({input[0], commentAt(1.1), input[1], input[2], commentAt(1.2, "sofa"),
+                                     input[3], input[4]}));
   }
 }
 
 TEST_F(RawlogCopyTest, OldDetectionsAreReplaced) {
   const auto scan = makeScan(1.05);
-  writeRawlog(in, {detectionsAt(1), scan, detectionsAt(1.1)});
+  auto remark = std::make_shared<mrpt::obs::CObservationComment>();
+  remark->text = "a remark of somebody";
+  writeRawlog(in, {detectionsAt(1), scan, commentAt(1.1), remark});
   RawlogCopy(in, out).insert(*detectionsAt(1.02, "sofa"));  // the destructor finishes
-  EXPECT_EQ(unzipped(out), joined({detectionsAt(1.02, "sofa"), scan}));
+  EXPECT_EQ(unzipped(out), joined({commentAt(1.02, "sofa"), scan, remark}));
 }
 
 TEST_F(RawlogCopyTest, SensoryFramesAndTheEndOfTheInput) {
@@ -72,8 +80,8 @@ TEST_F(RawlogCopyTest, SensoryFramesAndTheEndOfTheInput) {
   RawlogCopy copy(in, out);
   for (const double t : {1.1, 2.1, 9.0}) copy.insert(*detectionsAt(t));
   copy.finish();
-  EXPECT_EQ(unzipped(out), joined({input[0], detectionsAt(1.1), input[1], input[2], detectionsAt(2.1),
-                                   input[3], detectionsAt(9)}));
+  EXPECT_EQ(unzipped(out),
+            joined({input[0], commentAt(1.1), input[1], input[2], commentAt(2.1), input[3], commentAt(9)}));
 }
 
 TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {

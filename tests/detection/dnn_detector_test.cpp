@@ -87,8 +87,6 @@ TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
   EXPECT_THAT(messageOf<InputError>("models = /nowhere/x.onnx"),
               HasSubstr("/nowhere/x.onnx: no such network"));
   const std::string model = write("junk.onnx", "this is not a network");
-  EXPECT_THAT(messageOf<InputError>("models = " + model), HasSubstr("labels.txt: no such label file"));
-  write("labels.txt", "person\nchair\n");
   EXPECT_THAT(messageOf<InputError>("models = " + model),
               AllOf(HasSubstr(model), HasSubstr("not a network")));
   EXPECT_THAT(messageOf<InputError>("models = " + write("a.txt", "x")),
@@ -97,6 +95,8 @@ TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
               HasSubstr("a.cfg: no such Darknet"));
   write("a.cfg", "[net]\nbatch=1\n");
   EXPECT_THAT(messageOf<InputError>("models = " + (folder_ / "a.weights").string()), HasSubstr("a"));
+  EXPECT_THAT(messageOf<InputError>("models = " + model + "\nlabels_file = /nowhere/names.txt"),
+              HasSubstr("/nowhere/names.txt: no such label file"));
 }
 
 TEST_F(DnnDetectorTest, UnknownFormatListsTheKnown) {
@@ -107,6 +107,7 @@ TEST_F(DnnDetectorTest, UnknownFormatListsTheKnown) {
 TEST_F(DnnDetectorTest, MadeByClassName) {
   detection::registerClasses();
   detection::registerClasses();
+  EXPECT_NE(createStage<Detector>("AutoDetector", "[detection] class"), nullptr);
   EXPECT_NE(createStage<Detector>("DnnDetector", "[detection] class"), nullptr);
   EXPECT_NE(createStage<Detector>("RecordedDetector", "[detection] class"), nullptr);
 }

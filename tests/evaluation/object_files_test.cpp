@@ -31,8 +31,11 @@ TEST(ObjectFiles, ReadsTruthAndMap) {
   EXPECT_EQ(truth[0].width, 1);
   EXPECT_EQ(truth[0].depth, 2);
   EXPECT_EQ(truth[0].height, 3);
-  const auto map = readObjects(folder.write("landmarks.json", R"({"landmarks": [
-      {"id": 0, "class": "sofa", "model": "sofa", "x": 1, "y": 2, "z": 0, "yaw": null, "size_wdh": [1, 2, 3], "existence": 0.7},
+  const auto map = readObjects(
+      folder.write("landmarks.json", R"({"frame": "world", "units": {"length": "m"}, "version": "1",
+      "landmarks": [
+      {"id": 0, "class": "sofa", "model": "sofa", "x": 1, "y": 2, "z": 0, "yaw": null, "size_wdh": [1, 2, 3], "existence": 0.7,
+       "first_seen": 1, "last_seen": 2},
       {"id": 1, "class": "sofa", "x": 1, "y": 2, "z": 0, "yaw": 1, "has_yaw": false, "size_wdh": [1, 2, 3]}]})"));
   ASSERT_EQ(map.size(), 2u);
   EXPECT_FALSE(map[0].has_yaw);

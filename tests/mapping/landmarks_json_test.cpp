@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
@@ -46,6 +47,28 @@ TEST(LandmarksJson, RoundTrip) {
     EXPECT_EQ(again[i].class_posterior, landmarks[i].class_posterior);
     EXPECT_EQ(again[i].observations, landmarks[i].observations);
   }
+}
+
+TEST(LandmarksJson, HeaderAndSightings) {
+  const TemporaryFolder folder;
+  const auto landmarks = testing::sampleMap().landmarks;
+  ASSERT_GE(landmarks.size(), 2u);
+  const LandmarkId seen = landmarks[0].id;
+  saveLandmarksJson(landmarks, folder.file("a.json"),
+                    {"lab \"a\".rawlog", "1.2.3", {{seen, {1700000000.25, 1700000009.125}}}});
+  const auto json = nlohmann::json::parse(folder.read("a.json"));
+  EXPECT_EQ(json["frame"], "world");
+  EXPECT_EQ(json["units"], nlohmann::json::parse(R"({"length": "m", "angle": "rad", "time": "s"})"));
+  EXPECT_EQ(json["recording"], "lab \"a\".rawlog");
+  EXPECT_EQ(json["program"], "roomgraph");
+  EXPECT_EQ(json["version"], "1.2.3");
+  EXPECT_EQ(json["landmarks"][0]["first_seen"], 1700000000.25);
+  EXPECT_EQ(json["landmarks"][0]["last_seen"], 1700000009.125);
+  EXPECT_FALSE(json["landmarks"][1].contains("first_seen")) << "not known";
+  EXPECT_EQ(loadLandmarksJson(folder.file("a.json")).size(), landmarks.size());
+  const auto old = folder.write("old.json", "{\"landmarks\": " + json["landmarks"].dump() + "}");
+  EXPECT_EQ(loadLandmarksJson(old).size(), landmarks.size())
+      << "without a header, as earlier versions wrote it";
 }
 
 TEST(LandmarksJson, FootprintIsInWorld) {

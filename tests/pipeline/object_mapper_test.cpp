@@ -37,11 +37,15 @@ TEST(ObjectMapper, WhenALandmarkIsPartedItsSightingsAre) {
         {"swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, poseFromYpr(3, side, 0, 0, 0, 0)}};
     Frame frame = Drive::frame(0);
     frame.id = FrameId{i};
+    frame.t = 0.5 * i;
     const auto detections = stages->detector->detect(frame);
     ASSERT_EQ(detections->size(), 1u);
     mapper.observe(stages->proposal_generator->generate(frame, *detections, std::nullopt), frame, {});
   }
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  const SeenSpan both = mapper.seenSpans().begin()->second;
+  EXPECT_EQ(both.first, 0);
+  EXPECT_EQ(both.last, 9.5);
   // The world moves: what was remembered of it then must move along.
   const Pose3 moved = poseFromYpr(5, -3, 0, 2, 0, 0);
   poses.nodes()[0].world_from_robot = moved;
@@ -58,7 +62,13 @@ TEST(ObjectMapper, WhenALandmarkIsPartedItsSightingsAre) {
   };
   EXPECT_NEAR(seenAt(left), 0.4, 0.05);
   EXPECT_NEAR(seenAt(right), -0.4, 0.05);
-  EXPECT_EQ(mapper.seenSpans().size(), 2u);
+  ASSERT_EQ(mapper.seenSpans().size(), 2u);
+  const SeenSpan at_left = mapper.seenSpans().at(*left.begin()),
+                 at_right = mapper.seenSpans().at(*right.begin());
+  EXPECT_EQ(at_left.first, 0.5);
+  EXPECT_EQ(at_left.last, 9.5);
+  EXPECT_EQ(at_right.first, 0);
+  EXPECT_EQ(at_right.last, 9);
 }
 
 }  // namespace

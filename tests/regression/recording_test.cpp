@@ -47,7 +47,7 @@ void writeWithoutDetections(const fs::path& file) {
   try {
     while (true)
       if (const auto object = archive.ReadObject();
-          !std::dynamic_pointer_cast<CObservationDetections>(object))
+          !std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object))
         kept.push_back(object);
   } catch (const mrpt::serialization::CExceptionEOF&) {
     // The end of the recording.

@@ -3,6 +3,7 @@
 #include "roomgraph/backend/g2o_file.h"
 
 #include <array>
+#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -34,6 +35,20 @@ void writeUpper(std::ostream& out, const Eigen::Matrix<double, N, N>& informatio
   out << '\n';
 }
 
+// To the microsecond, as trajectories have it.
+void writeTime(std::ostream& out, NodeId vertex, const NodeTimes& times) {
+  const auto found = times.find(vertex);
+  if (found == times.end()) return;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f", found->second);
+  out << "# STAMP " << vertex << ' ' << text << '\n';
+}
+
+void writeLandmark(std::ostream& out, NodeId vertex, LandmarkId id, const ObjectShape& shape) {
+  out << "# LANDMARK " << vertex << ' ' << id << ' ' << toString(shape.kind) << ' ' << shape.width << ' '
+      << shape.depth << ' ' << shape.height << '\n';
+}
+
 // A landmark's measurement fixes x, y, z and perhaps yaw; the rest gets a token weight to keep readers happy.
 Matrix6d informationOf(const LandmarkFactor& factor) {
   Eigen::Matrix4d covariance = factor.covariance;
@@ -54,10 +69,10 @@ Matrix6d informationOf(const LandmarkFactor& factor) {
 
 }  // namespace
 
-void FactorGraph::saveG2o(const std::filesystem::path& file) const {
+void FactorGraph::saveG2o(const std::filesystem::path& file, const NodeTimes& times) const {
   std::ostringstream out = exactText();
-  const std::int64_t first_landmark = impl_->poses.empty() ? 0 : impl_->poses.rbegin()->first.value + 1;
   for (const auto& [id, state] : impl_->poses) {
+    writeTime(out, id, times);
     out << "VERTEX_SE3:QUAT " << id;
     writeTransform(out, pose(id));
     out << '\n';
@@ -66,9 +81,9 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
   for (const auto& [id, object] : impl_->objects) {
     const LandmarkEstimate estimate = landmark(id);
     const auto& p = estimate.position;
-    out << "# LANDMARK " << first_landmark + id.value << ' ' << id << ' ' << toString(object.kind);
-    for (const double size : object.size) out << ' ' << size;
-    out << "\nVERTEX_SE3:QUAT " << first_landmark + id.value;
+    const auto& [width, depth, height] = object.size;
+    writeLandmark(out, impl_->vertexOf(id), id, {object.kind, width, depth, height});
+    out << "VERTEX_SE3:QUAT " << impl_->vertexOf(id);
     writeTransform(out, poseFromYpr(p.x(), p.y(), p.z(), estimate.yaw, 0, 0));
     out << '\n';
   }
@@ -82,7 +97,7 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
   for (const auto& entry : impl_->factors) {
     const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
     if (sighting && sighting->weight > kLeastWeight) {
-      out << "EDGE_SE3:QUAT " << sighting->node << ' ' << first_landmark + sighting->landmark.value;
+      out << "EDGE_SE3:QUAT " << sighting->node << ' ' << impl_->vertexOf(sighting->landmark);
       writeTransform(out, measuredTransform(*sighting));
       writeUpper<6>(out, informationOf(*sighting));
     }
@@ -90,9 +105,12 @@ void FactorGraph::saveG2o(const std::filesystem::path& file) const {
   writeFileAtomically(file, out.str());
 }
 
-void saveG2o(const PlanarGraph& graph, const std::filesystem::path& file) {
+void saveG2o(const PlanarGraph& graph, const std::filesystem::path& file, const NodeTimes& times) {
   std::ostringstream out = exactText();
   for (const auto& [id, pose] : graph.poses) {
+    writeTime(out, id, times);
+    if (const auto object = graph.landmarks.find(id); object != graph.landmarks.end())
+      writeLandmark(out, id, object->second.id, object->second.shape);
     out << "VERTEX_SE2 " << id << ' ' << pose.x << ' ' << pose.y << ' ' << pose.yaw << '\n';
     if (graph.fixed.contains(id)) out << "FIX " << id << '\n';
   }

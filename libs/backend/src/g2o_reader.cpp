@@ -26,15 +26,17 @@ struct Edge {
   Eigen::MatrixXd information;  // 3x3 or 6x6
 };
 
-struct LandmarkName {
-  LandmarkId id;
-  ObjectShape shape;
+struct Stamp {
+  int line = 0;
+  NodeId vertex;
+  double t = 0;
 };
 
 // Everything a file says, before it is known to fit together.
 struct FileContent {
   std::map<NodeId, Vertex> vertices;
-  std::map<NodeId, LandmarkName> landmarks;
+  std::map<NodeId, PlanarLandmark> landmarks;
+  std::vector<Stamp> stamps;
   std::vector<std::pair<int, NodeId>> fixed;  // with the line
   std::vector<Edge> edges;
   std::map<std::string, int> skipped;
@@ -143,13 +145,27 @@ class Reader {
     } while (words_ >> std::ws && !words_.eof());
   }
 
-  // "# LANDMARK vertex id shape width depth height": what the format itself cannot say.
+  // What the format itself cannot say.
   void readComment() {
-    std::string word, kind;
-    if (!(words_ >> word) || word != "LANDMARK") return;
-    tag_ = "# LANDMARK";
+    std::string word;
+    if (!(words_ >> word)) return;
+    tag_ = "# " + word;
+    if (word == "STAMP") readStamp();
+    if (word == "LANDMARK") readLandmark();
+  }
+
+  // "# STAMP vertex t".
+  void readStamp() {
     const NodeId vertex = id();
-    LandmarkName name;
+    content_.stamps.push_back({line_, vertex, number("the time")});
+    end();
+  }
+
+  // "# LANDMARK vertex id shape width depth height".
+  void readLandmark() {
+    std::string kind;
+    const NodeId vertex = id();
+    PlanarLandmark name;
     name.id = LandmarkId{id().value};
     words_ >> kind;
     try {
@@ -186,6 +202,7 @@ std::set<NodeId> checked(const FileContent& content, const std::filesystem::path
       throw InputError(file.string() + ":" + std::to_string(edge.line) + ": edge starts at landmark vertex " +
                        std::to_string(edge.a.value));
   }
+  for (const auto& [line, vertex, t] : content.stamps) known(line, vertex, "time of");
   std::set<NodeId> fixed;
   for (const auto& [line, id] : content.fixed) {
     known(line, id, "FIX of");
@@ -201,6 +218,7 @@ PlanarGraph planarGraph(const FileContent& content, const std::set<NodeId>& fixe
   };
   PlanarGraph graph;
   graph.fixed = fixed;
+  graph.landmarks = content.landmarks;
   for (const auto& [id, vertex] : content.vertices) graph.poses[id] = flat(vertex.pose, vertex.yaw);
   for (const auto& edge : content.edges)
     graph.edges.push_back({edge.a, edge.b, flat(edge.a_from_b, edge.yaw), edge.information});
@@ -246,7 +264,8 @@ FactorGraph spatialGraph(const FileContent& content, const std::set<NodeId>& fix
 G2oContent loadG2o(const std::filesystem::path& file) {
   FileContent content = Reader(file).read();
   const std::set<NodeId> fixed = checked(content, file);
-  G2oContent out{{}, std::move(content.skipped)};
+  G2oContent out{{}, {}, std::move(content.skipped)};
+  for (const auto& [line, vertex, t] : content.stamps) out.times[vertex] = t;
   if (content.planar)
     out.graph = planarGraph(content, fixed);
   else

@@ -42,6 +42,11 @@ struct FactorGraph::Impl {
     ceres::ResidualBlockId block;
   };
 
+  /// In a g2o file landmarks are numbered behind the poses.
+  NodeId vertexOf(LandmarkId id) const {
+    return NodeId{(poses.empty() ? 0 : poses.rbegin()->first.value + 1) + id.value};
+  }
+
   Impl();
   Pose& at(NodeId id);
   Object& at(LandmarkId id);

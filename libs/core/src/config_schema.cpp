@@ -3,12 +3,18 @@
 #include "roomgraph/core/config_schema.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
 
 namespace roomgraph {
 namespace {
+
+bool sameButOwners(const ConfigSchema::Key& a, const ConfigSchema::Key& b) {
+  return std::tie(a.key, a.type, a.default_text, a.doc, a.unit, a.allowed) ==
+         std::tie(b.key, b.type, b.default_text, b.doc, b.unit, b.allowed);
+}
 
 class Collector : public ParameterVisitor {
  public:
@@ -32,8 +38,18 @@ class Collector : public ParameterVisitor {
  private:
   template <class T>
   void put(std::string_view key, const std::string& type, const T& value, const ParameterInfo& info) {
-    keys_.push_back({std::string(key), type, formatParameter(value), std::string(info.doc),
-                     std::string(info.unit), describeAllowed(type, info), owner_});
+    const ConfigSchema::Key declared{std::string(key),
+                                     type,
+                                     formatParameter(value),
+                                     std::string(info.doc),
+                                     std::string(info.unit),
+                                     describeAllowed(type, info),
+                                     {}};
+    const auto same = std::find_if(keys_.begin(), keys_.end(), [&](const ConfigSchema::Key& known) {
+      return !owner_.empty() && !known.owners.empty() && sameButOwners(known, declared);
+    });
+    auto& key_owners = (same == keys_.end() ? keys_.emplace_back(declared) : *same).owners;
+    if (!owner_.empty()) key_owners.push_back(owner_);
   }
   std::vector<ConfigSchema::Key>& keys_;
   const std::string& owner_;
@@ -84,7 +100,7 @@ std::string ConfigSchema::markdown() const {
     for (const auto& key : s.keys)
       page += "| `" + key.key + "` | " + (key.default_text.empty() ? "" : "`" + key.default_text + "`") +
               " | " + key.allowed + " | " + key.unit + " | " + key.doc + " | " +
-              (key.owner.empty() ? "" : "`" + key.owner + "`") + " |\n";
+              (key.owners.empty() ? "" : "`" + join(key.owners, "`, `") + "`") + " |\n";
     page += "\n";
   }
   return page;

@@ -15,6 +15,7 @@
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/rawlog_writer.h"
 
 namespace roomgraph {
@@ -35,6 +36,13 @@ double timeOf(const CSerializable::Ptr& object) {
     for (const auto& observation : *frame)
       if (const auto t = toSeconds(observation->timestamp)) earliest = std::min(earliest, *t);
   return std::isfinite(earliest) ? earliest : kAtOnce;
+}
+
+// In either form; the new ones stand for them.
+bool isDetections(const CSerializable::Ptr& object) {
+  const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object);
+  return comment ? holdsDetections(*comment)
+                 : std::dynamic_pointer_cast<CObservationDetections>(object) != nullptr;
 }
 
 void linkImages(const fs::path& input, const fs::path& output) {
@@ -70,7 +78,7 @@ struct RawlogCopy::Impl {
     while (waiting.empty()) {
       const auto item = source.next();
       if (!item) return false;
-      if (!item->object || std::dynamic_pointer_cast<CObservationDetections>(item->object)) continue;
+      if (!item->object || isDetections(item->object)) continue;
       waiting = source.bytesSince(item->offset);
       waiting_t = timeOf(item->object);
     }
@@ -96,7 +104,7 @@ RawlogCopy::~RawlogCopy() = default;
 
 void RawlogCopy::insert(const CObservationDetections& detections) {
   impl_->copyUntil(mrpt::Clock::toDouble(detections.timestamp));
-  impl_->writer.write(detections);
+  impl_->writer.write(toComment(detections));
 }
 
 void RawlogCopy::finish() {

@@ -10,7 +10,7 @@
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/datasets/rawlog_report.h"
-#include "roomgraph/observations/CObservationDetections.h"
+#include "roomgraph/observations/detection_comment.h"
 #include "sensor_statistics.h"
 
 namespace roomgraph {
@@ -52,6 +52,7 @@ class Inspector {
   }
 
   void report(RawlogReport& out) const {
+    for (const auto& [reason, count] : broken_) out.skipped[reason] += count;
     out.format = paired_ == 0 ? "observations" : single_ == 0 ? "actions and sensory frames" : "mixed";
     out.records = paired_ + single_;
     out.largest_step_back_s = largest_step_back_;
@@ -117,7 +118,13 @@ class Inspector {
         entry.report.pose_changes || !pose.isApprox(*entry.report.robot_from_sensor, kPoseTolerance);
   }
 
-  void addObservation(const CObservation::Ptr& observation) {
+  void addObservation(const CObservation::Ptr& written) {
+    const auto meant = unpacked(written);
+    if (!meant) {
+      ++broken_[meant.reason()];
+      return;
+    }
+    const CObservation::Ptr& observation = *meant;
     Sensor& entry =
         sensor(observation->sensorLabel, shortClassName(observation->GetRuntimeClass()->className));
     const auto t = toSeconds(observation->timestamp);
@@ -142,6 +149,7 @@ class Inspector {
 
   std::string image_folder_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::map<std::string, int> broken_;  ///< observations by reason
   OdometrySum sum_;
   Trajectory odometry_;
   int paired_ = 0, single_ = 0;

@@ -13,6 +13,7 @@
 #include "image_folder.h"
 #include "odometry_sum.h"
 #include "record_source.h"
+#include "roomgraph/observations/detection_comment.h"
 
 namespace roomgraph {
 
@@ -32,7 +33,7 @@ struct RawlogReader::Impl {
   std::optional<Record> next();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeActions(const CActionCollection& actions);
-  void takeObservation(const CObservation::Ptr& observation);
+  void takeObservation(const CObservation::Ptr& written);
   void giveTimeToOdometry(double t);
   std::optional<Record> convert(const CObservation::Ptr& observation);
   std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
@@ -65,8 +66,14 @@ void RawlogReader::Impl::giveTimeToOdometry(double t) {
   waiting.emplace_back(OdometryReading{t, odometry.pose()});
 }
 
-void RawlogReader::Impl::takeObservation(const CObservation::Ptr& observation) {
-  if (!observation) return;
+void RawlogReader::Impl::takeObservation(const CObservation::Ptr& written) {
+  if (!written) return;
+  const auto meant = unpacked(written);
+  if (!meant) {
+    ++statistics.skipped[meant.reason()];
+    return;
+  }
+  const CObservation::Ptr& observation = *meant;
   if (const auto t = toSeconds(observation->timestamp)) {
     giveTimeToOdometry(*t);
     waiting.emplace_back(observation);

@@ -33,11 +33,10 @@ std::vector<int> classOfLabel(const Network& network, const ObjectDatabase& data
 
 // What to do without a network; everything but objects works all the same.
 const char* const kNoNetwork =
-    "no network, so no objects: name a weights file, with labels.txt beside it, as [detection] models "
-    "(--set detection.models=FILE); suitable: NanoDet-Plus-m-1.5x (github.com/RangiLyu/nanodet), YOLOX-Nano "
+    "no network, so no objects: name a weights file as [detection] models (--set detection.models=FILE); "
+    "suitable: NanoDet-Plus-m-1.5x (github.com/RangiLyu/nanodet), YOLOX-Nano "
     "(github.com/Megvii-BaseDetection/YOLOX), Yolo-Fastest-1.1-xl (github.com/dog-qiuqiu/Yolo-Fastest); for "
-    "doors "
-    "DeepLabV3-MobileNetV2 trained on ADE20K (github.com/mlcommons/mobile_models)";
+    "doors DeepLabV3-MobileNetV2 trained on ADE20K (github.com/mlcommons/mobile_models)";
 
 cv::Mat maskOver(const Box2& box, const cv::Mat& cells) {
   cv::Mat mask;
@@ -55,7 +54,11 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
                 "ade20k; all run on each image and their boxes are merged; Darknet .weights need "
                 "the .cfg of the same name beside them",
          .file = true});
-  v.add("labels_file", labels_file_, {.doc = "one label per line; empty: labels.txt beside each network", .file = true});
+  v.add(
+      "labels_file", labels_file_,
+      {.doc = "one label per line; empty: labels.txt beside each network, or without that the labels of COCO "
+              "or ADE20K by the number of classes",
+        .file = true});
   v.add("segmentation_labels", segmentation_labels_,
         {.doc = "labels taken from a segmentation network; box detectors are better at the others"});
   v.add("input_size_px", input_size_px_,

@@ -8,6 +8,8 @@
 
 #include "network_files.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/suggest.h"
+#include "roomgraph/detection/label_lists.h"
 
 namespace roomgraph {
 namespace {
@@ -49,11 +51,13 @@ Network::Network(const NetworkSpec& spec) : file_(spec.file), format_(spec.forma
   } catch (const cv::Exception& error) {
     throw InputError(file_ + ": not a network that OpenCV can load: " + firstLine(error.err));
   }
-  const NetworkFormat found = formatFromOutput();
+  if (labels_.empty()) labels_ = knownLabels();
+  const NetworkFormat found = formatFromOutput(static_cast<int>(labels_.size()));
   if (format_ == NetworkFormat::kAuto) format_ = found;
   if (format_ == NetworkFormat::kAuto || format_ != found)
     throw InputError(file_ + ": the network's output (" + describeShape(outputs_) + ", " +
-                     std::to_string(labels_.size()) + " labels) fits " +
+                     std::to_string(labels_.size()) + " labels" +
+                     (labels_file_.empty() ? "" : " in " + labels_file_) + ") fits " +
                      (format_ == NetworkFormat::kAuto ? "none of the known formats: " + knownFormats()
                                                       : "not the format '" + toString(format_) + "'"));
 }
@@ -61,8 +65,11 @@ Network::Network(const NetworkSpec& spec) : file_(spec.file), format_(spec.forma
 void Network::readFiles(const NetworkSpec& spec) {
   requireFile(file_, "network");
   const std::filesystem::path path(file_);
-  labels_ =
-      readLabels(spec.labels_file.empty() ? (path.parent_path() / "labels.txt").string() : spec.labels_file);
+  labels_file_ = spec.labels_file;
+  if (const auto beside = path.parent_path() / "labels.txt";
+      labels_file_.empty() && std::filesystem::is_regular_file(beside))
+    labels_file_ = beside.string();
+  if (!labels_file_.empty()) labels_ = readLabels(labels_file_);
   if (path.extension() == ".weights") {
     const std::string config = std::filesystem::path(path).replace_extension(".cfg").string();
     requireFile(config, "Darknet configuration");
@@ -111,8 +118,20 @@ std::vector<cv::Mat> Network::forward(const cv::Mat& blob) {
   return outputs;
 }
 
-NetworkFormat Network::formatFromOutput() const {
-  const int classes = static_cast<int>(labels_.size());
+// The list that comes with the program and has as many labels as the network has classes.
+std::vector<std::string> Network::knownLabels() const {
+  std::vector<std::string> known;
+  for (const auto& [name, labels] : labelLists()) {
+    if (formatFromOutput(static_cast<int>(labels.size())) != NetworkFormat::kAuto) return labels;
+    known.push_back(name + " " + std::to_string(labels.size()));
+  }
+  throw InputError(file_ + ": the network's output (" + describeShape(outputs_) +
+                   ") has the number of classes of no list of labels that comes with the program (" +
+                   join(known) + "): put labels.txt beside it, one label a line in the network's order, or " +
+                   "name such a file as [detection] labels_file");
+}
+
+NetworkFormat Network::formatFromOutput(int classes) const {
   const cv::Mat& first = outputs_.front();
   if (first.dims == 4) return first.size[1] == classes ? NetworkFormat::kAde20k : NetworkFormat::kAuto;
   const cv::Mat table = rows(first);

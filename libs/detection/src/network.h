@@ -17,7 +17,7 @@ enum class NetworkFormat { kAuto, kNanodet, kYolox, kDarknet, kAde20k };
 struct NetworkSpec {
   std::string file;  ///< .onnx, or Darknet .weights with a .cfg of the same name beside it
   NetworkFormat format = NetworkFormat::kAuto;
-  std::string labels_file;  ///< empty: labels.txt beside the file
+  std::string labels_file;  ///< empty: labels.txt beside the file, or a known list
   int input_size_px = 0;    ///< 0: from the .cfg, the file's name, or by trying
 };
 
@@ -40,11 +40,13 @@ class Network {
   void readFiles(const NetworkSpec& spec);
   void chooseInputSize(int configured);
   bool accepts(cv::Size input);
-  NetworkFormat formatFromOutput() const;
+  std::vector<std::string> knownLabels() const;
+  NetworkFormat formatFromOutput(int classes) const;
   cv::Mat blobFor(const cv::Mat& bgr) const;
   std::vector<RawBox> decode(const std::vector<int>& wanted, double min_score) const;
 
   std::string file_;
+  std::string labels_file_;  ///< empty: the labels are a known list
   NetworkFormat format_;
   std::vector<std::string> labels_;
   cv::dnn::Net net_;

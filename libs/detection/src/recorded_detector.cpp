@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -16,19 +17,24 @@ namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(RecordedDetector, Detector, roomgraph)
 
-void RecordedDetector::declareParameters(ParameterVisitor& v) {
+void RecordedDetector::declareSource(ParameterVisitor& v) {
   v.add("file", file_,
         {.doc = "recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`; empty: "
                 "only those inside the rawlog",
          .file = true});
   v.add("tolerance_s", tolerance_s_,
         {.doc = "largest time between a frame and its record", .unit = "s", .min = 0, .max = 10});
+}
+
+void RecordedDetector::declareParameters(ParameterVisitor& v) {
+  declareSource(v);
   v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0, .max = 1});
 }
 
 void RecordedDetector::prepare() {
   records_.clear();
-  warning_.clear();
+  threshold_warning_.clear();
+  frames_ = matched_ = 0;
   identity_ = {"", "", score_threshold_, 0};
   if (file_.empty()) return;
   records_ = readDetectionFile(file_);
@@ -42,16 +48,16 @@ void RecordedDetector::feed(const CObservationDetections& recorded) {
   const double recorded_threshold = static_cast<double>(recorded.score_threshold);
   identity_ = {recorded.model, recorded.model_hash, std::max(score_threshold_, recorded_threshold),
                static_cast<double>(recorded.nms_threshold)};
-  if (recorded_threshold <= score_threshold_ + 1e-6 || !warning_.empty()) return;
+  if (recorded_threshold <= score_threshold_ + 1e-6 || !threshold_warning_.empty()) return;
   std::ostringstream text;
   text << "the recorded detections (" << recorded.model << ") hold no score below " << recorded_threshold
        << "; [detection] score_threshold = " << score_threshold_ << " asks for more: run the network again";
-  warning_ = text.str();
+  threshold_warning_ = text.str();
 }
 
-const RecordedBoxes* RecordedDetector::nearest(const Frame& frame, double& distance_s) const {
+const RecordedBoxes* RecordedDetector::nearest(const Frame& frame) const {
   const RecordedBoxes* best = nullptr;
-  distance_s = std::numeric_limits<double>::infinity();
+  double distance_s = std::numeric_limits<double>::infinity();
   const auto end = records_.upper_bound(frame.t + tolerance_s_);
   for (auto it = records_.lower_bound(frame.t - tolerance_s_); it != end; ++it) {
     const std::string& label = it->second.image_label;
@@ -64,15 +70,38 @@ const RecordedBoxes* RecordedDetector::nearest(const Frame& frame, double& dista
   return best;
 }
 
+std::string RecordedDetector::warning() const {
+  return threshold_warning_.empty() ? mismatch() : threshold_warning_;
+}
+
+// Why no frame had a record, although there were frames.
+std::string RecordedDetector::mismatch() const {
+  if (frames_ == 0 || matched_ > 0) return "";
+  if (records_.empty())
+    return "no recorded boxes: the rawlog holds none, and [detection] file names none; objects are not "
+           "mapped";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << "none of the " << records_.size()
+       << " images with recorded boxes (" << records_.begin()->first << " to " << records_.rbegin()->first
+       << " s, camera '" << records_.begin()->second.image_label << "') is one of the " << frames_
+       << " frames (" << first_frame_t_ << " to " << last_frame_t_ << " s, camera '" << frame_label_
+       << "'): stamps may differ by [detection] tolerance_s = " << tolerance_s_ << " s, and the camera must "
+       << "be the same; objects are not mapped";
+  return text.str();
+}
+
 Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
-  double distance_s = 0;
-  const RecordedBoxes* record = nearest(frame, distance_s);
+  if (frames_++ == 0) first_frame_t_ = frame.t;
+  last_frame_t_ = frame.t;
+  frame_label_ = frame.sensor_label;
+  const RecordedBoxes* record = nearest(frame);
   if (!record || !database_) {
     std::ostringstream reason;
     reason << "no recorded detections within " << tolerance_s_ << " s of the frame";
     return Result::failure(reason.str());
   }
+  ++matched_;
   std::vector<Detection> detections;
   for (Detection detection : record->boxes) {
     const ObjectModel* model = database_->byLabel(detection.label);

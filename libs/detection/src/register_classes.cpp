@@ -4,14 +4,14 @@
 
 #include <mrpt/core/initializer.h>
 
-#include "roomgraph/detection/dnn_detector.h"
-#include "roomgraph/detection/recorded_detector.h"
+#include "roomgraph/detection/auto_detector.h"
 
 namespace roomgraph::detection {
 
 void registerClasses() {
   mrpt::rtti::registerClass(CLASS_ID(Stage));
   mrpt::rtti::registerClass(CLASS_ID(Detector));
+  mrpt::rtti::registerClass(CLASS_ID(AutoDetector));
   mrpt::rtti::registerClass(CLASS_ID(DnnDetector));
   mrpt::rtti::registerClass(CLASS_ID(RecordedDetector));
 }

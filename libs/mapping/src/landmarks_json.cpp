@@ -145,11 +145,25 @@ Landmark readLandmark(const Entry& entry) {
 
 }  // namespace
 
-void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file) {
+void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file,
+                       const LandmarksOrigin& origin) {
+  Json header{{"frame", "world"},
+              {"units", {{"length", "m"}, {"angle", "rad"}, {"time", "s"}}},
+              {"recording", origin.recording},
+              {"program", "roomgraph"},
+              {"version", origin.version}};
+  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
   // One landmark per line: short, and readable in a diff.
-  std::string text = "{\"landmarks\": [";
-  for (std::size_t i = 0; i < landmarks.size(); ++i)
-    text += (i ? ",\n  " : "\n  ") + toJson(landmarks[i]).dump();
+  text.back() = ',';
+  text += "\n\"landmarks\": [";
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    Json json = toJson(landmarks[i]);
+    if (const auto seen = origin.seen.find(landmarks[i].id); seen != origin.seen.end()) {
+      json["first_seen"] = seen->second.first;
+      json["last_seen"] = seen->second.last;
+    }
+    text += (i ? ",\n  " : "\n  ") + json.dump();
+  }
   writeFileAtomically(file, text + "\n]}\n");
 }
 

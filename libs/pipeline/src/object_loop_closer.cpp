@@ -30,9 +30,8 @@ RelativePose proposal(double t_a, double t_b, const Pose2& map_from_query, const
 
 }  // namespace
 
-std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks,
-                               const std::map<LandmarkId, SeenSpan>& spans, double now, double recent_s,
-                               std::size_t min_each) {
+std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
+                               double recent_s, std::size_t min_each) {
   std::set<double> times;
   for (const auto& landmark : landmarks)
     if (const auto span = spans.find(landmark.id);
@@ -68,8 +67,8 @@ std::optional<RelativePose> ObjectLoopCloser::search(const ObjectMapper& objects
 }
 
 std::optional<RelativePose> ObjectLoopCloser::confirm(const ConstellationMatch& match, const Visits& visits,
-                                                      const std::map<LandmarkId, SeenSpan>& spans,
-                                                      const KeyPoses& poses, const ClosureVerifier& verify) {
+                                                      const SeenSpans& spans, const KeyPoses& poses,
+                                                      const ClosureVerifier& verify) {
   const Eigen::Vector2d place = visits.recent[match.pairs.front().first].position.head<2>();
   if ((match.map_from_query * place - place).norm() < options_.min_shift_m) return std::nullopt;
   for (std::size_t i = 0; i < std::min(kAttempts, match.pairs.size()); ++i) {

@@ -46,7 +46,10 @@ void OdometryOptions::declareParameters(ParameterVisitor& v) {
 
 void DetectionStageOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "detect and map objects"});
-  v.add("class", detector, {.doc = "implementation of Detector"});
+  v.add("class", detector,
+        {.doc =
+             "implementation of Detector; auto: AutoDetector, which runs the networks in `models` when there "
+             "are some and else replays recorded boxes"});
   tracker.declareParameters(v);
 }
 
@@ -125,6 +128,9 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .min = 0,
          .max = 10});
   declareObjectFactors(*this, v);
+  v.add(
+      "planar_graph", planar_graph,
+      {.doc = "write graph.g2o in 2D (SE2) when the robot drives on a floor; a handheld camera's stays 3D"});
 }
 
 void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {

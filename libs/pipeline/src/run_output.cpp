@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "graph_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
@@ -168,11 +169,12 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("trajectory.tum", robot.str());
   write("trajectory_camera.tum", camera.str());
   write("associations.jsonl", associations.str());
-  saveLandmarksJson(result.map.landmarks, files_.pending("landmarks.json"));
+  saveLandmarksJson(result.map.landmarks, files_.pending("landmarks.json"),
+                    {result.map.origin, origin.version + " (" + origin.revision + ")", result.seen});
   if (result.map.occupancy)
     saveOccupancyRos(*result.map.occupancy, files_.pending("map.pgm").replace_extension());
   saveMap(result.map, files_.pending("map.rgmap"));
-  slam.graph().saveG2o(files_.pending("graph.g2o"));
+  saveGraph(slam, result.map.planar, files_.pending("graph.g2o"));
   write("config.ini", slam.stages().effective_config);
   write("objects.ini", slam.stages().objects);
   write("timings.csv", timings.str());

@@ -113,7 +113,7 @@ bool SemanticSlam::inOrder(double t, double& last, const std::string& source) {
 }
 
 std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& report) {
-  if (!stages_->detector) return {};
+  if (!stages_->detector || stages_->detector->idle()) return {};
   const auto timing = times_.measure("detection");
   const auto found = stages_->detector->detect(frame);
   report.detector_ran = found.ok();
@@ -288,6 +288,7 @@ SlamResult SemanticSlam::collect() {
   result.map.planar = estimator_.measurements().planar;
   if (poses.empty()) return result;
   result.map.landmarks = objects_.landmarks().confirmed();
+  result.seen = objects_.seenSpans();
   if (const auto covariances = graph().landmarkCovariances())
     for (auto& landmark : result.map.landmarks)
       if (const auto found = covariances->find(landmark.id); found != covariances->end())

@@ -98,7 +98,8 @@ void makeFrontEnds(Stages& stages, Loader& loader) {
 void makeObjectStages(Stages& stages, Loader& loader) {
   loader.read("detection", stages.detection);
   if (stages.detection.enabled) {
-    stages.detector = loader.make<Detector>("detection", stages.detection.detector);
+    const std::string& name = stages.detection.detector;
+    stages.detector = loader.make<Detector>("detection", name == "auto" ? "AutoDetector" : name);
     stages.detector->setDatabase(stages.database);
   }
   stages.proposal_generator = loader.makeChosen<ProposalGenerator>("proposals");

@@ -9,6 +9,7 @@
 
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/observations/rawlog_writer.h"
+#include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/simulation/color_renderer.h"
 #include "roomgraph/simulation/scene.h"
 #include "truth_files.h"
@@ -172,7 +173,7 @@ void Simulation::frame(double t) {
     found.timestamp = record.timestamp;
     found.sensorLabel = "DETECTIONS";
     found.image_label = record.sensorLabel;
-    rawlog_.write(found);
+    rawlog_.write(toComment(found));
     ++result_.detections;
   }
   writePose(camera_truth_, kStart + t, world_from_camera);

@@ -30,6 +30,9 @@ struct SolveReport {
   std::string message;
 };
 
+struct PlanarGraph;
+using NodeTimes = std::map<NodeId, double>;  ///< s
+
 using Matrix10d = Eigen::Matrix<double, 10, 10>;
 
 /// Poses, landmarks, points and the factors between them; robust non-linear least squares (method.md Eq. 9).
@@ -87,8 +90,12 @@ class FactorGraph {
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
   /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). Priors, points and robust
-  /// losses have no place in it. Throws RunError when the file cannot be written.
-  void saveG2o(const std::filesystem::path& file) const;
+  /// losses have no place in it. `times` of poses go beside them as comments. Throws RunError when the file
+  /// cannot be written.
+  void saveG2o(const std::filesystem::path& file, const NodeTimes& times = {}) const;
+  /// The same graph seen from above, for robots on a floor: the same vertices (landmarks too) and edges,
+  /// without heights, roll and pitch.
+  PlanarGraph planar() const;
 
   struct Impl;  ///< behind the scenes
 

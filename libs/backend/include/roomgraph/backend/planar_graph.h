@@ -18,11 +18,18 @@ struct PlanarEdge {
       Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in the measurement's b frame
 };
 
+/// A vertex that stands for an object: its bottom centre, and the yaw of its front.
+struct PlanarLandmark {
+  LandmarkId id;
+  ObjectShape shape;
+};
+
 /// Pose graph in the plane, as 2D g2o files hold it. Its error is the one of g2o's EDGE_SE2, with which the
 /// optima of the public data sets are published: e = (x, y, yaw) of a_from_b(measured)^-1
 /// a_from_b(estimated), yaw wrapped; chi^2 = sum e' information e.
 struct PlanarGraph {
-  std::map<NodeId, Pose2> poses;  ///< world_from_robot
+  std::map<NodeId, Pose2> poses;  ///< world_from_robot; of landmarks, too
+  std::map<NodeId, PlanarLandmark> landmarks;
   std::set<NodeId> fixed;
   std::vector<PlanarEdge> edges;
 };

@@ -17,7 +17,7 @@ class ConfigSchema {
  public:
   struct Key {
     std::string key, type, default_text, doc, unit, allowed;
-    std::string owner;  ///< class that reads it; empty: every implementation of the section
+    std::vector<std::string> owners;  ///< classes that read it; none: every implementation of the section
   };
   struct Section {
     std::string name, doc;

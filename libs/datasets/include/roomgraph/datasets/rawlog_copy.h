@@ -9,9 +9,10 @@
 
 namespace roomgraph {
 
-/// Copies a rawlog byte by byte (images are not compressed again) and puts detections in at their times.
-/// Those that the input has already are left out: the new ones stand for them. External images are not
-/// copied: when the copy would look for them elsewhere, a link NAME_Images to their folder is made beside it.
+/// Copies a rawlog byte by byte (images are not compressed again) and puts detections in at their times,
+/// as comments that every program of MRPT can read (toComment()). Those that the input has already are left
+/// out: the new ones stand for them. External images are not copied: when the copy would look for them
+/// elsewhere, a link NAME_Images to their folder is made beside it.
 class RawlogCopy {
  public:
   /// Throws InputError (input missing, not a rawlog) or RunError (output cannot be written, or is the input).

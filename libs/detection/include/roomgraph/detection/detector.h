@@ -29,6 +29,8 @@ class Detector : public Stage {
   virtual void setDatabase(const ObjectDatabase& database) = 0;
   /// Detections recorded in the rawlog, as they are read.
   virtual void feed(const CObservationDetections& recorded) { (void)recorded; }
+  /// True while there is nothing to detect with; then detect() need not be called.
+  virtual bool idle() const { return false; }
   /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
   /// ("every 4th frame only", "no record at this time").
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;

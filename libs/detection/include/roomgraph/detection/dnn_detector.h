@@ -22,6 +22,8 @@ class DnnDetector : public Detector {
   void prepare() override;
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
   DetectorIdentity identity() const override;
+  bool hasModels() const { return !models_.empty(); }
+  double scoreThreshold() const { return score_threshold_; }
 
  private:
   std::vector<std::string> models_;

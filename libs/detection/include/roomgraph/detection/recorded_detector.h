@@ -30,6 +30,9 @@ class RecordedDetector : public Detector {
   DEFINE_MRPT_OBJECT(RecordedDetector, roomgraph)
  public:
   void declareParameters(ParameterVisitor& visitor) override;
+  /// Where the records are: all parameters but the score.
+  void declareSource(ParameterVisitor& visitor);
+  void setScoreThreshold(double smallest) { score_threshold_ = smallest; }
   void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
   void prepare() override;
   void feed(const CObservationDetections& recorded) override;
@@ -38,11 +41,15 @@ class RecordedDetector : public Detector {
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
   /// Of the records read last: the file's name and hash, or what stands in the rawlog.
   DetectorIdentity identity() const override { return identity_; }
-  /// When records were made with a stricter threshold than the configured one.
-  std::string warning() const override { return warning_; }
+  /// When records were made with a stricter threshold than the configured one, or none of them is of a frame
+  /// that was asked for.
+  std::string warning() const override;
+  /// Whether no record is known so far.
+  bool empty() const { return records_.empty(); }
 
  private:
-  const RecordedBoxes* nearest(const Frame& frame, double& distance_s) const;
+  const RecordedBoxes* nearest(const Frame& frame) const;
+  std::string mismatch() const;
 
   std::string file_;
   double tolerance_s_ = 0.02;
@@ -51,7 +58,10 @@ class RecordedDetector : public Detector {
   const ObjectDatabase* database_ = nullptr;
   DetectionRecords records_;
   DetectorIdentity identity_;
-  std::string warning_;
+  std::string threshold_warning_;
+  int frames_ = 0, matched_ = 0;  ///< asked for; with a record
+  double first_frame_t_ = 0, last_frame_t_ = 0;
+  std::string frame_label_;  ///< of the last one
 };
 
 }  // namespace roomgraph

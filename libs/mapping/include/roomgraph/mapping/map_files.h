@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/observations/seen_span.h"
 
 namespace roomgraph {
 
@@ -15,10 +16,18 @@ namespace roomgraph {
 void saveMap(const CSemanticMap& map, const std::filesystem::path& file);
 CSemanticMap loadMap(const std::filesystem::path& file);
 
-/// landmarks.json of the interface: id, class, model, x, y, z, yaw, size_wdh, footprint, covariance,
-/// existence, class_posterior, observations; besides, `shape` and `has_yaw`, which the reader needs to give
+/// Where the objects of a landmarks.json come from.
+struct LandmarksOrigin {
+  std::string recording, version;  ///< name of the file; of the program
+  SeenSpans seen;
+};
+
+/// landmarks.json of the interface: a header (frame, units, recording, version), then for each landmark id,
+/// class, model, x, y, z, yaw, size_wdh, footprint, covariance, existence, class_posterior, observations,
+/// first_seen and last_seen (where known); besides, `shape` and `has_yaw`, which the reader needs to give
 /// back the same.
-void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file);
+void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file,
+                       const LandmarksOrigin& origin = {});
 /// Reads landmarks.json (key `landmarks`) or a truth file (key `objects`). Required of an entry: id, class,
 /// x, y, z, size_wdh; the rest may be absent (no yaw: has_yaw = false; no posterior: the class itself). Truth
 /// files name what a distractor is in `kind`: it becomes the landmark's model.

@@ -19,9 +19,8 @@ struct Visits {
 
 /// Every way to part the landmarks at a time within `recent_s` before `now`: first seen from then on, and not
 /// seen any more since; only those with at least `min_each` landmarks in both visits.
-std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks,
-                               const std::map<LandmarkId, SeenSpan>& spans, double now, double recent_s,
-                               std::size_t min_each);
+std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
+                               double recent_s, std::size_t min_each);
 
 /// Asks the scans or the images whether a closure is right; refines it.
 using ClosureVerifier = std::function<std::optional<RelativePose>(const RelativePose&)>;
@@ -40,7 +39,7 @@ class ObjectLoopCloser {
 
  private:
   std::optional<RelativePose> confirm(const ConstellationMatch& match, const Visits& visits,
-                                      const std::map<LandmarkId, SeenSpan>& spans, const KeyPoses& poses,
+                                      const SeenSpans& spans, const KeyPoses& poses,
                                       const ClosureVerifier& verify);
 
   const ObjectLoopOptions& options_;

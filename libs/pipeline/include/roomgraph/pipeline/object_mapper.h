@@ -5,17 +5,13 @@
 #include <map>
 #include <vector>
 
+#include "roomgraph/observations/seen_span.h"
 #include "roomgraph/pipeline/key_poses.h"
 #include "roomgraph/pipeline/object_factors.h"
 #include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
-
-/// When a landmark was measured first and last, s.
-struct SeenSpan {
-  double first = 0, last = 0;
-};
 
 /// The object part of a run: selection (method.md sec. 3), association (sec. 4, E-step), and the memory of
 /// what was measured, relative to the robot, so that it can be judged again when poses have moved.
@@ -51,7 +47,7 @@ class ObjectMapper {
   const std::vector<ObjectFrame>& frames() const { return frames_; }
   LandmarkMap& landmarks() { return stages_.landmarks; }
   const LandmarkMap& landmarks() const { return stages_.landmarks; }
-  const std::map<LandmarkId, SeenSpan>& seenSpans() const { return spans_; }
+  const SeenSpans& seenSpans() const { return spans_; }
 
  private:
   std::vector<WorldMeasurement> select(const FrameProposals& seen, const Frame& frame,
@@ -64,7 +60,7 @@ class ObjectMapper {
   Stages& stages_;
   const KeyPoses& poses_;
   std::vector<ObjectFrame> frames_;
-  std::map<LandmarkId, SeenSpan> spans_;
+  SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
 };
 

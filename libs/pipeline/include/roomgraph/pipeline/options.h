@@ -53,7 +53,7 @@ struct OdometryOptions : Configurable {
 /// [detection]
 struct DetectionStageOptions : Configurable {
   bool enabled = true;
-  std::string detector = "DnnDetector";
+  std::string detector = "auto";
   BoxTrackerOptions tracker;
   void declareParameters(ParameterVisitor& v) override;
 };
@@ -78,6 +78,7 @@ struct BackendOptions : Configurable {
   double landmark_information_share = 0.01;
   double landmark_side_rad = 0.26;
   bool object_boxes = true;
+  bool planar_graph = false;
   double box_sigma_px = 60, point_sigma_px = 20;
   int points_per_landmark = 10;
   void declareParameters(ParameterVisitor& v) override;

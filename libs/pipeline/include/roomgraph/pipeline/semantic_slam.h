@@ -40,6 +40,7 @@ struct SlamResult {
       world_from_robot;  ///< at every frame and scan (with neither: at every odometry reading)
   std::vector<StampedPose> world_from_camera;  ///< at every frame (optical)
   CSemanticMap map;
+  SeenSpans seen;  ///< landmarks of this recording; those that only the earlier map holds are not in it
   RunCounts counts;
   std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
 };
@@ -61,6 +62,8 @@ class SemanticSlam {
   const FactorGraph& graph() const { return estimator_.graph(); }
   /// Every measured object and the landmark it belongs to; after finish() with all hindsight.
   const ObjectMapper& objects() const { return objects_; }
+  /// The poses of the graph.
+  const KeyPoses& keyPoses() const { return estimator_.poses(); }
   const Stages& stages() const { return *stages_; }
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }

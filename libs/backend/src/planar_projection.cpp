@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "g2o_convention.h"
+#include "graph_state.h"
+#include "roomgraph/backend/planar_graph.h"
+
+namespace roomgraph {
+namespace {
+
+// g2o's error in the plane is turned into the measured b frame; ours is not (g2o_convention.h).
+Eigen::Matrix3d turnedInformation(const Eigen::Matrix3d& information, double measured_yaw) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(measured_yaw).toRotationMatrix();
+  return turn.transpose() * information * turn;
+}
+
+PlanarEdge edgeOf(const BetweenFactor& movement) {
+  PlanarEdge edge{movement.a, movement.b, planarPart(movement.a_from_b)};
+  Eigen::Matrix3d covariance;
+  constexpr int kRows[] = {0, 1, 5};  // what height, roll and pitch were thought to be does not count
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) covariance(i, j) = movement.covariance(kRows[i], kRows[j]);
+  edge.information = turnedInformation(covariance.inverse(), edge.a_from_b.yaw);
+  return edge;
+}
+
+PlanarEdge edgeOf(const LandmarkFactor& sighting, NodeId vertex) {
+  const double yaw = sighting.has_yaw ? sighting.yaw_in_robot : 0;
+  PlanarEdge edge{
+      sighting.node, vertex, {sighting.position_in_robot.x(), sighting.position_in_robot.y(), yaw}};
+  Eigen::Matrix3d covariance;
+  constexpr int kRows[] = {0, 1, 3};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) covariance(i, j) = sighting.covariance(kRows[i], kRows[j]) / sighting.weight;
+  Eigen::Matrix3d information = Eigen::Vector3d(0, 0, kTokenInformation).asDiagonal();
+  if (sighting.has_yaw)
+    information = covariance.inverse();
+  else
+    information.topLeftCorner<2, 2>() = covariance.topLeftCorner<2, 2>().inverse();
+  edge.information = turnedInformation(information, yaw);
+  return edge;
+}
+
+}  // namespace
+
+PlanarGraph FactorGraph::planar() const {
+  PlanarGraph out;
+  for (const auto& [id, state] : impl_->poses) {
+    out.poses[id] = planarPart(pose(id));
+    if (state.fixed) out.fixed.insert(id);
+  }
+  for (const auto& [id, object] : impl_->objects) {
+    const NodeId vertex = impl_->vertexOf(id);
+    const LandmarkEstimate estimate = landmark(id);
+    out.poses[vertex] = {estimate.position.x(), estimate.position.y(), wrapAngle(estimate.yaw)};
+    out.landmarks[vertex] = {id, {object.kind, object.size[0], object.size[1], object.size[2]}};
+  }
+  for (const auto& entry : impl_->factors)
+    if (const auto* movement = std::get_if<BetweenFactor>(&entry.factor))
+      out.edges.push_back(edgeOf(*movement));
+  for (const auto& entry : impl_->factors) {
+    const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
+    if (sighting && sighting->weight > kLeastWeight)
+      out.edges.push_back(edgeOf(*sighting, impl_->vertexOf(sighting->landmark)));
+  }
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+
+namespace roomgraph {
+
+/// What the beginning of a rawlog holds.
+struct RawlogPeek {
+  bool frames = false;      ///< RGB-D records
+  bool detections = false;  ///< recorded boxes
+};
+
+/// Looks at the first 10 s, 2000 records or 128 MiB (uncompressed), whichever ends first, without decoding
+/// images; ends early when there are both. Throws InputError like RawlogReader.
+RawlogPeek peekRawlog(const std::filesystem::path& file);
+
+}  // namespace roomgraph

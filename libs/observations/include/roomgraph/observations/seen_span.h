@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <map>
+
+#include "roomgraph/core/ids.h"
+
+namespace roomgraph {
+
+/// When a landmark was measured first and last, s.
+struct SeenSpan {
+  double first = 0, last = 0;
+};
+
+using SeenSpans = std::map<LandmarkId, SeenSpan>;
+
+}  // namespace roomgraph

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/pipeline/detection_source.h"
+
+#include "roomgraph/datasets/rawlog_peek.h"
+
+namespace roomgraph {
+
+std::string missingDetections(const Stages& stages, const std::filesystem::path& rawlog) {
+  if (!stages.detector || !stages.detector->idle()) return "";
+  const RawlogPeek peek = peekRawlog(rawlog);
+  if (peek.detections || !peek.frames) return "";
+  return "no network named and no boxes in " + rawlog.filename().string() +
+         ": objects will not be mapped; name one with --set detection.models=FILE.onnx";
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "graph_file.h"
+
+#include "roomgraph/backend/g2o_file.h"
+
+namespace roomgraph {
+
+void saveGraph(const SemanticSlam& slam, bool planar_run, const std::filesystem::path& file) {
+  NodeTimes times;
+  for (const auto& node : slam.keyPoses().nodes()) times[node.id] = node.t;
+  if (planar_run && slam.stages().backend.planar_graph)
+    saveG2o(slam.graph().planar(), file, times);
+  else
+    slam.graph().saveG2o(file, times);
+}
+
+}  // namespace roomgraph
