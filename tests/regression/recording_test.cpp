@@ -63,10 +63,15 @@ class RecordingTest : public ::testing::Test {
                 {"run", input.string(), "-o", folder.file(output).string(), "--quiet", "--no-snapshot"});
     return call(folder.path(), more);
   }
+  // The header of landmarks.json names the recording.
+  static std::string withoutHeader(const fs::path& file) {
+    const std::string text = contentOf(file);
+    return file.filename() == "landmarks.json" ? text.substr(text.find("\"landmarks\"")) : text;
+  }
   void expectSameRun(const std::string& a, const std::string& b) {
     for (const char* name : {"landmarks.json", "detections.jsonl", "trajectory.tum", "associations.jsonl"}) {
       EXPECT_FALSE(contentOf(folder.file(a) / name).empty()) << name;
-      EXPECT_EQ(contentOf(folder.file(a) / name), contentOf(folder.file(b) / name)) << name;
+      EXPECT_TRUE(withoutHeader(folder.file(a) / name) == withoutHeader(folder.file(b) / name)) << name;
     }
   }
   TemporaryFolder folder;
