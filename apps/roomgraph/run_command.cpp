@@ -15,6 +15,7 @@
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
+#include "roomgraph/pipeline/read_options.h"
 #include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
@@ -28,7 +29,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 struct RunOptions {
   std::string input, output, config, map, recording, pictures;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, poses;
   int threads = 0;
   double from_s = 0, until_s = 0;
   bool quiet = false, no_snapshot = false;
@@ -113,7 +114,9 @@ void printSummary(const RunOptions& options, const Replay& replayed, const SlamR
   for (const auto& [reason, count] : counts.reasons) std::cout << "  " << count << " x " << reason << "\n";
   for (const auto& [reason, count] : replayed.read.skipped)
     std::cout << "  skipped " << count << " x " << reason << "\n";
-  for (const std::string& warning : {replayed.read.warning, detector_warning})
+  std::vector<std::string> warnings = replayed.read.sensor_warnings;
+  warnings.insert(warnings.end(), {replayed.read.warning, detector_warning});
+  for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
   if (replayed.stopped) std::cerr << "roomgraph: interrupted; the results cover what was replayed\n";
   std::cout << "results in " << options.output << "\n";
@@ -129,10 +132,10 @@ void run(const RunOptions& options) {
       options.config.empty() ? sharedFile("config.ini") : std::filesystem::path(options.config);
   Config config = Config::fromFile(config_file);
   for (const auto& assignment : options.overrides) config.override(assignment);
+  for (const auto& pose : options.poses) placeSensor(config, pose);
   auto stages = makeStages(config, config_file.parent_path());
   const ObjectDatabase database = stages->database;
-  RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
-                                      stages->lidar.enabled, stages->odometry.enabled});
+  RawlogReader reader(options.input, readOptionsOf(*stages));
   RecordSorter sorter(stages->general.lookahead_s);
   auto output = std::make_shared<RunOutput>(options.output);
   const ExtraSinks extra = addSinks(options, *stages);
@@ -172,6 +175,9 @@ void addRunCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "folder for the results")->required();
   command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
   command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
+  command->add_option("--pose", options->poses,
+                      "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
+                      "recorded one; may be repeated");
   command->add_option(
       "--map", options->map,
       "map.rgmap of an earlier run: results are in its frame once its objects are recognised");

@@ -89,6 +89,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;
+  summary["sensor_warnings"] = read.sensor_warnings;
   for (const auto& [stage, spent] : slam.times().totals())
     summary["timings"][stage] = {{"calls", spent.calls},
                                  {"mean_ms", spent.total_ms / spent.calls},
