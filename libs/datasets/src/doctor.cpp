@@ -145,8 +145,8 @@ std::vector<Finding> findProblems(const RawlogReport& report) {
       continue;
     }
     checkTimes(sensor, out);
-    checkPose(sensor, on_robot, out);
-    if (sensor.images) checkImages(sensor, on_robot, out);
+    const bool unit_is_right = !sensor.images || checkImages(sensor, out);
+    checkPose(sensor, on_robot, unit_is_right, out);
     if (sensor.scans) checkScans(sensor, out);
     if (sensor.path_length_m) checkOdometry(report, sensor, out);
   }

@@ -43,25 +43,25 @@ bool isFarOff(double factor) {
 }
 
 // What the depth unit may be compared with, the surest first. Rooms are small for a camera whose unit is too
-// large; everything is within reach of one whose unit is too small.
-void checkDepthScale(const SensorReport& sensor, bool on_robot, const std::string& hint, Findings& out) {
+// large; everything is within reach of one whose unit is too small. False when the unit is in doubt.
+bool checkDepthScale(const SensorReport& sensor, const std::string& hint, Findings& out) {
   constexpr double kFarMedianM = 6, kShortRangeM = 1.4, kNearM = 0.25;
   const auto& images = *sensor.images;
   const std::string unit = format("the depth unit (%.3g m)", images.depth_unit_m);
   const double mounted_m = mountedHeight(sensor);
   if (images.range_over_lidar) {
-    if (isFarOff(*images.range_over_lidar))
-      out.error(format("depth images see walls %.2g times as far away as the lidar: %s is wrong",
-                       *images.range_over_lidar, unit.c_str()),
-                hint);
-  } else if (on_robot && images.floor && mounted_m > kLeastHeightM && images.floor->tilt_rad < kAnyTilt) {
+    if (!isFarOff(*images.range_over_lidar)) return true;
+    out.error(format("depth images see walls %.2g times as far away as the lidar: %s is wrong",
+                     *images.range_over_lidar, unit.c_str()),
+              hint);
+  } else if (images.floor && mounted_m > kLeastHeightM && images.floor->tilt_rad < kAnyTilt) {
     const double factor = images.floor->sensor_height_m / mounted_m;
-    if (isFarOff(factor))
-      out.warning(
-          format("the floor is seen %.2f m below the camera, which should be %.2f m above it: %s is wrong "
-                 "by a factor of %.2g, or the height of the camera",
-                 images.floor->sensor_height_m, mounted_m, unit.c_str(), factor),
-          hint);
+    if (!isFarOff(factor)) return true;
+    out.warning(
+        format("the floor is seen %.2f m below the camera, which should be %.2f m above it: %s is wrong "
+               "by a factor of %.2g, or the height of the camera",
+               images.floor->sensor_height_m, mounted_m, unit.c_str(), factor),
+        hint);
   } else if (images.median_depth_m > kFarMedianM) {
     out.warning(format("median depth is %.1f m, far for an RGB-D camera in a room: %s may be too large",
                        images.median_depth_m, unit.c_str()),
@@ -70,18 +70,22 @@ void checkDepthScale(const SensorReport& sensor, bool on_robot, const std::strin
     out.warning(format("depths are %.2f to %.2f m, very near for an RGB-D camera: %s may be too small",
                        images.near_depth_m, images.far_depth_m, unit.c_str()),
                 hint);
+  } else {
+    return true;
   }
+  return false;
 }
 
-void checkDepth(const SensorReport& sensor, bool on_robot, Findings& out) {
+bool checkDepth(const SensorReport& sensor, Findings& out) {
   const auto& images = *sensor.images;
   constexpr double kNearestM = 0.1, kFarthestM = 50, kCoarsestUnitM = 0.1;
   if (images.depth == 0) {
     out.warning("colour without depth", "objects cannot be measured without depth");
-    return;
+    return true;
   }
   const std::string unit_hint =
       "rangeUnits must be the metres of one step of rangeImage (usually 0.001; TUM and ICL-NUIM: 0.0002)";
+  bool good = false;
   if (images.valid_depth_share == 0) {
     out.error("depth images are empty", "no pixel has a depth: check the driver or the conversion");
   } else if (images.median_depth_m < kNearestM || images.median_depth_m > kFarthestM) {
@@ -91,18 +95,19 @@ void checkDepth(const SensorReport& sensor, bool on_robot, Findings& out) {
   } else if (images.depth_unit_m >= kCoarsestUnitM) {
     out.error(format("depth unit of %.3g m is too coarse", images.depth_unit_m), unit_hint);
   } else {
-    checkDepthScale(sensor, on_robot, unit_hint, out);
+    good = checkDepthScale(sensor, unit_hint, out);
   }
   if (images.color > 0 && !images.registered)
     out.note("depth is not registered to colour",
              "it is projected into the colour image when read; gaps may appear");
   if (!images.range_is_depth)
     out.note("depth images hold ranges along the ray", "converted to depth when read");
+  return good;
 }
 
 }  // namespace
 
-void checkImages(const SensorReport& sensor, bool on_robot, Findings& out) {
+bool checkImages(const SensorReport& sensor, Findings& out) {
   const auto& images = *sensor.images;
   if (images.external_missing > 0) {
     const auto text = format("%d of %d records lack their image file, e.g. %s", images.external_missing,
@@ -116,14 +121,14 @@ void checkImages(const SensorReport& sensor, bool on_robot, Findings& out) {
   if (images.color + images.depth == 0) {
     if (images.external_missing == 0)
       out.error("no images in the records", "only points or nothing was recorded");
-    return;
+    return true;
   }
   checkCamera("colour", images.color_camera, images.color_width, out);
   checkCamera("depth", images.depth_camera, images.depth_width, out);
-  checkDepth(sensor, on_robot, out);
+  return checkDepth(sensor, out);
 }
 
-void checkPose(const SensorReport& sensor, bool on_robot, Findings& out) {
+void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Findings& out) {
   constexpr double kTiltRad = 0.10, kGapM = 0.12;  // beyond which the floor is not found where it is expected
   if (sensor.pose_changes)
     out.note("the sensor's pose on the robot changes", "each record is used with its own");
@@ -132,7 +137,7 @@ void checkPose(const SensorReport& sensor, bool on_robot, Findings& out) {
   const auto* floor = sensor.images && sensor.images->floor ? &*sensor.images->floor : nullptr;
   const double height_m = sensor.robot_from_sensor->translation().z();
   const std::string option = "--pose " + sensor.label + "=";
-  if (floor && (on_robot || mountedHeight(sensor) > kLeastHeightM) &&
+  if (floor && unit_is_right && (on_robot || mountedHeight(sensor) > kLeastHeightM) &&
       (floor->tilt_rad > kTiltRad || std::abs(floor->sensor_height_m - height_m) > kGapM))
     out.warning(
         format("the floor is seen %.2f m below the sensor and tilted by %.1f deg; by its pose it should "

@@ -33,10 +33,11 @@ class Findings {
 /// Label of a sensor, or its class when it has none.
 std::string nameOf(const SensorReport& sensor);
 
-/// Images, cameras, depth unit. `on_robot`: the recording is not that of a handheld camera alone.
-void checkImages(const SensorReport& sensor, bool on_robot, Findings& out);
-/// The sensor's pose against the floor that its depth images see.
-void checkPose(const SensorReport& sensor, bool on_robot, Findings& out);
+/// Images, cameras, depth unit. False when the depth unit is in doubt.
+bool checkImages(const SensorReport& sensor, Findings& out);
+/// The sensor's pose against the floor that its depth images see, if their unit is right. `on_robot`: the
+/// recording is not that of a camera alone.
+void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Findings& out);
 /// Sensors whose stamps are not of one clock. False when there are any.
 bool checkClocks(const RawlogReport& report, Findings& out);
 

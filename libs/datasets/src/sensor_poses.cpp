@@ -5,6 +5,7 @@
 #include <mrpt/math/TPose3D.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -73,9 +74,11 @@ SensorPoses parseSensorPoses(const std::string& text, const std::string& context
 
 std::string formatPose(const Pose3& pose) {
   const mrpt::math::TPose3D p = toMrpt(pose).asTPose();
+  const auto rounded = [](double value, double steps) { return std::round(value * steps) / steps + 0.0; };
   char text[160];
-  std::snprintf(text, sizeof text, "%.4g,%.4g,%.4g,%.4g,%.4g,%.4g", p.x, p.y, p.z, p.yaw / kDegree,
-                p.pitch / kDegree, p.roll / kDegree);
+  std::snprintf(text, sizeof text, "%g,%g,%g,%g,%g,%g", rounded(p.x, 1000), rounded(p.y, 1000),
+                rounded(p.z, 1000), rounded(p.yaw / kDegree, 100), rounded(p.pitch / kDegree, 100),
+                rounded(p.roll / kDegree, 100));
   return text;
 }
 

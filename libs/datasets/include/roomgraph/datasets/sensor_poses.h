@@ -21,7 +21,7 @@ Pose3 parsePose(const std::string& text, const std::string& context);
 /// Throws ConfigError like parsePose().
 SensorPoses parseSensorPoses(const std::string& text, const std::string& context);
 
-/// The inverse of parsePose(), at 0.1 mm and 0.01 deg.
+/// The inverse of parsePose(), rounded to 1 mm and 0.01 deg.
 std::string formatPose(const Pose3& pose);
 
 }  // namespace roomgraph
