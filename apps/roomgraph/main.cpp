@@ -2,8 +2,6 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <fcntl.h>
 
-#include <cerrno>
-#include <cstring>
 #include <iostream>
 #include <sstream>
 
@@ -88,10 +86,8 @@ int runCommand(CLI::App& app, int argc, char** argv) {
 
 // What a command printed is a result too: on a full disk it is lost.
 int flushOutput(int exit_code) {
-  errno = 0;
   if (std::cout.flush()) return exit_code;
-  const std::string cause = errno != 0 ? std::strerror(errno) : "disk full?";
-  const int failed = fail("standard output cannot be written: " + cause, 1);
+  const int failed = fail("standard output: writing failed (disk full?)", 1);
   return exit_code == 0 ? failed : exit_code;
 }
 

@@ -121,8 +121,8 @@ TEST_F(Doctor, SeveralSensorsOfAKind) {
 std::vector<Object> twoClocks(double offset, double rate) {
   std::vector<Object> objects;
   for (int i = 0; i < 40; ++i) {
-    objects.push_back(makeOdometry(1000 + 0.1 * i, 0.1 * i, 0, 0));
-    objects.push_back(makeScan(1000 + offset + rate * (0.1 * i + 0.05), 2 + 0.1f * static_cast<float>(i)));
+    objects.push_back(makeOdometry(10000 + 0.1 * i, 0.1 * i, 0, 0));
+    objects.push_back(makeScan(10000 + offset + rate * (0.1 * i + 0.05), 2 + 0.1f * static_cast<float>(i)));
   }
   return objects;
 }

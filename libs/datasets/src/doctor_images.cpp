@@ -45,7 +45,7 @@ bool isFarOff(double factor) {
 // What the depth unit may be compared with, the surest first. Rooms are small for a camera whose unit is too
 // large; everything is within reach of one whose unit is too small. False when the unit is in doubt.
 bool checkDepthScale(const SensorReport& sensor, const std::string& hint, Findings& out) {
-  constexpr double kFarMedianM = 6, kShortRangeM = 1.4, kNearM = 0.25;
+  constexpr double kFarMedianM = 6, kShortRangeM = 1.4, kNearM = 0.25, kArmLengthM = 1;
   const auto& images = *sensor.images;
   const std::string unit = format("the depth unit (%.3g m)", images.depth_unit_m);
   const double mounted_m = mountedHeight(sensor);
@@ -66,7 +66,7 @@ bool checkDepthScale(const SensorReport& sensor, const std::string& hint, Findin
     out.warning(format("median depth is %.1f m, far for an RGB-D camera in a room: %s may be too large",
                        images.median_depth_m, unit.c_str()),
                 hint);
-  } else if (images.far_depth_m < kShortRangeM && images.near_depth_m < kNearM) {
+  } else if (images.far_depth_m < (images.near_depth_m < kNearM ? kShortRangeM : kArmLengthM)) {
     out.warning(format("depths are %.2f to %.2f m, very near for an RGB-D camera: %s may be too small",
                        images.near_depth_m, images.far_depth_m, unit.c_str()),
                 hint);
