@@ -7,6 +7,8 @@
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/datasets/camera_presets.h"
+#include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/datasets/tum_import.h"
 
 namespace roomgraph {
@@ -14,14 +16,36 @@ namespace {
 
 struct Arguments {
   std::filesystem::path folder, rawlog;
+  std::string camera, pose;
   TumImportOptions options;
 };
+
+// The recording has one sensor, so its label may be left out.
+Pose3 poseOf(const Arguments& arguments) {
+  const std::string context = "--pose " + arguments.pose;
+  const auto& label = arguments.options.label;
+  if (arguments.pose.find('=') == std::string::npos) return parsePose(arguments.pose, context);
+  const SensorPoses poses = parseSensorPoses(arguments.pose, context);
+  if (poses.size() != 1 || !poses.contains(label))
+    throw ConfigError(context + ": the only sensor is '" + label + "' (see --label)");
+  return poses.begin()->second;
+}
+
+TumImportOptions optionsOf(const Arguments& arguments) {
+  TumImportOptions options = arguments.options;
+  if (findCameraPreset(arguments.camera))
+    options.preset = arguments.camera;
+  else if (!arguments.camera.empty())
+    options.camera_file = arguments.camera;
+  if (!arguments.pose.empty()) options.robot_from_sensor = poseOf(arguments);
+  return options;
+}
 
 void importFolder(const Arguments& arguments) {
   std::unique_ptr<Progress> line;
   catchInterrupts();
   const auto result = importTum(
-      arguments.folder, arguments.rawlog, arguments.options, [&](std::size_t done, std::size_t total) {
+      arguments.folder, arguments.rawlog, optionsOf(arguments), [&](std::size_t done, std::size_t total) {
         if (!line)
           line = std::make_unique<Progress>(&std::cerr, "import", "images", static_cast<double>(total));
         line->update(static_cast<double>(done));
@@ -49,10 +73,10 @@ void addImportCommand(CLI::App& app) {
   auto& options = arguments->options;
   tum->add_option("DIR", arguments->folder, "folder with the images and their lists")->required();
   tum->add_option("-o,--output", arguments->rawlog, "rawlog to write (gzip inside)")->required();
-  tum->add_option(
-      "--camera", options.camera_file,
-      "JSON with fx, fy, cx, cy, depth_scale, and if known width, height, distortion [k1 k2 p1 p2 k3]; "
-      "default: camera.json in DIR");
+  tum->add_option("--camera", arguments->camera,
+                  "published camera (" + presetNames() +
+                      "), or JSON with fx, fy, cx, cy, depth_scale, and if known width, height, distortion "
+                      "[k1 k2 p1 p2 k3]; default: camera.json in DIR");
   tum->add_option("--fx", options.fx, "focal length, px");
   tum->add_option("--fy", options.fy, "focal length, px; negative for ICL-NUIM");
   tum->add_option("--cx", options.cx, "principal point, px");
@@ -65,6 +89,9 @@ void addImportCommand(CLI::App& app) {
       ->capture_default_str();
   tum->add_option("--frame-rate", options.frame_rate_hz, "time stamps are frame numbers at this rate, Hz");
   tum->add_option("--label", options.label, "sensor label of the records")->capture_default_str();
+  tum->add_option("--pose", arguments->pose,
+                  "place of the camera on a robot that drives on the floor: x,y,z,yaw,pitch,roll (m, deg); "
+                  "without it the camera is taken for handheld");
   tum->add_flag("--external-images", options.external_images, "keep the images as files in X_Images/");
   tum->callback([arguments] { importFolder(*arguments); });
 }

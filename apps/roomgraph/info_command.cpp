@@ -46,10 +46,18 @@ void printImages(const ImageSummary& images) {
   printCamera("colour", images.color_width, images.color_height, images.color_camera);
   printCamera("depth", images.depth_width, images.depth_height, images.depth_camera);
   if (images.depth > 0)
-    print("    depth     unit %.6g m, %s, %s, median %.2f m, %.0f %% of the pixels valid\n",
-          images.depth_unit_m, images.range_is_depth ? "along the optical axis" : "along the ray",
-          images.registered ? "registered to colour" : "not registered to colour", images.median_depth_m,
-          100 * images.valid_depth_share);
+    print(
+        "    depth     unit %.6g m, %s, %s, median %.2f m (90 %% in %.2f to %.2f m), %.0f %% of the pixels "
+        "valid\n",
+        images.depth_unit_m, images.range_is_depth ? "along the optical axis" : "along the ray",
+        images.registered ? "registered to colour" : "not registered to colour", images.median_depth_m,
+        images.near_depth_m, images.far_depth_m, 100 * images.valid_depth_share);
+  if (images.floor)
+    print("    floor     %.2f m below the sensor, tilted by %.1f deg against its pose (%d images)\n",
+          images.floor->sensor_height_m, images.floor->tilt_rad * kDegrees, images.floor->images);
+  if (images.range_over_lidar)
+    print("    lidar     depth images see %.2f times as far along horizontal rays\n",
+          *images.range_over_lidar);
   if (images.external_present + images.external_missing > 0)
     print("    files     %d records with images outside the rawlog, %d missing\n",
           images.external_present + images.external_missing, images.external_missing);
@@ -103,19 +111,27 @@ ordered_json toJson(const PinholeCamera& camera) {
 }
 
 ordered_json toJson(const ImageSummary& images) {
-  return {{"color", images.color},
-          {"depth", images.depth},
-          {"color_size", {images.color_width, images.color_height}},
-          {"depth_size", {images.depth_width, images.depth_height}},
-          {"color_camera", toJson(images.color_camera)},
-          {"depth_camera", toJson(images.depth_camera)},
-          {"depth_registered", images.registered},
-          {"range_is_depth", images.range_is_depth},
-          {"depth_unit_m", images.depth_unit_m},
-          {"median_depth_m", images.median_depth_m},
-          {"valid_depth_share", images.valid_depth_share},
-          {"external_present", images.external_present},
-          {"external_missing", images.external_missing}};
+  ordered_json out = {{"color", images.color},
+                      {"depth", images.depth},
+                      {"color_size", {images.color_width, images.color_height}},
+                      {"depth_size", {images.depth_width, images.depth_height}},
+                      {"color_camera", toJson(images.color_camera)},
+                      {"depth_camera", toJson(images.depth_camera)},
+                      {"depth_registered", images.registered},
+                      {"range_is_depth", images.range_is_depth},
+                      {"depth_unit_m", images.depth_unit_m},
+                      {"median_depth_m", images.median_depth_m},
+                      {"near_depth_m", images.near_depth_m},
+                      {"far_depth_m", images.far_depth_m},
+                      {"valid_depth_share", images.valid_depth_share},
+                      {"external_present", images.external_present},
+                      {"external_missing", images.external_missing}};
+  if (images.floor) {
+    out["floor_below_sensor_m"] = images.floor->sensor_height_m;
+    out["floor_tilt_rad"] = images.floor->tilt_rad;
+  }
+  if (images.range_over_lidar) out["range_over_lidar"] = *images.range_over_lidar;
+  return out;
 }
 
 ordered_json toJson(const ScanSummary& scans) {
@@ -148,6 +164,8 @@ ordered_json toJson(const SensorReport& sensor) {
   if (sensor.images) out["images"] = toJson(*sensor.images);
   if (sensor.scans) out["scans"] = toJson(*sensor.scans);
   if (sensor.path_length_m) out["path_length_m"] = *sensor.path_length_m;
+  if (sensor.clock_offset)
+    out["clock_offset_s"] = {sensor.clock_offset->first_s, sensor.clock_offset->last_s};
   return out;
 }
 
@@ -166,25 +184,36 @@ void writeJson(const RawlogReport& report, const std::filesystem::path& file) {
   writeFileAtomically(file, out.dump(1) + "\n");
 }
 
-void inspect(const std::filesystem::path& rawlog, const std::filesystem::path& json) {
+struct Arguments {
+  std::filesystem::path rawlog, json;
+  std::vector<std::string> poses;
+};
+
+void inspect(const Arguments& arguments) {
+  SensorPoses poses;
+  for (const auto& text : arguments.poses)
+    for (const auto& [label, pose] : parseSensorPoses(text, "--pose " + text))
+      poses.insert_or_assign(label, pose);
   Progress line(&std::cerr, "info", "%", 100);
-  const auto report = inspectRawlog(rawlog, [&](double share) { line.update(100 * share); });
+  const auto report = inspectRawlog(
+      arguments.rawlog, [&](double share) { line.update(100 * share); }, poses);
   line.finish();
   printReport(report);
-  if (!json.empty()) writeJson(report, json);
+  if (!arguments.json.empty()) writeJson(report, arguments.json);
 }
 
 }  // namespace
 
 void addInfoCommand(CLI::App& app) {
   auto* info = app.add_subcommand("info", "Say what is inside a rawlog, and what is wrong with it");
-  struct Files {
-    std::filesystem::path rawlog, json;
-  };
-  auto files = std::make_shared<Files>();
-  info->add_option("RAWLOG", files->rawlog, "recording to look at")->required();
-  info->add_option("--json", files->json, "also write the report to this file");
-  info->callback([files] { inspect(files->rawlog, files->json); });
+  auto arguments = std::make_shared<Arguments>();
+  info->add_option("RAWLOG", arguments->rawlog, "recording to look at")->required();
+  info->add_option("--json", arguments->json, "also write the report to this file");
+  info->add_option(
+      "--pose", arguments->poses,
+      "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the recorded "
+      "one; may be repeated");
+  info->callback([arguments] { inspect(*arguments); });
 }
 
 }  // namespace roomgraph

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include <fcntl.h>
+
 #include <iostream>
 #include <sstream>
 
@@ -50,10 +52,51 @@ int failUsage(const CLI::App& app, const CLI::ParseError& error) {
               2);
 }
 
+// A file that is opened must never take the place of a closed standard stream: what is printed would go into
+// it.
+void holdStandardStreams() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    while (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", O_RDWR) >= 0) {
+    }
+}
+
+void addCommands(CLI::App& app) {
+  addImportCommand(app);
+  addInfoCommand(app);
+  addOptimizeCommand(app);
+  addRunCommand(app);
+  addEvaluateCommand(app);
+  addSnapshotCommand(app);
+  addConfigReferenceCommand(app);
+  addSimulateCommand(app);
+  addBenchCommand(app);
+}
+
+int runCommand(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : failUsage(app, error);
+  } catch (const Error& error) {
+    return fail(error.what(), error.exit_code);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error: ") + error.what(), 1);
+  }
+  return 0;
+}
+
+// What a command printed is a result too: on a full disk it is lost.
+int flushOutput(int exit_code) {
+  if (std::cout.flush()) return exit_code;
+  const int failed = fail("standard output: writing failed (disk full?)", 1);
+  return exit_code == 0 ? failed : exit_code;
+}
+
 }  // namespace
 }  // namespace roomgraph
 
 int main(int argc, char** argv) {
+  roomgraph::holdStandardStreams();
   CLI::App app{"Object-level semantic SLAM on MRPT rawlogs (RGB-D, 2D lidar, odometry).", "roomgraph"};
   app.set_version_flag("--version", std::string(roomgraph::kVersion) + " (" + roomgraph::kRevision + ")");
   app.require_subcommand(1);
@@ -62,24 +105,6 @@ int main(int argc, char** argv) {
       "(what was done so far is complete).\n"
       "All keys of the configuration: roomgraph config-reference.");
   roomgraph::observations::registerClasses();
-  roomgraph::addImportCommand(app);
-  roomgraph::addInfoCommand(app);
-  roomgraph::addOptimizeCommand(app);
-  roomgraph::addRunCommand(app);
-  roomgraph::addEvaluateCommand(app);
-  roomgraph::addSnapshotCommand(app);
-  roomgraph::addConfigReferenceCommand(app);
-  roomgraph::addSimulateCommand(app);
-  roomgraph::addBenchCommand(app);
-
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : roomgraph::failUsage(app, error);
-  } catch (const roomgraph::Error& error) {
-    return roomgraph::fail(error.what(), error.exit_code);
-  } catch (const std::exception& error) {
-    return roomgraph::fail(std::string("internal error: ") + error.what(), 1);
-  }
-  return 0;
+  roomgraph::addCommands(app);
+  return roomgraph::flushOutput(roomgraph::runCommand(app, argc, argv));
 }

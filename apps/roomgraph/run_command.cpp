@@ -17,6 +17,7 @@
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/detection_source.h"
+#include "roomgraph/pipeline/read_options.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
 #include "roomgraph/rendering/snapshot.h"
@@ -27,7 +28,7 @@ namespace {
 
 struct RunOptions {
   std::string input, output, config, map, recording, pictures;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, poses;
   int threads = 0;
   ReplaySpan span;
   bool quiet = false, no_snapshot = false;
@@ -134,11 +135,11 @@ void run(const RunOptions& options) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
     cv::setNumThreads(options.threads);
   }
-  const Configuration configuration = readConfiguration(options.config, options.overrides);
+  Configuration configuration = readConfiguration(options.config, options.overrides);
+  for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
   auto stages = makeStages(configuration.config, configuration.objects_file);
   check(options, *stages);
-  RawlogReader reader(options.input, {stages->tracking.enabled || stages->detection.enabled,
-                                      stages->lidar.enabled, stages->odometry.enabled});
+  RawlogReader reader(options.input, readOptionsOf(*stages));
   if (const std::string advice = missingDetections(*stages, options.input); !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
@@ -166,7 +167,9 @@ void run(const RunOptions& options) {
 
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
   const std::string detector = slam.stages().detector ? slam.stages().detector->warning() : "";
-  for (const std::string& warning : {reader.statistics().warning, detector})
+  std::vector<std::string> warnings = reader.statistics().sensor_warnings;
+  warnings.insert(warnings.end(), {reader.statistics().warning, detector});
+  for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
   std::cout << "results in " << options.output;
   if (drawn) std::cout << "; look at " << (output->files().folder() / "snapshot.png").string();
@@ -183,6 +186,9 @@ void addRunCommand(CLI::App& app) {
   command->add_option("-o,--output", options->output, "folder for the results")->required();
   command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
   command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
+  command->add_option("--pose", options->poses,
+                      "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
+                      "recorded one; may be repeated");
   command->add_option(
       "--map", options->map,
       "map.rgmap of an earlier run: results are in its frame once its objects are recognised");

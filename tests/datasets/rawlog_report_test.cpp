@@ -95,6 +95,64 @@ TEST_F(Doctor, Intrinsics) {
   corner->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 0, 0);
   EXPECT_THAT(findings({none}), Contains(finding(Severity::kError, "no colour intrinsics")));
   EXPECT_THAT(findings({corner}), Contains(finding(Severity::kWarning, "principal point")));
+  auto outside = makeImages(1);
+  outside->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 9999, 5.5);
+  EXPECT_THAT(findings({outside}),
+              Contains(finding(Severity::kError, "colour principal point (9999.0, 5.5) lies outside")));
+}
+
+TEST_F(Doctor, SeveralSensorsOfAKind) {
+  auto rear = makeScan(1.1), other = makeScan(1.2);
+  rear->sensorLabel = "REAR";
+  auto camera = makeImages(1.3), right = makeImages(1.4);
+  right->sensorLabel = "RIGHT";
+  auto visual = makeOdometry(1.6, 0, 0, 0);
+  visual->sensorLabel = "VISUAL";
+  const auto list = findings({makeScan(1), rear, other, camera, right, makeOdometry(1.5, 0, 0, 0), visual});
+  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(lidar): 'LASER' is used, 'REAR' not")));
+  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(RGB-D camera): 'KINECT' is used, 'RIGHT' not")));
+  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(odometry): 'ODOMETRY' is used, 'VISUAL' not")));
+  EXPECT_THAT(list, Contains(Field(&Finding::hint, HasSubstr("--set lidar.label=REAR"))));
+  EXPECT_THAT(findings({makeScan(1), makeImages(1.1), makeOdometry(1.2, 0, 0, 0)}),
+              Not(Contains(finding(Severity::kWarning, "several"))));
+}
+
+/// Odometry and scans in turn; the scans' clock is `offset` ahead and runs `rate` times as fast.
+std::vector<Object> twoClocks(double offset, double rate) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 40; ++i) {
+    objects.push_back(makeOdometry(10000 + 0.1 * i, 0.1 * i, 0, 0));
+    objects.push_back(makeScan(10000 + offset + rate * (0.1 * i + 0.05), 2 + 0.1f * static_cast<float>(i)));
+  }
+  return objects;
+}
+
+TEST_F(Doctor, ClocksOfTheSensors) {
+  const auto quiet = Not(Contains(Field(&Finding::what, HasSubstr("clock"))));
+  EXPECT_THAT(findings(twoClocks(0, 1)), quiet);
+  EXPECT_THAT(findings(twoClocks(-0.4, 1)), quiet) << "delays are no other clock";
+  for (const double offset : {-3600.0, 2.0}) {
+    const auto apart = findings(twoClocks(offset, 1));
+    const std::string text = offset < 0 ? "its clock is -3600.0 s apart" : "its clock is 2.0 s apart";
+    EXPECT_THAT(apart, Contains(finding(Severity::kError, text + " from that of ODOMETRY")));
+    EXPECT_THAT(apart, Not(Contains(finding(Severity::kWarning, "out of order by")))) << "not the cause";
+  }
+  EXPECT_THAT(findings(twoClocks(0, 1000)), Contains(finding(Severity::kError, "runs at another speed")));
+}
+
+TEST_F(Doctor, SensorsThatNeverRanTogether) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 10; ++i) objects.push_back(makeOdometry(1000 + 0.1 * i, 0.1 * i, 0, 0));
+  for (int i = 0; i < 10; ++i) objects.push_back(makeScan(5000 + 0.1 * i, 2 + 0.1f * static_cast<float>(i)));
+  EXPECT_THAT(findings(objects), Contains(finding(Severity::kError, "has no time in common with LASER")));
+}
+
+TEST_F(Doctor, PosesCanBeTried) {
+  writeRawlog(folder_ / "x.rawlog", {makeScan(1)});
+  const auto report = inspectRawlog(folder_ / "x.rawlog", nullptr, parseSensorPoses("LASER=1,2,3,0,0,0", ""));
+  EXPECT_NEAR(report.sensors.at(0).robot_from_sensor->translation().z(), 3, 1e-9);
+  EXPECT_THROW(inspectRawlog(folder_ / "x.rawlog", nullptr, parseSensorPoses("LASR=1,2,3,0,0,0", "")),
+               ConfigError);
 }
 
 TEST_F(Doctor, MissingImages) {
@@ -118,6 +176,14 @@ TEST_F(Doctor, ScanGeometry) {
               Contains(finding(Severity::kError, "aperture of 180.0000 rad is impossible")));
   EXPECT_THAT(findings({degrees}), Contains(finding(Severity::kNote, "180 beams over 180.00 deg")));
   EXPECT_THAT(findings({good}), Not(Contains(finding(Severity::kNote, "beams over"))));
+  auto one_more = makeScan(1, 2, 361);
+  one_more->aperture = static_cast<float>(180.5 * M_PI / 180);
+  EXPECT_THAT(findings({one_more}), Contains(finding(Severity::kNote, "361 beams over 180.50 deg")));
+  for (const double aperture : {360.0, 359.0}) {  // the circle closes at the last beam, or one beam later
+    auto circle = makeScan(1, 2, 360);
+    circle->aperture = static_cast<float>(aperture * M_PI / 180);
+    EXPECT_THAT(findings({circle}), Not(Contains(finding(Severity::kNote, "beams over")))) << aperture;
+  }
   EXPECT_THAT(findings({far}), Contains(finding(Severity::kError, "all ranges are at the maximum (8.00 m)")));
   EXPECT_THAT(findings({blind}), Contains(finding(Severity::kError, "all ranges are invalid")));
 }

@@ -6,19 +6,23 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "errors_of.h"
 #include "rawlog_maker.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/camera_presets.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 
 namespace roomgraph {
 namespace {
 
 using namespace roomgraph::test;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using roomgraph::testing::messageOf;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-class TumImport : public testing::Test {
+class TumImport : public ::testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(folder_ / "rgb");
@@ -127,6 +131,78 @@ TEST_F(TumImport, UnusableFoldersAreRefused) {
   const auto result = convert({.fx = 10, .fy = 10, .cx = 3, .cy = 2, .depth_scale = 1000});
   EXPECT_EQ(result.camera.width, 8) << "size from the images";
   EXPECT_NEAR(frames().at(0).depth.at<float>(0, 0), 5, 1e-6);
+}
+
+TEST_F(TumImport, PublishedCameras) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  for (const auto& preset : cameraPresets()) {
+    EXPECT_THAT(messageOf<InputError>([&] { convert({.preset = preset.name}); }),
+                HasSubstr("the camera 640x480"))
+        << preset.name << " is for images of its size, and stands above camera.json";
+    EXPECT_TRUE(preset.camera.sees(preset.camera.cx, preset.camera.cy)) << preset.name;
+    EXPECT_GT(preset.depth_scale, 0) << preset.name;
+  }
+  EXPECT_DOUBLE_EQ(findCameraPreset("freiburg1")->camera.distortion[4], 1.163314);
+  EXPECT_LT(findCameraPreset("icl")->camera.fy, 0);
+  EXPECT_FALSE(findCameraPreset("freiburg4"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { convert({.preset = "freiburg4"}); }), HasSubstr("freiburg3|icl"));
+}
+
+TEST_F(TumImport, PresetGivesWhatTheOptionsLeaveOpen) {
+  cv::imwrite((folder_ / "rgb/a.png").string(), cv::Mat(480, 640, CV_8UC3, cv::Scalar(10, 120, 230)));
+  cv::Mat depth(480, 640, CV_16UC1, cv::Scalar(2000));
+  depth.at<std::uint16_t>(7, 9) = 65535;
+  cv::imwrite((folder_ / "depth/a.png").string(), depth);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  const auto result = convert({.preset = "7scenes", .fx = 580});
+  EXPECT_DOUBLE_EQ(result.camera.fx, 580);
+  EXPECT_DOUBLE_EQ(result.camera.fy, 585);
+  const auto frame = frames().at(0);
+  EXPECT_NEAR(frame.depth.at<float>(5, 5), 2, 1e-6);
+  EXPECT_EQ(frame.depth.at<float>(7, 9), 0) << "7-Scenes marks with 65535 where nothing was measured";
+}
+
+TEST_F(TumImport, EverythingThatIsMissingIsNamedAtOnce) {
+  const auto folder = folder_ / "rgbd_dataset_freiburg2_desk";
+  std::filesystem::create_directories(folder);
+  writeBytes(folder / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  const auto refusal = [&](const TumImportOptions& options) {
+    return messageOf<ConfigError>([&] { importTum(folder, folder_ / "out.rawlog", options); });
+  };
+  EXPECT_THAT(refusal({}),
+              AllOf(HasSubstr("no fx, fy, cx, cy, depth_scale"), HasSubstr("speaks for --camera freiburg2"),
+                    HasSubstr("freiburg1|freiburg2|freiburg3|icl|kinect|7scenes"), HasSubstr("camera.json")));
+  EXPECT_THAT(refusal({.fx = 500, .fy = 500}), HasSubstr("no cx, cy, depth_scale ("));
+  writeBytes(folder / "camera.json", R"({"fx": 1, "fy": 1, "cx": 1, "cy": 1})");
+  EXPECT_THAT(refusal({}), HasSubstr("no depth_scale ("));
+}
+
+TEST_F(TumImport, CameraOnARobot) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  Pose3 pose = parsePose("0.1,0,0.9,0,10,0", "test");
+  convert({.robot_from_sensor = pose});
+  pose.linear() = pose.linear() * bodyFromOptical();
+  EXPECT_TRUE(frames().at(0).robot_from_camera.isApprox(pose, 1e-6));
+}
+
+TEST_F(TumImport, PrincipalPointOutsideTheImageIsWarnedAbout) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  EXPECT_THAT(convert().warnings, IsEmpty());
+  EXPECT_THAT(convert({.cx = 9999}).warnings,
+              Contains(AllOf(HasSubstr("principal point (9999, 2.5)"), HasSubstr("8x6"))));
+}
+
+TEST_F(TumImport, OutputMustBeAFile) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  const auto refusal = [&](const std::filesystem::path& out) {
+    return messageOf<RunError>([&] { importTum(folder_.path(), out); });
+  };
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("is a folder; name the rawlog to write"));
+  EXPECT_THAT(refusal(folder_ / "none/out.rawlog"), HasSubstr("there is no folder"));
 }
 
 TEST_F(TumImport, ExternalImagesStayLossless) {

@@ -3,48 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
-#include "roomgraph/datasets/rawlog_report.h"
+#include "findings.h"
+#include "sensor_choice.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr double kRad = 180 / M_PI;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[400];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
-  va_end(values);
-  return text;
-}
-
-class Findings {
- public:
-  void at(std::string place) { place_ = std::move(place); }
-  void error(const std::string& what, const std::string& hint) { add(Severity::kError, what, hint); }
-  void warning(const std::string& what, const std::string& hint) { add(Severity::kWarning, what, hint); }
-  void note(const std::string& what, const std::string& hint) { add(Severity::kNote, what, hint); }
-  std::vector<Finding> sorted() {
-    std::stable_sort(list_.begin(), list_.end(),
-                     [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
-    return std::move(list_);
-  }
-
- private:
-  void add(Severity severity, const std::string& what, const std::string& hint) {
-    list_.push_back({severity, what, place_, hint});
-  }
-  std::string place_;
-  std::vector<Finding> list_;
-};
-
-std::string nameOf(const SensorReport& sensor) {
-  return sensor.label.empty() ? sensor.class_name : sensor.label;
-}
 
 void checkTimes(const SensorReport& sensor, Findings& out) {
   constexpr double kLongGapS = 1, kGapIntervals = 10;
@@ -68,67 +34,6 @@ void checkTimes(const SensorReport& sensor, Findings& out) {
                 "tracking will have to bridge it by odometry, or will be lost");
 }
 
-void checkCamera(const char* which, const PinholeCamera& camera, int width, Findings& out) {
-  if (width == 0) return;
-  if (!camera.valid()) {
-    out.error(format("no %s intrinsics that fit the image size", which),
-              "set cameraParams to the calibration");
-    return;
-  }
-  const double off_x = std::abs(camera.cx / camera.width - 0.5),
-               off_y = std::abs(camera.cy / camera.height - 0.5);
-  const double view = 2 * std::atan(0.5 * camera.width / camera.fx) * kRad;
-  if (off_x > 0.3 || off_y > 0.3)
-    out.warning(format("%s principal point (%.1f, %.1f) is far from the centre", which, camera.cx, camera.cy),
-                "check the calibration and the image size it was made for");
-  if (view < 15 || view > 150)
-    out.warning(format("%s field of view is %.0f deg wide", which, view), "check the focal length");
-}
-
-void checkDepth(const ImageSummary& images, Findings& out) {
-  constexpr double kNearestM = 0.1, kFarthestM = 50, kCoarsestUnitM = 0.1;
-  if (images.depth == 0) {
-    out.warning("colour without depth", "objects cannot be measured without depth");
-    return;
-  }
-  const std::string unit_hint = "rangeUnits must be the metres of one step of rangeImage (usually 0.001)";
-  if (images.valid_depth_share == 0) {
-    out.error("depth images are empty", "no pixel has a depth: check the driver or the conversion");
-  } else if (images.median_depth_m < kNearestM || images.median_depth_m > kFarthestM) {
-    out.error(format("median depth is %.3g m: the depth unit (%.3g m) is wrong", images.median_depth_m,
-                     images.depth_unit_m),
-              unit_hint);
-  } else if (images.depth_unit_m >= kCoarsestUnitM) {
-    out.error(format("depth unit of %.3g m is too coarse", images.depth_unit_m), unit_hint);
-  }
-  if (images.color > 0 && !images.registered)
-    out.note("depth is not registered to colour",
-             "it is projected into the colour image when read; gaps may appear");
-  if (!images.range_is_depth)
-    out.note("depth images hold ranges along the ray", "converted to depth when read");
-}
-
-void checkImages(const SensorReport& sensor, Findings& out) {
-  const auto& images = *sensor.images;
-  if (images.external_missing > 0) {
-    const auto text = format("%d of %d records lack their image file, e.g. %s", images.external_missing,
-                             images.external_missing + images.external_present, images.first_missing.c_str());
-    const std::string hint = "put the images into the folder <rawlog>_Images beside the rawlog";
-    if (images.external_present == 0)
-      out.error(text, hint);
-    else
-      out.warning(text, hint);
-  }
-  if (images.color + images.depth == 0) {
-    if (images.external_missing == 0)
-      out.error("no images in the records", "only points or nothing was recorded");
-    return;
-  }
-  checkCamera("colour", images.color_camera, images.color_width, out);
-  checkCamera("depth", images.depth_camera, images.depth_width, out);
-  checkDepth(images, out);
-}
-
 /// Whether an angle is a usual step between beams: 1/12 deg to 2 deg, or a circle cut into 2^n.
 bool usualStep(double degrees) {
   constexpr std::array<double, 12> kSteps = {2,       1,    0.5,  0.25, 0.125, 1 / 3.0,
@@ -146,7 +51,9 @@ void checkAperture(const ScanSummary& scans, Findings& out) {
   }
   if (scans.beams < 2) return;
   const double step = aperture / (scans.beams - 1) * kRad, rival = aperture / scans.beams * kRad;
-  if (!usualStep(step) && usualStep(rival))
+  // A full circle may count the beam at which it closes once or twice.
+  const bool full_circle = 360 - aperture * kRad < 1.01 * step;
+  if (!full_circle && !usualStep(step) && usualStep(rival))
     out.note(
         format("%d beams over %.2f deg are %.4f deg apart; with one interval more it would be %.4f",
                scans.beams, aperture * kRad, step, rival),
@@ -191,14 +98,17 @@ void checkOdometry(const RawlogReport& report, const SensorReport& sensor, Findi
     out.note("odometry never changes", "the robot stands still, or run with --set odometry.enabled=false");
 }
 
-void checkPose(const SensorReport& sensor, Findings& out) {
-  if (sensor.pose_changes)
-    out.note("the sensor's pose on the robot changes", "each record is used with its own");
-  const auto& pose = sensor.robot_from_sensor;
-  if (sensor.used && pose && pose->isApprox(Pose3::Identity(), 1e-9) && (sensor.images || sensor.scans))
-    out.note(
-        "the sensor sits at the robot's origin, looking ahead",
-        "if this is not so, set it with rawlog-edit --sensors-pose (heights above the floor depend on it)");
+// As the reader will choose.
+void checkKinds(const RawlogReport& report, Findings& out) {
+  SensorChoices choices;
+  for (const auto& sensor : report.sensors) {
+    if (sensor.count == sensor.invalid_times) continue;
+    if (sensor.images) choices.rgbd.takes(sensor.label);
+    if (sensor.scans) choices.lidar.takes(sensor.label);
+    if (sensor.path_length_m) choices.odometry.takes(sensor.label);
+  }
+  for (const auto* choice : {&choices.rgbd, &choices.lidar, &choices.odometry})
+    if (const auto what = choice->what(); !what.empty()) out.warning(what, choice->hint());
 }
 
 void checkWhole(const RawlogReport& report, Findings& out) {
@@ -207,6 +117,7 @@ void checkWhole(const RawlogReport& report, Findings& out) {
     return std::any_of(report.sensors.begin(), report.sensors.end(), predicate);
   };
   out.at("file");
+  checkKinds(report, out);
   if (!report.truncation.empty()) out.warning(report.truncation, "what comes before is used");
   for (const auto& [reason, count] : report.skipped)
     out.warning(format("%d x %s", count, reason.c_str()), "such records are left out");
@@ -214,7 +125,7 @@ void checkWhole(const RawlogReport& report, Findings& out) {
     out.error("no usable sensor", "needs CObservation3DRangeScan (RGB-D) or CObservation2DRangeScan (lidar)");
   else if (!has([](const SensorReport& s) { return s.path_length_m.has_value(); }))
     out.note("no odometry", "movement is found from images or scans alone");
-  if (report.largest_step_back_s > kLargeStepBackS)
+  if (checkClocks(report, out) && report.largest_step_back_s > kLargeStepBackS)
     out.warning(
         format("records are out of order by up to %.3f s between sensors", report.largest_step_back_s),
         "sort the records by time stamp and save again");
@@ -225,6 +136,8 @@ void checkWhole(const RawlogReport& report, Findings& out) {
 std::vector<Finding> findProblems(const RawlogReport& report) {
   Findings out;
   checkWhole(report, out);
+  const bool on_robot = std::any_of(report.sensors.begin(), report.sensors.end(),
+                                    [](const SensorReport& s) { return s.scans || s.path_length_m; });
   for (const auto& sensor : report.sensors) {
     out.at(nameOf(sensor));
     if (!sensor.used) {
@@ -232,8 +145,8 @@ std::vector<Finding> findProblems(const RawlogReport& report) {
       continue;
     }
     checkTimes(sensor, out);
-    checkPose(sensor, out);
-    if (sensor.images) checkImages(sensor, out);
+    const bool unit_is_right = !sensor.images || checkImages(sensor, out);
+    checkPose(sensor, on_robot, unit_is_right, out);
     if (sensor.scans) checkScans(sensor, out);
     if (sensor.path_length_m) checkOdometry(report, sensor, out);
   }

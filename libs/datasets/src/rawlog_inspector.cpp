@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "clock_offset.h"
 #include "image_folder.h"
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/observations/CObservationDetections.h"
 #include "roomgraph/observations/detection_comment.h"
+#include "sensor_choice.h"
 #include "sensor_statistics.h"
 
 namespace roomgraph {
@@ -27,6 +30,7 @@ constexpr double kPoseTolerance = 1e-6;  // m, rad
 struct Sensor {
   SensorReport report;
   TimeStatistics times;
+  std::vector<FilePlace> places;
   std::optional<ImageStatistics> images;
   std::optional<ScanStatistics> scans;
   std::optional<Pose2> last_odometry;
@@ -34,7 +38,8 @@ struct Sensor {
 
 class Inspector {
  public:
-  explicit Inspector(const std::filesystem::path& file) : image_folder_(imageFolderOf(file)) {}
+  Inspector(const std::filesystem::path& file, const SensorPoses& poses)
+      : image_folder_(imageFolderOf(file)), poses_(poses) {}
 
   void add(const mrpt::serialization::CSerializable::Ptr& object) {
     if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
@@ -63,6 +68,7 @@ class Inspector {
       entry->times.report(line);
       if (entry->images) line.images = entry->images->report();
       if (entry->scans) line.scans = entry->scans->report(odometry_);
+      line.clock_offset = offsetOf(*entry);
       if (line.count > line.invalid_times) {
         out.first_time = std::min(out.first_time, line.first_time);
         out.last_time = std::max(out.last_time, line.last_time);
@@ -82,9 +88,23 @@ class Inspector {
     return *sensors_.back();
   }
 
+  // Against the first sensor that is used.
+  std::optional<ClockOffset> offsetOf(const Sensor& entry) const {
+    for (const auto& reference : sensors_) {
+      if (!reference->report.used || reference->places.empty()) continue;
+      if (reference.get() == &entry || !entry.report.used) return std::nullopt;
+      auto offset = clockOffset(reference->places, entry.places);
+      if (offset) offset->reference = reference->report.label;
+      return offset;
+    }
+    return std::nullopt;
+  }
+
   void addTime(Sensor& entry, std::optional<double> t) {
+    ++index_;
     entry.times.add(t);
     if (!t) return;
+    entry.places.push_back({index_, *t});
     largest_step_back_ = std::max(largest_step_back_, latest_ - *t);
     latest_ = std::max(latest_, *t);
   }
@@ -133,11 +153,14 @@ class Inspector {
       addOdometry(entry, t, {wheels->odometry.x(), wheels->odometry.y(), wheels->odometry.phi()});
       return;
     }
+    placeSensor(*observation, poses_);
     addPose(entry, *observation);
     if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
       entry.report.used = true;
       if (!entry.scans) entry.scans.emplace();
       entry.scans->add(*scan);
+      for (const auto& other : sensors_)
+        if (other->images && t) other->images->addScan(toScan(*scan));
     } else if (const auto images = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
       entry.report.used = true;
       if (!entry.images) entry.images.emplace();
@@ -148,11 +171,12 @@ class Inspector {
   }
 
   std::string image_folder_;
+  SensorPoses poses_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
   std::map<std::string, int> broken_;  ///< observations by reason
   OdometrySum sum_;
   Trajectory odometry_;
-  int paired_ = 0, single_ = 0;
+  int paired_ = 0, single_ = 0, index_ = 0;
   double latest_ = -std::numeric_limits<double>::infinity(), largest_step_back_ = 0;
 };
 
@@ -169,9 +193,11 @@ const char* toString(Severity severity) {
   }
 }
 
-RawlogReport inspectRawlog(const std::filesystem::path& file, const std::function<void(double)>& progress) {
+RawlogReport inspectRawlog(const std::filesystem::path& file, const std::function<void(double)>& progress,
+                           const SensorPoses& poses) {
   RecordSource source(file);
-  Inspector inspector(file);
+  checkLabels(file, {.sensor_poses = poses});
+  Inspector inspector(file, poses);
   RawlogReport report;
   report.file = file;
   report.file_bytes = std::filesystem::file_size(file);

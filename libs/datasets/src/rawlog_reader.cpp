@@ -14,6 +14,7 @@
 #include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/observations/detection_comment.h"
+#include "sensor_choice.h"
 
 namespace roomgraph {
 
@@ -26,7 +27,8 @@ using mrpt::obs::CSensoryFrame;
 
 struct RawlogReader::Impl {
   Impl(const std::filesystem::path& file, const ReadOptions& read_options)
-      : source(file), options(read_options), image_folder(imageFolderOf(file)) {
+      : source(file), options(read_options), choices(options), image_folder(imageFolderOf(file)) {
+    checkLabels(file, options);
     if (!options.frames) source.skipClass("CObservation3DRangeScan");
   }
 
@@ -35,12 +37,14 @@ struct RawlogReader::Impl {
   void takeActions(const CActionCollection& actions);
   void takeObservation(const CObservation::Ptr& written);
   void giveTimeToOdometry(double t);
+  bool isOfAnotherSensor(const CObservation& observation);
   std::optional<Record> convert(const CObservation::Ptr& observation);
   std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
   std::string groupedReason(const std::string& reason);
 
   RecordSource source;
   ReadOptions options;
+  SensorChoices choices;
   std::string image_folder;
   ReadStatistics statistics;
   OdometrySum odometry;
@@ -112,8 +116,25 @@ std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& 
   return std::move(*frame);
 }
 
+// Of the kinds that are wanted, one sensor each.
+bool RawlogReader::Impl::isOfAnotherSensor(const CObservation& observation) {
+  const std::string& label = observation.sensorLabel;
+  if (options.frames && dynamic_cast<const CObservation3DRangeScan*>(&observation))
+    return !choices.rgbd.takes(label);
+  if (options.scans && dynamic_cast<const CObservation2DRangeScan*>(&observation))
+    return !choices.lidar.takes(label);
+  if (options.odometry && dynamic_cast<const CObservationOdometry*>(&observation))
+    return !choices.odometry.takes(label);
+  return false;
+}
+
 std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& observation) {
   const std::string name = shortClassName(observation->GetRuntimeClass()->className);
+  if (isOfAnotherSensor(*observation)) {
+    ++statistics.skipped[name + " " + labelText(observation->sensorLabel) + ": another sensor was chosen"];
+    return std::nullopt;
+  }
+  placeSensor(*observation, options.sensor_poses);
   std::optional<Record> record;
   bool wanted = true;
   if (const auto images = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
@@ -156,9 +177,12 @@ std::optional<Record> RawlogReader::Impl::next() {
     const auto entry = waiting.front();
     waiting.pop_front();
     if (const auto* reading = std::get_if<OdometryReading>(&entry)) {
-      ++(options.odometry ? statistics.used["CActionCollection"]
-                          : statistics.skipped["CActionCollection: not asked for"]);
-      if (options.odometry) return *reading;
+      if (options.odometry && choices.odometry.takes("")) {
+        ++statistics.used["CActionCollection"];
+        return *reading;
+      }
+      ++statistics.skipped[std::string("CActionCollection: ") +
+                           (options.odometry ? "another sensor was chosen" : "not asked for")];
     } else if (auto record = convert(std::get<CObservation::Ptr>(entry))) {
       return record;
     }
@@ -178,6 +202,7 @@ double RawlogReader::progress() const {
   return impl_->source.progress();
 }
 const ReadStatistics& RawlogReader::statistics() const {
+  impl_->statistics.sensor_warnings = impl_->choices.warnings();
   return impl_->statistics;
 }
 

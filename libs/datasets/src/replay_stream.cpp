@@ -24,6 +24,8 @@ ReplayStream::ReplayStream(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such file");
   if (std::filesystem::is_directory(file, error))
     throw InputError(file.string() + ": is a directory, not a rawlog");
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string() + ": is a pipe or device; a rawlog is read from a file");
   file_.reset(gzopen(file.c_str(), "rb"));
   if (!file_) throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno));
   file_size_ = std::filesystem::file_size(file, error);

@@ -14,11 +14,16 @@ constexpr int kImageStride = 10;  // every n-th image is looked at for its depth
 constexpr int kPixelStride = 7;   // and in it every n-th pixel, along both axes
 constexpr std::size_t kMaxScans = 20000;
 
-double median(std::vector<double> values) {
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
 }
 
 }  // namespace
@@ -58,6 +63,10 @@ void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observa
       ++samples_;
       if (ranges(v, u) > 0) depths_m_.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
     }
+  const PointGrid grid = grids_.make(observation);
+  const Pose3 robot_from_sensor = toPose3(observation.sensorPose);
+  floor_.add(grid, robot_from_sensor);
+  agreement_.addImage(mrpt::Clock::toDouble(observation.timestamp), grid, robot_from_sensor);
 }
 
 void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder) {
@@ -75,7 +84,10 @@ void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const
   if (!first && seen_ % kImageStride != 0) return;
   observation.load();
   if (observation.hasRangeImage) addDepth(observation);
-  if (!first) return;
+  if (first) describe(observation);
+}
+
+void ImageStatistics::describe(const mrpt::obs::CObservation3DRangeScan& observation) {
   const auto& ranges = observation.rangeImage;
   summary_.depth_width = static_cast<int>(ranges.cols());
   summary_.depth_height = static_cast<int>(ranges.rows());
@@ -95,6 +107,10 @@ void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const
 ImageSummary ImageStatistics::report() const {
   ImageSummary out = summary_;
   out.median_depth_m = median({depths_m_.begin(), depths_m_.end()});
+  out.near_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.05);
+  out.far_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.95);
+  out.floor = floor_.report();
+  out.range_over_lidar = agreement_.ratio();
   if (samples_ > 0)
     out.valid_depth_share = static_cast<double>(depths_m_.size()) / static_cast<double>(samples_);
   return out;

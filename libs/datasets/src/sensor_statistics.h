@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "floor_statistics.h"
+#include "point_grid.h"
+#include "range_agreement.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
 
@@ -28,11 +31,17 @@ class TimeStatistics {
 class ImageStatistics {
  public:
   void add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder);
+  /// Something else to compare the depth with. In the order of the file, between the images.
+  void addScan(const Scan& scan) { agreement_.addScan(scan); }
   ImageSummary report() const;
 
  private:
+  void describe(const mrpt::obs::CObservation3DRangeScan& observation);  ///< of the first record
   void addDepth(const mrpt::obs::CObservation3DRangeScan& observation);
   ImageSummary summary_;
+  PointGridMaker grids_;
+  FloorStatistics floor_;
+  RangeAgreement agreement_;
   std::vector<float> depths_m_;  ///< samples of the valid ones
   std::size_t samples_ = 0;
   int seen_ = 0;

@@ -2,11 +2,15 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "tum_camera.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/suggest.h"
+#include "roomgraph/datasets/camera_presets.h"
 
 namespace roomgraph {
 namespace {
@@ -15,7 +19,8 @@ using nlohmann::json;
 
 json readJson(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be read");
+  if (!in || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": no such camera file; the presets are " + presetNames());
   try {
     auto content = json::parse(in);
     if (!content.is_object()) throw InputError(file.string() + ": is not a JSON object");
@@ -25,42 +30,98 @@ json readJson(const std::filesystem::path& file) {
   }
 }
 
-double required(const std::optional<double>& option, const json& file, const char* key, const char* hint) {
-  if (option) return *option;
-  if (!file.contains(key))
-    throw ConfigError(std::string("no ") + key + ": give it in camera.json or as an option (" + hint + ")");
-  return file.at(key).get<double>();
+// What is known, from the least to the most special source.
+class Values {
+ public:
+  void take(const CameraPreset& preset) {
+    const auto& camera = preset.camera;
+    values_ = {{"fx", camera.fx},
+               {"fy", camera.fy},
+               {"cx", camera.cx},
+               {"cy", camera.cy},
+               {"depth_scale", preset.depth_scale}};
+  }
+  void take(const json& file) {
+    for (const char* key : kKeys)
+      if (file.contains(key)) values_[key] = file.at(key).get<double>();
+  }
+  void take(const std::string& key, const std::optional<double>& option) {
+    if (option) values_[key] = *option;
+  }
+  double at(const std::string& key) const { return values_.at(key); }
+  std::vector<std::string> missing() const {
+    std::vector<std::string> names;
+    for (const char* key : kKeys)
+      if (!values_.contains(key)) names.emplace_back(key);
+    return names;
+  }
+
+ private:
+  static constexpr std::array<const char*, 5> kKeys{"fx", "fy", "cx", "cy", "depth_scale"};
+  std::map<std::string, double> values_;
+};
+
+void requireAll(const Values& values, const std::filesystem::path& folder) {
+  const auto missing = values.missing();
+  if (missing.empty()) return;
+  const std::string guess =
+      presetForFolder(std::filesystem::absolute(folder).lexically_normal().filename().string());
+  throw ConfigError("the camera is not known: no " + join(missing) +
+                    (guess.empty() ? "" : " (the folder's name speaks for --camera " + guess + ")") +
+                    "; name a published camera (--camera " + presetNames() + "), write " +
+                    (folder / "camera.json").string() +
+                    ", or give the numbers (--fx --fy --cx --cy --depth-scale)");
 }
 
-void readOptional(const json& file, PinholeCamera& camera) {
-  camera.width = file.value("width", 0);
-  camera.height = file.value("height", 0);
+TumCamera readFile(const json& file) {
+  TumCamera out;
+  out.camera.width = file.value("width", 0);
+  out.camera.height = file.value("height", 0);
+  out.invalid_depth = file.value("invalid_depth", 0);
   const auto distortion = file.value("distortion", std::vector<double>());
-  if (distortion.size() > camera.distortion.size())
+  if (distortion.size() > out.camera.distortion.size())
     throw InputError("camera file: distortion has more than 5 values (k1 k2 p1 p2 k3)");
-  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  std::copy(distortion.begin(), distortion.end(), out.camera.distortion.begin());
+  return out;
 }
 
-}  // namespace
-
-TumCamera readTumCamera(const std::filesystem::path& folder, const TumImportOptions& options) {
+// Size, distortion and what else has no option of its own; the rest goes to `values`.
+TumCamera readSource(const std::filesystem::path& folder, const TumImportOptions& options, Values& values) {
+  if (!options.preset.empty()) {
+    const auto preset = findCameraPreset(options.preset);
+    if (!preset) throw ConfigError("no camera preset '" + options.preset + "'; there is: " + presetNames());
+    values.take(*preset);
+    return {preset->camera, 0, preset->invalid_depth, false};
+  }
   json file = json::object();
   if (options.camera_file)
     file = readJson(*options.camera_file);
   else if (std::filesystem::exists(folder / "camera.json"))
     file = readJson(folder / "camera.json");
-  TumCamera out;
   try {
-    readOptional(file, out.camera);
-    out.camera.fx = required(options.fx, file, "fx", "--fx");
-    out.camera.fy = required(options.fy, file, "fy", "--fy");
-    out.camera.cx = required(options.cx, file, "cx", "--cx");
-    out.camera.cy = required(options.cy, file, "cy", "--cy");
-    out.depth_scale =
-        required(options.depth_scale, file, "depth_scale", "--depth-scale; TUM and ICL-NUIM: 5000");
+    values.take(file);
+    return readFile(file);
   } catch (const json::exception& error) {
     throw InputError(std::string("camera file: ") + error.what());
   }
+}
+
+}  // namespace
+
+TumCamera readTumCamera(const std::filesystem::path& folder, const TumImportOptions& options) {
+  Values values;
+  TumCamera out = readSource(folder, options, values);
+  values.take("fx", options.fx);
+  values.take("fy", options.fy);
+  values.take("cx", options.cx);
+  values.take("cy", options.cy);
+  values.take("depth_scale", options.depth_scale);
+  requireAll(values, folder);
+  out.camera.fx = values.at("fx");
+  out.camera.fy = values.at("fy");
+  out.camera.cx = values.at("cx");
+  out.camera.cy = values.at("cy");
+  out.depth_scale = values.at("depth_scale");
   if (!(out.camera.fx > 0) || out.camera.fy == 0) throw ConfigError("fx must be positive and fy not zero");
   if (!(out.depth_scale > 0)) throw ConfigError("depth_scale must be positive");
   out.mirrored = out.camera.fy < 0;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
@@ -113,9 +114,13 @@ class Writer {
     record.range_is_depth = true;
     record.rangeUnits = static_cast<float>(1 / camera_.depth_scale);
     record.maxRange = kMaxRangeM;
+    record.sensorPose = roomgraph::toMrpt(options_.robot_from_sensor);
     record.rangeImage_setSize(depth.rows, depth.cols);
     for (int v = 0; v < depth.rows; ++v)
-      for (int u = 0; u < depth.cols; ++u) record.rangeImage(v, u) = depth.at<std::uint16_t>(v, u);
+      for (int u = 0; u < depth.cols; ++u) {
+        const std::uint16_t value = depth.at<std::uint16_t>(v, u);
+        record.rangeImage(v, u) = value == camera_.invalid_depth ? 0 : value;
+      }
     record.cameraParams = record.cameraParamsIntensity = toMrpt(camera_.camera);
   }
 
@@ -161,12 +166,30 @@ void writeAll(Writer& writer, const std::vector<TumPair>& pairs, TumImportResult
   result.camera = writer.camera();
 }
 
+// A principal point outside the image is a wrong number, or one for another image size.
+void checkCenter(const PinholeCamera& camera, std::vector<std::string>& warnings) {
+  if (camera.sees(camera.cx, camera.cy)) return;
+  std::ostringstream text;
+  text << "the principal point (" << camera.cx << ", " << camera.cy << ") lies outside the image of "
+       << camera.width << "x" << camera.height << " px: check cx and cy";
+  warnings.push_back(text.str());
+}
+
+void checkOutput(const fs::path& rawlog) {
+  if (fs::is_directory(rawlog))
+    throw RunError(rawlog.string() + ": is a folder; name the rawlog to write, e.g. " +
+                   (rawlog / "recording.rawlog").string());
+  const fs::path parent = fs::absolute(rawlog).parent_path();
+  if (!fs::is_directory(parent)) throw RunError(rawlog.string() + ": there is no folder " + parent.string());
+}
+
 }  // namespace
 
 TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const TumImportOptions& options,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   if (options.frame_rate_hz && !(*options.frame_rate_hz > 0))
     throw ConfigError("the frame rate must be positive");
+  checkOutput(rawlog);
   TumImportResult result;
   const auto pairs = readTumPairs(folder, options.max_time_difference_s, result.warnings);
   const TumCamera camera = readTumCamera(folder, options);
@@ -181,6 +204,7 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
   if (result.written == 0)
     throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
                      " pairs can be used; " + result.warnings.back());
+  checkCenter(result.camera, result.warnings);
   if (const auto truth = findGroundTruth(folder); !truth.empty()) {
     result.ground_truth = rawlog.parent_path() / (rawlog.stem().string() + ".groundtruth.txt");
     copyGroundTruth(truth, result.ground_truth, camera.mirrored, options.frame_rate_hz);

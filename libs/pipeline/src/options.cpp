@@ -13,6 +13,21 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
          .file = true});
   v.add("lookahead_s", lookahead_s,
         {.doc = "records are put in order of time within this span", .unit = "s", .min = 0, .max = 10});
+  v.add("sensor_poses", sensor_poses,
+        {.doc = "places of cameras and lidars on the robot that replace the recorded ones: "
+                "LABEL=x,y,z,yaw,pitch,roll in metres and degrees, several separated by commas"});
+}
+
+namespace {
+
+void declareLabel(std::string& label, ParameterVisitor& v) {
+  v.add("label", label, {.doc = "sensor label of the one to use; empty: the first that appears"});
+}
+
+}  // namespace
+
+void RgbdOptions::declareParameters(ParameterVisitor& v) {
+  declareLabel(label, v);
 }
 
 void MotionNoise::declare(ParameterVisitor& v) {
@@ -35,12 +50,14 @@ void TrackingOptions::declareParameters(ParameterVisitor& v) {
 void LidarOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "use 2D scans"});
   v.add("class", stage, {.doc = "implementation of ScanMatcher"});
+  declareLabel(label, v);
   v.add("loop_closing", loop_closing, {.doc = "use loop closures found in scans"});
   noise.declare(v);
 }
 
 void OdometryOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "use wheel odometry"});
+  declareLabel(label, v);
   noise.declare(v);
 }
 

@@ -118,6 +118,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;
+  summary["sensor_warnings"] = read.sensor_warnings;
   summary["timings"] = timingsJson(slam.times());
   summary["peak_memory_mb"] = peakMemoryMb();
   return summary;

@@ -85,6 +85,7 @@ class Loader {
 };
 
 void makeFrontEnds(Stages& stages, Loader& loader) {
+  loader.read("rgbd", stages.rgbd);
   loader.read("odometry", stages.odometry);
   loader.read("tracking", stages.tracking);
   if (stages.tracking.enabled)
@@ -163,6 +164,7 @@ ConfigSchema configSchema() {
   registerAllClasses();
   ConfigSchema schema;
   GeneralOptions general;
+  RgbdOptions rgbd;
   TrackingOptions tracking;
   LidarOptions lidar;
   OdometryOptions odometry;
@@ -172,6 +174,7 @@ ConfigSchema configSchema() {
   ObjectLoopOptions object_loops;
   OccupancyMapper mapper;
   schema.add("pipeline", general);
+  schema.add("rgbd", rgbd);
   schema.add("odometry", odometry);
   schema.add("tracking", tracking);
   addImplementations<RgbdOdometry>(schema, "tracking");

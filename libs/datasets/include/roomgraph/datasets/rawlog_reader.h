@@ -9,7 +9,9 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/observations/CObservationDetections.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/scan.h"
@@ -25,18 +27,23 @@ struct ReadStatistics {
   std::map<std::string, int>
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
+  std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for
 };
 
 /// Kinds of records wanted; what is not wanted is stepped over without being decoded, where that saves time.
+/// Of each kind one sensor is used: the one whose sensorLabel is given here, or the first that appears.
 struct ReadOptions {
   bool frames = true, scans = true, odometry = true;
+  std::string rgbd_label{}, lidar_label{}, odometry_label{};
+  SensorPoses sensor_poses{};  ///< instead of what the records say; labels that are not here keep theirs
 };
 
 /// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or
 /// external). Records that cannot be used are skipped and counted, never fatal.
 class RawlogReader {
  public:
-  /// Opens the file. Throws InputError (missing, empty, not a rawlog) naming the file and the cause.
+  /// Opens the file. Throws InputError (missing, empty, not a rawlog) naming the file and the cause, or
+  /// ConfigError when a label asked for does not occur in it.
   explicit RawlogReader(const std::filesystem::path& file, const ReadOptions& options = {});
   ~RawlogReader();
   RawlogReader(RawlogReader&&) noexcept;

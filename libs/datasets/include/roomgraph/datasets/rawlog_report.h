@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
 
@@ -26,6 +27,21 @@ struct Finding {
   std::string hint;   ///< what to do about it
 };
 
+/// The floor as a robot's depth images see it, always at the same place.
+struct FloorSummary {
+  int images = 0;              ///< that show it
+  double sensor_height_m = 0;  ///< above it
+  double tilt_rad = 0;         ///< between its normal and the robot's up direction
+  Pose3 fitting_pose =
+      Pose3::Identity();  ///< robot_from_sensor that would put it at z = 0; x and y as recorded
+};
+
+/// Stamps of a sensor minus those of a reference sensor between whose records its own stand in the file, s.
+struct ClockOffset {
+  double first_s = 0, last_s = 0;  ///< at the beginning and at the end
+  std::string reference;           ///< label
+};
+
 /// Camera of a sensor and what its images are like.
 struct ImageSummary {
   int color = 0, depth = 0;    ///< records that have one
@@ -35,10 +51,13 @@ struct ImageSummary {
   bool registered = false;  ///< depth and colour have one camera in common
   bool range_is_depth = true;
   double depth_unit_m = 0;
-  double median_depth_m = 0;  ///< of the valid pixels looked at; 0 when there are none
+  double median_depth_m = 0;                 ///< of the valid pixels looked at; 0 when there are none
+  double near_depth_m = 0, far_depth_m = 0;  ///< 5 % of them are nearer, 5 % are further
   double valid_depth_share = 0;
   int external_present = 0, external_missing = 0;  ///< records with images in files outside the rawlog
   std::string first_missing;                       ///< file
+  std::optional<FloorSummary> floor;       ///< nothing when it is not seen, or not always at one place
+  std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
 };
 
 struct ScanSummary {
@@ -66,7 +85,8 @@ struct SensorReport {
   double rate_hz = 0;
   double median_interval_s = 0;
   double largest_gap_s = 0, largest_gap_time = 0;
-  std::optional<Pose3> robot_from_sensor;  ///< MRPT's sensorPose of the first record (x forward)
+  std::optional<ClockOffset> clock_offset;  ///< nothing for the reference, and when records do not alternate
+  std::optional<Pose3> robot_from_sensor;   ///< MRPT's sensorPose of the first record (x forward)
   bool pose_changes = false;
   std::optional<ImageSummary> images;
   std::optional<ScanSummary> scans;
@@ -90,9 +110,11 @@ struct RawlogReport {
 };
 
 /// Reads the whole file and says what is inside and what is wrong with it. Throws InputError like
-/// RawlogReader. `progress` gets the share read, [0, 1].
+/// RawlogReader. `progress` gets the share read, [0, 1]. `poses` take the place of the recorded ones; a label
+/// that does not occur is a ConfigError.
 RawlogReport inspectRawlog(const std::filesystem::path& file,
-                           const std::function<void(double)>& progress = nullptr);
+                           const std::function<void(double)>& progress = nullptr,
+                           const SensorPoses& poses = {});
 
 /// The findings for a report (the report's own list is not looked at), worst first.
 std::vector<Finding> findProblems(const RawlogReport& report);

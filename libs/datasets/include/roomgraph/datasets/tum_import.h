@@ -10,10 +10,13 @@
 #include <vector>
 
 #include "roomgraph/geometry/camera.h"
+#include "roomgraph/geometry/pose.h"
 
 namespace roomgraph {
 
+/// Intrinsics and depth scale come from the single options, else from the preset or the camera file.
 struct TumImportOptions {
+  std::string preset{};  ///< of camera_presets.h, instead of a camera file
   std::optional<std::filesystem::path>
       camera_file{};                             ///< default: camera.json in the folder, if there is one
   std::optional<double> fx{}, fy{}, cx{}, cy{};  ///< px; replace what the camera file says
@@ -22,6 +25,7 @@ struct TumImportOptions {
   std::optional<double> frame_rate_hz{};         ///< stamps are frame numbers (ICL-NUIM) at this rate
   bool external_images = false;                  ///< images in X_Images/ beside the rawlog
   std::string label = "RGBD";                    ///< sensorLabel of the records
+  Pose3 robot_from_sensor = Pose3::Identity();   ///< x forward; identity: handheld
 };
 
 struct TumImportResult {
@@ -35,16 +39,16 @@ struct TumImportResult {
 
 /// Writes a TUM / ICL-NUIM folder as an observation-only rawlog (gz) of CObservation3DRangeScan, one for each
 /// pair in associations.txt (columns in either order) or, without that file, of rgb.txt and depth.txt paired
-/// by time. Depth values are kept as they are, with rangeUnits = 1 / depth_scale. The camera looks along the
-/// robot's x axis, at its origin. Ground truth (camera poses) is written beside it as X.groundtruth.txt.
+/// by time. Depth values are kept as they are, with rangeUnits = 1 / depth_scale. Ground truth (camera poses)
+/// is written beside it as X.groundtruth.txt.
 ///
 /// ICL-NUIM gives fy < 0: its camera frame has y up and is left-handed, though its images are upright. The
 /// images are left as they are and |fy| is used, which puts the same ray through every pixel with y down;
 /// poses T of the ground truth become S T S with S = diag(1, -1, 1): the world is mirrored to be
 /// right-handed.
 ///
-/// Throws ConfigError (no intrinsics or depth scale), InputError (folder or lists unusable, no pair left) or
-/// RunError (output cannot be written).
+/// Throws ConfigError (no intrinsics or depth scale, unknown preset), InputError (folder or lists unusable,
+/// no pair left) or RunError (output cannot be written).
 TumImportResult importTum(const std::filesystem::path& folder, const std::filesystem::path& rawlog,
                           const TumImportOptions& options = {},
                           const std::function<void(std::size_t done, std::size_t total)>& progress = nullptr);

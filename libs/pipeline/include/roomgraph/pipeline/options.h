@@ -16,6 +16,7 @@ struct GeneralOptions : Configurable {
   std::vector<std::string> plugins;
   std::string objects_file;
   double lookahead_s = 0.5;
+  std::string sensor_poses;
   void declareParameters(ParameterVisitor& v) override;
 };
 
@@ -25,6 +26,12 @@ struct MotionNoise {
   double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
   double rad_per_m = 0.01;                   ///< rotation, by distance driven
   void declare(ParameterVisitor& v);
+};
+
+/// [rgbd]
+struct RgbdOptions : Configurable {
+  std::string label;
+  void declareParameters(ParameterVisitor& v) override;
 };
 
 /// [tracking]
@@ -38,7 +45,7 @@ struct TrackingOptions : Configurable {
 /// [lidar]
 struct LidarOptions : Configurable {
   bool enabled = true, loop_closing = true;
-  std::string stage = "SubmapScanMatcher";
+  std::string stage = "SubmapScanMatcher", label;
   MotionNoise noise{0.004, 0.01, 0.002, 0.01, 0.003};
   void declareParameters(ParameterVisitor& v) override;
 };
@@ -46,6 +53,7 @@ struct LidarOptions : Configurable {
 /// [odometry]
 struct OdometryOptions : Configurable {
   bool enabled = true;
+  std::string label;
   MotionNoise noise{0.01, 0.10, 0.01, 0.15, 0.10};
   void declareParameters(ParameterVisitor& v) override;
 };

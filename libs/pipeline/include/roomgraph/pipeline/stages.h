@@ -28,6 +28,7 @@ void registerAllClasses();
 /// Everything a run is made of: options and stages, as the config names them.
 struct Stages {
   GeneralOptions general;
+  RgbdOptions rgbd;
   TrackingOptions tracking;
   LidarOptions lidar;
   OdometryOptions odometry;

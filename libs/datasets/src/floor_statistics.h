@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "point_grid.h"
+#include "roomgraph/datasets/rawlog_report.h"
+
+namespace roomgraph {
+
+/// Where the depth images of one sensor see the floor. On a robot that drives on it this is always the same
+/// place; a handheld camera sees it now here, now there, and gives no answer.
+class FloorStatistics {
+ public:
+  void add(const PointGrid& grid, const Pose3& robot_from_sensor);
+  std::optional<FloorSummary> report() const;
+
+ private:
+  struct Sighting {
+    Eigen::Vector3d up;  ///< of the floor, in the sensor's frame
+    double height_m = 0;
+  };
+  static std::optional<Sighting> agreed(const std::vector<Sighting>& sightings);
+  std::vector<Sighting> by_pose_,
+      by_image_;  ///< floor sought where the pose, and where the image has its down
+  std::optional<Pose3> robot_from_sensor_;
+  int images_ = 0;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <string>
+
+#include "roomgraph/core/config.h"
+#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/pipeline/stages.h"
+
+namespace roomgraph {
+
+/// What the stages want of a recording: sources that are switched on, chosen sensors and their places. Throws
+/// ConfigError when [pipeline] sensor_poses makes no sense.
+ReadOptions readOptionsOf(const Stages& stages);
+
+/// Adds "LABEL=x,y,z,yaw,pitch,roll" (metres, degrees), as given to --pose, to [pipeline] sensor_poses, so
+/// that the run can be repeated from its config. Throws ConfigError when it does not have that form.
+void placeSensor(Config& config, const std::string& assignment);
+
+}  // namespace roomgraph

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "temporary_folder.h"
+#include "tiny_recording.h"
+
+namespace roomgraph::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Runs over a tiny recording whose records can be changed first.
+class Sensors : public ::testing::Test {
+ protected:
+  template <class Change>
+  std::filesystem::path write(const std::string& name, const Change& change) {
+    auto records = recording.records({true, true, true});
+    std::vector<test::Object> all;
+    for (const auto& record : records) change(record, all);
+    test::writeRawlog(folder.file(name), all);
+    return folder.file(name);
+  }
+  std::filesystem::path writePlain() {
+    return write("plain.rawlog", [](const test::Object& record, auto& all) { all.push_back(record); });
+  }
+  CallResult run(const std::filesystem::path& input, const std::string& output,
+                 std::vector<std::string> more = {}) {
+    more.insert(more.begin(),
+                {"run", input.string(), "-o", folder.file(output).string(), "--quiet", "--no-snapshot"});
+    return call(folder.path(), more);
+  }
+  std::string result(const std::string& output, const std::string& name) {
+    const std::string text = contentOf(folder.file(output) / name);
+    EXPECT_FALSE(text.empty()) << output << "/" << name;
+    return text;
+  }
+
+  TemporaryFolder folder;
+  TinyRecording recording{12};
+};
+
+TEST_F(Sensors, ASecondLidarChangesNothingUnlessItIsChosen) {
+  // The second one sees every range 20 % too long.
+  const auto two = write("two.rawlog", [](const test::Object& record, auto& all) {
+    all.push_back(record);
+    const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(record);
+    if (!scan) return;
+    auto rear = std::make_shared<mrpt::obs::CObservation2DRangeScan>(*scan);
+    rear->sensorLabel = "REAR";
+    for (std::size_t i = 0; i < rear->getScanSize(); ++i) rear->setScanRange(i, 1.2f * rear->getScanRange(i));
+    all.push_back(rear);
+  });
+  EXPECT_THAT(run(writePlain(), "plain").err, Not(HasSubstr("several")));
+  const CallResult first = run(two, "first");
+  EXPECT_EQ(first.exit_code, 0);
+  EXPECT_THAT(first.err,
+              AllOf(HasSubstr("'LASER' is used, 'REAR' not"), HasSubstr("--set lidar.label=REAR")));
+  EXPECT_THAT(first.out, HasSubstr("12 x CObservation2DRangeScan 'REAR': another sensor was chosen"));
+  EXPECT_EQ(result("first", "trajectory.tum"), result("plain", "trajectory.tum"));
+  EXPECT_EQ(result("first", "map.pgm"), result("plain", "map.pgm"));
+  const auto summary = nlohmann::json::parse(result("first", "summary.json"));
+  EXPECT_THAT(summary.at("sensor_warnings").at(0), HasSubstr("'REAR'"));
+
+  const CallResult rear = run(two, "rear", {"--set", "lidar.label=REAR"});
+  EXPECT_EQ(rear.exit_code, 0);
+  EXPECT_THAT(rear.err, Not(HasSubstr("several")));
+  EXPECT_NE(result("rear", "map.pgm"), result("plain", "map.pgm"));
+}
+
+TEST_F(Sensors, PoseOnTheCommandLineIsThatOfTheRecords) {
+  const auto plain = writePlain();
+  const auto moved = write("moved.rawlog", [](const test::Object& record, auto& all) {
+    if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(record))
+      scan->sensorPose = mrpt::poses::CPose3D(0.25, 0.125, 0.5, M_PI / 2, 0, 0);
+    all.push_back(record);
+  });
+  EXPECT_EQ(run(moved, "moved").exit_code, 0);
+  EXPECT_EQ(run(plain, "posed", {"--pose", "LASER=0.25,0.125,0.5,90,0,0"}).exit_code, 0);
+  EXPECT_EQ(run(plain, "plain").exit_code, 0);
+  EXPECT_EQ(result("posed", "trajectory.tum"), result("moved", "trajectory.tum"));
+  EXPECT_EQ(result("posed", "map.pgm"), result("moved", "map.pgm"));
+  EXPECT_NE(result("posed", "map.pgm"), result("plain", "map.pgm"));
+
+  // The run's own config repeats it.
+  std::filesystem::copy_file(std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "objects.ini",
+                             folder.file("posed") / "objects.ini",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(run(plain, "again", {"--config", (folder.file("posed") / "config.ini").string()}).exit_code, 0);
+  EXPECT_EQ(result("again", "trajectory.tum"), result("moved", "trajectory.tum"));
+}
+
+TEST_F(Sensors, WrongLabelsAndPosesAreRefusedBeforeTheReplay) {
+  const auto plain = writePlain();
+  expectOneLine(run(plain, "x", {"--set", "lidar.label=LASRE"}), 2,
+                AllOf(HasSubstr("no lidar 'LASRE'"), HasSubstr("did you mean 'LASER'")));
+  expectOneLine(run(plain, "x", {"--set", "rgbd.label=LASER"}), 2, HasSubstr("there is: 'RGBD'"));
+  expectOneLine(run(plain, "x", {"--pose", "LASR=0,0,0,0,0,0"}), 2,
+                AllOf(HasSubstr("'LASR'"), HasSubstr("'LASER', 'RGBD'")));
+  expectOneLine(run(plain, "x", {"--pose", "LASER=0,0,0,0,0"}), 2, HasSubstr("5 numbers instead of 6"));
+  expectOneLine(run(plain, "x", {"--set", "pipeline.sensor_poses=LASER"}), 2, HasSubstr("sensor_poses"));
+  expectOneLine(call(folder.path(), {"info", plain.string(), "--pose", "LASER=0,0,nan,0,0,0"}), 2,
+                HasSubstr("'nan' is not a number"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("x")));
+}
+
+TEST_F(Sensors, ImportNamesCamerasAndPlaces) {
+  const std::string dir = folder.path().string(), out = folder.file("x.rawlog").string();
+  folder.write("associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  expectOneLine(call(folder.path(), {"import", "tum", dir, "-o", out}), 2,
+                AllOf(HasSubstr("no fx, fy, cx, cy, depth_scale"), HasSubstr("--camera freiburg1|")));
+  expectOneLine(call(folder.path(), {"import", "tum", dir, "-o", out, "--camera", "freiburg9"}), 3,
+                AllOf(HasSubstr("freiburg9"), HasSubstr("freiburg1|")));
+  expectOneLine(
+      call(folder.path(), {"import", "tum", dir, "-o", out, "--camera", "kinect", "--pose", "A=0,0,1,0,0,0"}),
+      2, HasSubstr("the only sensor is 'RGBD'"));
+  expectOneLine(call(folder.path(), {"import", "tum", dir, "-o", dir, "--camera", "kinect"}), 1,
+                HasSubstr("is a folder"));
+}
+
+}  // namespace
+}  // namespace roomgraph::testing

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include <cstdlib>
+
+#include "program.h"
+#include "temporary_folder.h"
+
+namespace roomgraph::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::filesystem::path kRoom = std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs/tiny_room.rawlog";
+
+class StandardStreams : public ::testing::Test {
+ protected:
+  /// The program in a shell, with redirections of its own; stderr is kept.
+  CallResult shell(const std::string& before, const std::string& arguments) {
+    const auto errors = folder.file("stderr.txt");
+    const std::string line =
+        before + "'" + ROOMGRAPH_PROGRAM + "' " + arguments + " 2>'" + errors.string() + "'";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", contentOf(errors)};
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(StandardStreams, OutputThatIsLostIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "missing: /dev/full";
+  const auto message = HasSubstr("standard output: writing failed");
+  for (const std::string command : {"--help", "config-reference", "--version"})
+    expectOneLine(shell("", command + " >/dev/full"), 1, message);
+  const CallResult info = shell("", "info '" + kRoom.string() + "' >/dev/full");
+  EXPECT_EQ(info.exit_code, 1);
+  EXPECT_THAT(info.err, message);
+}
+
+TEST_F(StandardStreams, ClosedStreamsAreNoFailureAndNoFileTakesTheirPlace) {
+  EXPECT_EQ(shell("", "--help >&- <&-").exit_code, 0);
+  const auto json = folder.file("report.json");
+  EXPECT_EQ(shell("", "info '" + kRoom.string() + "' --json '" + json.string() + "' >&- <&-").exit_code, 0);
+  EXPECT_TRUE(contentOf(json).starts_with("{")) << "nothing that was printed went into it";
+}
+
+TEST_F(StandardStreams, RawlogsAreReadFromFilesOnly) {
+  expectOneLine(shell("cat '" + kRoom.string() + "' | ", "info /dev/stdin >/dev/null"), 3,
+                AllOf(HasSubstr("/dev/stdin"), HasSubstr("pipe or device")));
+  EXPECT_EQ(shell("", "info /dev/stdin >/dev/null <'" + kRoom.string() + "'").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace roomgraph::testing
