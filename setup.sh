@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that roomgraph needs (as root or through sudo) and builds it. Used by demo.sh and test.sh.
+# Installs the Debian packages that roomgraph needs, and those in $MORE_PACKAGES (as root or through sudo), and builds it.
+# Used by demo.sh and test.sh.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -8,6 +9,7 @@ packages=(
   libmrpt-dev mrpt-common libceres-dev libopencv-dev libtbb-dev libeigen3-dev zlib1g-dev
   libcli11-dev nlohmann-json3-dev libnanoflann-dev libgtest-dev libgmock-dev libbenchmark-dev
   libegl1 libgl1-mesa-dri
+  ${MORE_PACKAGES:-}
 )
 missing=()
 for package in "${packages[@]}"; do
