@@ -1,3 +1,5 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Part of roomgraph, object-level semantic SLAM.
 """Faults of files and processes: disks that are full, signals at any moment. Used by faults.py.
 
 A case is good when the folder holds the former results or the complete new ones, never some of each."""
@@ -180,7 +182,7 @@ def signals(program, count, seed=1):
             run.send_signal(kind)
             code = run.wait()
             if kind == signal.SIGKILL:
-                shutil.rmtree(out / "unfinished", ignore_errors=True)
+                shutil.rmtree(out / "roomgraph_unfinished", ignore_errors=True)
             # An interrupted run has results of its own: none of the former ones, and all files.
             yield {"case": f"{kind.name} after {wait:.2f} s", "exit": code,
                    "holds": verdict(before, contents(out), complete), "says": ""}

@@ -48,8 +48,8 @@ TEST_F(OutputFolderTest, FormerResultsStayUntilTheNewOnesAreWhole) {
 }
 
 TEST_F(OutputFolderTest, WhatAKilledProcessLeftIsRemoved) {
-  std::filesystem::create_directory(folder.file("unfinished"));
-  folder.write("unfinished/picture", "of long ago");
+  std::filesystem::create_directory(folder.file("roomgraph_unfinished"));
+  folder.write("roomgraph_unfinished/picture", "of long ago");
   OutputFolder out(folder.path(), names);
   put(out, "summary", "new");
   out.publish();
@@ -61,7 +61,7 @@ TEST_F(OutputFolderTest, IsLockedWhileInUse) {
     const OutputFolder first(folder.path(), names);
     EXPECT_THAT(messageOf<RunError>([&] { OutputFolder second(folder.path(), names); }),
                 HasSubstr("another process is writing into it"));
-    EXPECT_TRUE(std::filesystem::exists(folder.file("unfinished"))) << "the first one's work";
+    EXPECT_TRUE(std::filesystem::exists(folder.file("roomgraph_unfinished"))) << "the first one's work";
   }
   EXPECT_NO_THROW(OutputFolder(folder.path(), names));
 }
@@ -76,6 +76,13 @@ TEST_F(OutputFolderTest, InputsAreNotReplaced) {
   EXPECT_NO_THROW(out.protect(folder.file("other")));
   EXPECT_NO_THROW(out.protect(folder.file("none")));
   EXPECT_NO_THROW(out.protect(""));
+}
+
+TEST_F(OutputFolderTest, AFolderIsNotReplacedByAResult) {
+  std::filesystem::create_directory(folder.file("picture"));
+  EXPECT_THAT(messageOf<RunError>([&] { OutputFolder(folder.path(), names); }),
+              HasSubstr("'picture' is a folder"));
+  EXPECT_NO_THROW(OutputFolder(folder.file("other"), names));
 }
 
 TEST_F(OutputFolderTest, ForeignNamesAreAMistakeOfTheProgram) {

@@ -69,7 +69,14 @@ TEST_F(RawlogCopyTest, OldDetectionsAreReplaced) {
   auto remark = std::make_shared<mrpt::obs::CObservationComment>();
   remark->text = "a remark of somebody";
   writeRawlog(in, {detectionsAt(1), scan, commentAt(1.1), remark});
-  RawlogCopy(in, out).insert(*detectionsAt(1.02, "sofa"));  // the destructor finishes
+  {
+    RawlogCopy given_up(in, out);
+    given_up.insert(*detectionsAt(1.02, "sofa"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(out)) << "a copy is whole or absent";
+  RawlogCopy copy(in, out);
+  copy.insert(*detectionsAt(1.02, "sofa"));
+  copy.finish();
   EXPECT_EQ(unzipped(out), joined({commentAt(1.02, "sofa"), scan, remark}));
 }
 

@@ -109,8 +109,10 @@ TEST_F(TumImport, MissingFilesAreCountedAndNothingLeftIsAnError) {
   EXPECT_THAT(result.warnings, Contains(HasSubstr("rgb/none.png")));
   EXPECT_THAT(result.warnings, Contains(HasSubstr("1 lines left out")));
   writeBytes(folder_ / "associations.txt", "2 rgb/none.png 2 depth/a.png\n");
+  const std::string former = readBytes(folder_ / "out.rawlog");
   EXPECT_THROW(convert(), InputError);
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.rawlog")) << "no half-written file is left behind";
+  EXPECT_EQ(readBytes(folder_ / "out.rawlog"), former) << "what was imported before";
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.rawlog.unfinished"));
 }
 
 TEST_F(TumImport, UnusableFoldersAreRefused) {

@@ -172,14 +172,17 @@ TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
   EXPECT_LT(error.translation().norm(), 0.1);
   EXPECT_LT(rotationAngle(error), 0.05);
   EXPECT_EQ(result.map.landmarks.size(), 7u);
+  ASSERT_TRUE(result.earlier);
+  EXPECT_TRUE(result.earlier->recognised);
+  EXPECT_GE(result.earlier->common, 3);
 
   // Objects that stand elsewhere are not recognised, and that is said.
   for (auto& landmark : map.landmarks) landmark.position *= 1.7;
   SemanticSlam third(stagesWith(config));
   third.setMap(map);
   const auto own = drive(third);
-  ASSERT_EQ(own.counts.reasons.size(), 1u);
-  EXPECT_EQ(own.counts.reasons.begin()->first.rfind("map: its objects were not recognised", 0), 0u);
+  ASSERT_TRUE(own.earlier);
+  EXPECT_FALSE(own.earlier->recognised);
   EXPECT_LT((own.world_from_robot.front().pose.translation()).norm(), 0.05);
 }
 

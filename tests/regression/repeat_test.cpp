@@ -58,7 +58,7 @@ TEST_P(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
   Program program(folder.path(), {"run", folder.file("long.rawlog").string(), "-o", out.string(), "--quiet"});
   for (int i = 0; i < 3000; ++i) {
     std::error_code none_yet;
-    if (std::filesystem::file_size(out / "unfinished" / "live.tum", none_yet) > 0 && !none_yet) break;
+    if (std::filesystem::file_size(out / "roomgraph_unfinished" / "live.tum", none_yet) > 0 && !none_yet) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   ASSERT_EQ(kill(program.pid(), GetParam()), 0);

@@ -193,7 +193,7 @@ TEST_F(RunOutputTest, NothingOfAnEarlierRunStays) {
                 .exit_code,
             0);
   EXPECT_FALSE(std::filesystem::exists(out / "snapshot.png"));
-  EXPECT_FALSE(std::filesystem::exists(out / "unfinished"));
+  EXPECT_FALSE(std::filesystem::exists(out / "roomgraph_unfinished"));
 }
 
 // No OpenGL on this machine, as far as the program can see.

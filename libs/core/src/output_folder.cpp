@@ -41,12 +41,16 @@ void require(const std::error_code& error, const fs::path& path) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)
-    : folder_(folder), unfinished_(folder / "unfinished"), names_(std::move(names)) {
+    : folder_(folder), unfinished_(folder / "roomgraph_unfinished"), names_(std::move(names)) {
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
     throw RunError("output folder " + folder_.string() + ": is a file");
   fs::create_directories(folder_, error);
   if (error) throw RunError("output folder " + folder_.string() + ": cannot be made: " + error.message());
+  for (const auto& name : names_)
+    if (fs::is_directory(folder_ / name, error))
+      throw RunError("output folder " + folder_.string() + ": '" + name +
+                     "' is a folder, and the name of a result; choose another output folder");
   lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // File systems that cannot lock a folder (some of the network) go without.
   if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {

@@ -8,14 +8,15 @@
 
 namespace roomgraph {
 
-/// A folder of results that belong together. They are written into `FOLDER/unfinished` and put into place
-/// when all are whole, so FOLDER holds the former results or the new ones, never some of each. It is locked
-/// meanwhile (the lock goes with the process). A process that is killed leaves `unfinished`; the next one
+/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and put into
+/// place when all are whole, so FOLDER holds the former results or the new ones, never some of each. It is
+/// locked meanwhile (the lock goes with the process). A process that is killed leaves that; the next one
 /// removes it.
 class OutputFolder {
  public:
   /// Makes and locks the folder. `names`: every file that such a command may write, the one that says that
-  /// all are there last. Throws RunError: cannot be made or written, or another process uses it.
+  /// all are there last. Throws RunError: cannot be made or written, one of the names is a folder, or another
+  /// process uses it.
   OutputFolder(const std::filesystem::path& folder, std::vector<std::string> names);
   /// Removes what was not published.
   ~OutputFolder();
