@@ -114,8 +114,7 @@ TEST_F(Doctor, ScanGeometry) {
     far->setScanRange(i, far->maxRange);
     blind->setScanRangeValidity(i, false);
   }
-  EXPECT_THAT(findings({wide}),
-              Contains(finding(Severity::kError, "aperture of 180.0000 rad is impossible")));
+  EXPECT_THAT(findings({wide}), Contains(finding(Severity::kWarning, "aperture of 180 rad is impossible")));
   EXPECT_THAT(findings({degrees}), Contains(finding(Severity::kNote, "180 beams over 180.00 deg")));
   EXPECT_THAT(findings({good}), Not(Contains(finding(Severity::kNote, "beams over"))));
   EXPECT_THAT(findings({far}), Contains(finding(Severity::kError, "all ranges are at the maximum (8.00 m)")));

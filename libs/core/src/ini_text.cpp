@@ -2,11 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/core/ini_text.h"
 
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -62,11 +62,7 @@ std::vector<IniEntry> parseIni(const std::string& text, const std::string& name)
 }
 
 std::vector<IniEntry> parseIniFile(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return parseIni(text.str(), file.string());
+  return parseIni(readTextFile(file), file.string());
 }
 
 }  // namespace roomgraph

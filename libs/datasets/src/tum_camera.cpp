@@ -3,10 +3,9 @@
 #include "tum_camera.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -14,15 +13,9 @@ namespace {
 using nlohmann::json;
 
 json readJson(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be read");
-  try {
-    auto content = json::parse(in);
-    if (!content.is_object()) throw InputError(file.string() + ": is not a JSON object");
-    return content;
-  } catch (const json::exception& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
+  auto content = parseJson<json>(readTextFile(file), file.string());
+  if (!content.is_object()) throw InputError(file.string() + ": is not a JSON object");
+  return content;
 }
 
 double required(const std::optional<double>& option, const json& file, const char* key, const char* hint) {
@@ -59,7 +52,7 @@ TumCamera readTumCamera(const std::filesystem::path& folder, const TumImportOpti
     out.depth_scale =
         required(options.depth_scale, file, "depth_scale", "--depth-scale; TUM and ICL-NUIM: 5000");
   } catch (const json::exception& error) {
-    throw InputError(std::string("camera file: ") + error.what());
+    throw InputError("camera file: " + firstLine(error));
   }
   if (!(out.camera.fx > 0) || out.camera.fy == 0) throw ConfigError("fx must be positive and fy not zero");
   if (!(out.depth_scale > 0)) throw ConfigError("depth_scale must be positive");
