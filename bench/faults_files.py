@@ -27,15 +27,16 @@ def contents(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
-def verdict(before, after, complete):
-    """'old', 'new' or 'mixture': which results a folder holds. `complete`: what a run without faults leaves."""
-    telling = {name for name in set(before) | set(complete) if name not in TIMED
-               and before.get(name) != complete.get(name)}
-    if all(after.get(n) == before.get(n) for n in telling):
-        return "old" if after.keys() == before.keys() else "mixture"
-    if any(before.get(n) is not None and after.get(n) == before.get(n) for n in telling):
+def verdict(before, after, complete, exact):
+    """'old', 'new' or 'mixture': which results a folder holds. `complete`: what a run without faults leaves; with
+    `exact` new results must be equal to it, else (an interrupted run has results of its own) have all its files."""
+    telling = {name for name in set(before) | set(complete)
+               if name not in TIMED and before.get(name) != complete.get(name)}
+    if after.keys() == before.keys() and all(after[n] == before[n] for n in telling & before.keys()):
+        return "old"
+    if after.keys() != complete.keys() or any(n in before and after[n] == before[n] for n in telling & after.keys()):
         return "mixture"
-    return "new" if after.keys() == complete.keys() else "mixture"
+    return "new" if not exact or all(after[n] == complete[n] for n in telling & after.keys()) else "mixture"
 
 
 class Disk:
@@ -80,8 +81,8 @@ class FullDisk:
                 done = call([program, *self.command(place)])
                 lines = [line for line in done.stderr.splitlines() if line.startswith("roomgraph:")]
                 yield {"case": f"{self.name}, room for {share:.0%}", "exit": done.returncode,
-                       "holds": verdict(before, contents(place), complete),
-                       "says": lines[-1].replace(str(place), "DISK") if lines else ""}
+                       "holds": verdict(before, contents(place), complete, exact=True),
+                       "says": lines[-1].replace(str(place), "DISK")[:120] if lines else ""}
 
 
 def full_disk_cases(program, scratch):
@@ -122,7 +123,7 @@ def full_disk_cases(program, scratch):
 
 
 def make_tum_folder(folder, count=12, width=160, height=120):
-    """Noise images as PNG and PGM-free 16 bit PNG: enough for the importer."""
+    """Images of noise: enough for the importer."""
     import struct
     import zlib
 
@@ -153,13 +154,16 @@ def make_tum_folder(folder, count=12, width=160, height=120):
 
 
 def full_disk(program):
+    """A table of every command on disks that are too small; needs root, to mount file systems in memory."""
     with tempfile.TemporaryDirectory() as scratch:
-        for case in full_disk_cases(program, Path(scratch)):
-            yield from case.run(program)
+        cases = [row for case in full_disk_cases(program, Path(scratch)) for row in case.run(program)]
+    lines = ["| case | exit | folder holds | message |", "| --- | --- | --- | --- |"]
+    return "\n".join(lines + [f"| {c['case']} | {c['exit']} | {c['holds']} | {c['says']} |" for c in cases]) + "\n"
 
 
 def signals(program, count, seed=1):
-    """Ends runs over former results at random moments, the signals in turn."""
+    """A table of runs over former results, ended at random moments by each signal in turn."""
+    rows = {}
     kinds = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL]
     generator = random.Random(seed)
     tiny, handheld = RECORDINGS / "tiny_room.rawlog", RECORDINGS / "tiny_handheld.rawlog"
@@ -184,5 +188,7 @@ def signals(program, count, seed=1):
             if kind == signal.SIGKILL:
                 shutil.rmtree(out / "roomgraph_unfinished", ignore_errors=True)
             # An interrupted run has results of its own: none of the former ones, and all files.
-            yield {"case": f"{kind.name} after {wait:.2f} s", "exit": code,
-                   "holds": verdict(before, contents(out), complete), "says": ""}
+            key = (kind.name, code, verdict(before, contents(out), complete, exact=False))
+            rows[key] = rows.get(key, 0) + 1
+    lines = ["| signal | exit code (negative: signal) | folder holds | runs |", "| --- | --- | --- | --- |"]
+    return "\n".join(lines + [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]) + "\n"

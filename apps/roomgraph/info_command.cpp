@@ -181,7 +181,7 @@ void writeJson(const RawlogReport& report, const std::filesystem::path& file) {
                                {"place", finding.place},
                                {"what", finding.what},
                                {"hint", finding.hint}});
-  writeFileAtomically(file, out.dump(1) + "\n");
+  writeFileAtomically(file, out.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 struct Arguments {

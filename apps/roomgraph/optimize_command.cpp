@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -48,8 +49,11 @@ std::string decimal(double value) {
 
 template <class Graph>
 void run(Graph& graph, const NodeTimes& times, const Arguments& arguments) {
+  const double before = chiSquared(graph);
+  if (!std::isfinite(before))
+    throw InputError(arguments.graph.string() + ": chi2 cannot be computed: its numbers are too large");
   std::cout << arguments.graph.string() << ": " << describe(graph) << "\n"
-            << "chi2 before " << decimal(chiSquared(graph)) << std::endl;
+            << "chi2 before " << decimal(before) << std::endl;
   if (!arguments.keep_start && initializePoses(graph))
     std::cout << "chi2 of the chordal start " << decimal(chiSquared(graph)) << std::endl;
   Progress line(arguments.quiet ? nullptr : &std::cerr, "optimize", "iterations", 0);

@@ -223,6 +223,19 @@ TEST(G2oReader, ErrorsNameFileAndLine) {
   EXPECT_THAT(messageOf<InputError>([&] { loadG2o(folder.path()); }), HasSubstr("cannot be opened"));
 }
 
+TEST(G2oReader, InformationThatIsLostOnTheWayToACovarianceIsNoInformation) {
+  TemporaryFolder folder;
+  const std::string two = "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nVERTEX_SE3:QUAT 1 1 0 0 0 0 0 1\n";
+  const auto edge = [&](const std::string& first) {
+    return folder.write("bad.g2o", two + "EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 " + first +
+                                       " 0 0 0 0 0 100 0 0 0 0 100 0 0 0 400 0 0 400 0 400\n");
+  };
+  EXPECT_NO_THROW(loadG2o(edge("100")));
+  EXPECT_NO_THROW(loadG2o(edge("1e-3")));
+  EXPECT_THAT(messageOf<InputError>([&] { loadG2o(edge("1e-320")); }),
+              HasSubstr("bad.g2o:3: the information matrix is not positive definite"));
+}
+
 std::filesystem::path dataFile(const std::string& name) {
   const char* data = std::getenv("ROOMGRAPH_DATA");
   return (data ? std::filesystem::path(data)

@@ -2,6 +2,9 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <gmock/gmock.h>
 
+#include <cstring>
+
+#include "memory_limit.h"
 #include "rawlog_maker.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 
@@ -9,9 +12,9 @@ namespace roomgraph {
 namespace {
 
 using namespace roomgraph::test;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 struct Result {
   int records = 0;
@@ -108,6 +111,86 @@ TEST(RawlogDamage, BrokenSensoryFrameIsLeftOutAsAWhole) {
   const auto result = read(folder / "x.rawlog");
   EXPECT_EQ(result.records, 5);
   EXPECT_EQ(result.statistics.used.at("CActionCollection"), 3);
+}
+
+// A count of elements, or the size of a picture, that the record cannot hold.
+void overwrite(std::string& bytes, std::size_t at, std::uint32_t value) {
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+TEST(RawlogDamage, ImpossibleSizesCostOnlyTheirRecordAndNoMemory) {
+  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "not under this sanitizer";
+  TemporaryFolder folder;
+  for (const auto& victim :
+       {Object(makeScan(2, 2, 300)), Object(makeImages(2)), Object(makeOdometry(2, 0, 0, 0))}) {
+    const std::string good = bytesOf(victim);
+    for (std::size_t at = 30; at + 5 < std::min<std::size_t>(good.size(), 700); ++at)
+      for (const std::uint32_t size : {0xffffffffu, 0x80000000u, 0x40000000u}) {
+        std::string broken = good;
+        overwrite(broken, at, size);
+        writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+        const auto result = read(folder / "x.rawlog");
+        ASSERT_GE(result.records, 2) << victim->GetRuntimeClass()->className << " byte " << at;
+      }
+  }
+  EXPECT_LT(testing::peakMegabytes(), 700);
+}
+
+TEST(RawlogDamage, SizeOfAScanThatDoesNotFitItsBytesIsNamed) {
+  TemporaryFolder folder;
+  std::string broken = bytesOf(makeScan(2, 2, 300));
+  std::size_t at = 0;
+  const std::uint32_t count = 300;
+  at = broken.find(std::string(reinterpret_cast<const char*>(&count), sizeof count));
+  ASSERT_NE(at, std::string::npos);
+  overwrite(broken, at, 0x7fffffff);
+  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  const auto result = read(folder / "x.rawlog");
+  EXPECT_EQ(result.records, 2);
+  ASSERT_EQ(result.statistics.skipped.size(), 1u);
+  EXPECT_THAT(result.statistics.skipped.begin()->first,
+              HasSubstr("CObservation2DRangeScan: a size in it does not fit its length"));
+}
+
+TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
+  TemporaryFolder folder;
+  const bool plain = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+  std::string broken = bytesOf(makeImages(2));
+  mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(plain);
+  // Start of frame: marker, length, 8 bits, height, width.
+  const auto at = broken.find("\xff\xc0");
+  ASSERT_NE(at, std::string::npos);
+  for (std::size_t i = 5; i < 9; ++i) broken[at + i] = static_cast<char>(i % 2 ? 0x7f : 0xff);
+  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  const auto result = read(folder / "x.rawlog");
+  EXPECT_EQ(result.records, 2);
+  EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("256 MB"));
+  EXPECT_LT(testing::peakMegabytes(), 700);
+}
+
+TEST(RawlogDamage, LongRecordsAmongOthersOfAPairAreParsedWhole) {
+  TemporaryFolder folder;
+  // Mixed formats: the observations in a sensory frame are not taken for the next record.
+  std::vector<mrpt::obs::CObservation::Ptr> many;
+  for (int i = 0; i < 50; ++i) many.push_back(makeScan(2 + 0.01 * i, 2, 5000));
+  writeRawlog(folder / "x.rawlog", {makeScan(1), makeSensoryFrame(many), makeScan(3)});
+  const auto result = read(folder / "x.rawlog");
+  EXPECT_EQ(result.records, 52);
+  EXPECT_THAT(result.statistics.skipped, IsEmpty());
+}
+
+// Buffers of the reader itself, which grow with the file, do not count as memory of a record.
+TEST(RawlogDamage, LongRecordingsOfSmallAndLargeRecordsAreReadWhole) {
+  TemporaryFolder folder;
+  std::vector<Object> objects;
+  for (int i = 0; i < 300; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
+  objects.push_back(makeImages(31, 1280, 720));
+  for (int i = 320; i < 600; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
+  writeRawlog(folder / "x.rawlog", objects);
+  const auto result = read(folder / "x.rawlog");
+  EXPECT_EQ(result.records, 581);
+  EXPECT_THAT(result.statistics.skipped, IsEmpty());
 }
 
 TEST(RawlogDamage, SkippedImagesAtTheEndAreCheckedForCompleteness) {

@@ -172,8 +172,7 @@ TEST_F(Doctor, ScanGeometry) {
     far->setScanRange(i, far->maxRange);
     blind->setScanRangeValidity(i, false);
   }
-  EXPECT_THAT(findings({wide}),
-              Contains(finding(Severity::kError, "aperture of 180.0000 rad is impossible")));
+  EXPECT_THAT(findings({wide}), Contains(finding(Severity::kWarning, "aperture of 180 rad is impossible")));
   EXPECT_THAT(findings({degrees}), Contains(finding(Severity::kNote, "180 beams over 180.00 deg")));
   EXPECT_THAT(findings({good}), Not(Contains(finding(Severity::kNote, "beams over"))));
   auto one_more = makeScan(1, 2, 361);

@@ -133,6 +133,11 @@ TEST_F(RecordedDetectorTest, BrokenFilesNameTheLine) {
     EXPECT_THAT(error.what(), HasSubstr("boxes:2"));
   }
   EXPECT_THROW(prepare("file = " + write("5.0 56 1 1 -5 5 0.9\n")), InputError);
+  EXPECT_THROW(prepare("file = " + write("5.0 56 1 1 1e300 5 0.9\n")), InputError);
+  const std::string box = R"("boxes": [{"class": "chair", "score": 0.9, "bbox": [1, 1, 9, 9]}]})";
+  EXPECT_NO_THROW(prepare("file = " + write(R"({"timestamp": "5.25", )" + box)));
+  EXPECT_THROW(prepare("file = " + write(R"({"timestamp": "nan", )" + box)), InputError);
+  EXPECT_THROW(prepare("file = " + write(R"({"timestamp": 1e999, )" + box)), InputError);
   EXPECT_THROW(prepare("file = " + (folder_ / "none").string()), InputError);
 }
 

@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "roomgraph/lidar/grid_refinement.h"
@@ -20,6 +21,27 @@ ProbabilityGrid mapOf(const std::vector<testing::Wall>& walls, const std::vector
   for (const Pose2& pose : poses)
     grid.insert(toPlanarScan(castScan(walls, pose, 0, random), 0.1, 30), pose, {0.6, 0.48});
   return grid;
+}
+
+TEST(ProbabilityGrid, PointsThatAreNoneAreOutside) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{}});
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e300, -1e300, 1e10, -1e9})
+    for (const Eigen::Vector2d& point : {Eigen::Vector2d(bad, 0), Eigen::Vector2d(0, bad)}) {
+      Eigen::Vector2d slope(1, 1);
+      EXPECT_EQ(grid.interpolate(point, &slope), static_cast<double>(ProbabilityGrid::kMin)) << bad;
+      EXPECT_EQ(slope, Eigen::Vector2d::Zero()) << bad;
+      const Eigen::Vector2i cell = grid.cellOf(point);
+      EXPECT_FALSE(grid.known(cell.x() + 1, cell.y() + 1)) << bad;
+    }
+}
+
+TEST(ProbabilityGrid, AScanFromNowhereChangesNothing) {
+  ProbabilityGrid grid(0.1);
+  grid.insert({{0.05, 0.05}, {{1.05, 0.05}}}, {}, {0.6, 0.4});
+  const int width = grid.width();
+  grid.insert({{0.05, 0.05}, {{1.05, 0.05}}}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0.6, 0.4});
+  EXPECT_EQ(grid.width(), width);
 }
 
 TEST(ProbabilityGrid, OneBeamHitsItsEndAndClearsTheWay) {

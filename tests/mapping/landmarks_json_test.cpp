@@ -121,7 +121,7 @@ TEST(LandmarksJson, ReadsTruthFiles) {
 
 TEST(LandmarksJson, ErrorsNameFileEntryAndField) {
   const TemporaryFolder folder;
-  EXPECT_THAT(loadError(folder, "{"), HasSubstr("x.json: not JSON"));
+  EXPECT_THAT(loadError(folder, "{"), HasSubstr("x.json: not valid JSON"));
   EXPECT_THAT(loadError(folder, "[]"), HasSubstr("'landmarks' or 'objects'"));
   EXPECT_THAT(loadError(folder, R"({"landmarks": 3})"), HasSubstr("not a list"));
   const std::string good = R"({"id": 1, "class": "sofa", "x": 0, "y": 0, "z": 0, "size_wdh": [1, 1, 1]})";

@@ -6,6 +6,10 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cstring>
+#include <functional>
+#include <limits>
+
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 #include "sample_map.h"
@@ -114,6 +118,50 @@ TEST(MapFile, NewerVersionIsNamed) {
   ASSERT_EQ(bytes.substr(1, name.size()), name);
   bytes[1 + name.size()] = static_cast<char>(99);
   EXPECT_THAT(loadError(folder.write("new.rgmap", bytes)), HasSubstr("newer version"));
+}
+
+TEST(MapFile, ValuesThatCannotBeAreNamed) {
+  const TemporaryFolder folder;
+  const auto errorFor = [&](const std::function<void(CSemanticMap&)>& damage) {
+    CSemanticMap map = testing::sampleMap();
+    damage(map);
+    saveMap(map, folder.file("bad.rgmap"));
+    return loadError(folder.file("bad.rgmap"));
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[1].position.x() = kNan; }),
+              HasSubstr("bad.rgmap: damaged: landmark 2: position"));
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[0].yaw = kNan; }), HasSubstr("landmark 1: yaw"));
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[0].shape.width = -1; }), HasSubstr("landmark 1: size"));
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[0].covariance(1, 2) = kNan; }), HasSubstr("covariance"));
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[0].existence = 2; }), HasSubstr("existence"));
+  EXPECT_THAT(errorFor([](auto& map) { map.landmarks[0].class_posterior["other"] = kNan; }),
+              HasSubstr("probability of a class"));
+  EXPECT_THAT(errorFor([](auto& map) { map.world_from_robot[3].pose.linear() *= 2; }), HasSubstr("a pose"));
+  EXPECT_THAT(errorFor([](auto& map) { map.world_from_robot[3].t = 0; }), HasSubstr("order of time"));
+}
+
+// A count, or a side of the grid, larger than the file: no memory is taken for it.
+TEST(MapFile, ImpossibleSizesAreErrors) {
+  const TemporaryFolder folder;
+  CSemanticMap map = testing::sampleMap();
+  mrpt::io::CMemoryStream memory;
+  mrpt::serialization::archiveFrom(memory) << map;
+  const std::string bytes(static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount());
+  const auto with = [&](std::size_t at, std::uint32_t value) {
+    std::string broken = bytes;
+    std::memcpy(broken.data() + at, &value, sizeof value);
+    return folder.write("bad.rgmap", broken);
+  };
+  const std::uint32_t sides[] = {map.occupancy->getSizeX(), map.occupancy->getSizeY()}, poses = 40;
+  const auto sides_at = bytes.find(std::string(reinterpret_cast<const char*>(sides), sizeof sides));
+  const auto poses_at = bytes.rfind(std::string(reinterpret_cast<const char*>(&poses), sizeof poses));
+  ASSERT_NE(sides_at, std::string::npos);
+  ASSERT_NE(poses_at, std::string::npos);
+  EXPECT_THAT(loadError(with(sides_at, 0x00ffffff)), HasSubstr("a size in it is larger than the file"));
+  EXPECT_THAT(loadError(with(poses_at, 0xffffffff)), HasSubstr("a size in it is larger than the file"));
+  // 2^31 * 80 wraps to 0 cells: what the grid says of itself must agree.
+  EXPECT_THAT(loadError(with(sides_at, 0x80000000)), HasSubstr("damaged"));
 }
 
 TEST(MapFile, UnwritablePlaceIsARunError) {

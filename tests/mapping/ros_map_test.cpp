@@ -9,7 +9,9 @@
 namespace roomgraph {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TemporaryFolder;
 
 /// 4 x 3 cells of 0.5 m from (-1, 2): all unknown but the lower left one (occupied) and the one right of it
@@ -66,6 +68,23 @@ TEST(RosMap, ErrorsNameTheCause) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("x.pgm cannot be read"));
   }
+}
+
+TEST(RosMap, BrokenYamlIsOneLineThatSaysWhy) {
+  const TemporaryFolder folder;
+  for (const std::string text : {"", "image: [", "image: x.pgm\n", "resolution: 1e999\n", "- a\n- b\n"}) try {
+      loadOccupancyRos(folder.write("a.yaml", text));
+      ADD_FAILURE() << "no error: " << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("a.yaml: not a map_server yaml: ")) << text;
+      EXPECT_THAT(error.what(), Not(AnyOf(HasSubstr("\n"), HasSubstr("===")))) << text;
+    }
+  for (const std::string value : {"0", "nan", "1e9", "-0.05"})
+    EXPECT_THROW(loadOccupancyRos(folder.write("b.yaml", "image: x.pgm\nresolution: " + value +
+                                                             "\norigin: [0, 0, 0]\noccupied_thresh: 0.65\n"
+                                                             "free_thresh: 0.196\n")),
+                 InputError)
+        << value;
 }
 
 }  // namespace

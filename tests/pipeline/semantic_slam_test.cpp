@@ -50,6 +50,27 @@ Errors errorsOf(const std::vector<StampedPose>& poses) {
   return out;
 }
 
+TEST(SemanticSlam, PosesTooFarApartForAGridCostTheGridOnly) {
+  SemanticSlam slam(stagesWith(kLidarOnly + "[mapping]\nresolution_m = 0.005\n"));
+  Drive world;
+  // Too few returns to match anything: the wheels alone say where it went, and they are wrong by 300 m.
+  for (int i = 0; i < 30; ++i) {
+    const double far = i < 15 ? 0 : 300;
+    slam.process(OdometryReading{0.1 * i, {far + 0.1 * i, far, 0}});
+    Scan scan = world.scan(0.1 * i);
+    scan.ranges_m.resize(5);
+    scan.valid.resize(5);
+    slam.process(scan);
+  }
+  const SlamResult result = slam.finish();
+  EXPECT_EQ(result.world_from_robot.size(), 30u);
+  EXPECT_FALSE(result.map.occupancy);
+  int named = 0;
+  for (const auto& [reason, count] : result.counts.reasons)
+    named += reason.find("occupancy grid: the poses spread over") != std::string::npos;
+  EXPECT_EQ(named, 1);
+}
+
 TEST(SemanticSlam, LapThroughARoomIsFoundToACentimetre) {
   SemanticSlam slam(stagesWith(kLidarOnly));
   const auto recorder = std::make_shared<Recorder>();

@@ -14,6 +14,7 @@ namespace {
 using ::testing::AllOf;
 using testing::changed;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string complaint(const std::string& from, const std::string& to) {
   return testing::messageOf<ConfigError>([&] { parseWorld(changed(from, to), "w.json"); });
@@ -47,7 +48,11 @@ TEST(WorldFile, EveryMistakeNamesFileAndEntry) {
   EXPECT_THAT(complaint("#ffffff", "white"), HasSubstr("rooms[0].wall.color"));
   EXPECT_THAT(complaint("[1, 2]", "[1]"), HasSubstr("robot.path_m[0]"));
   EXPECT_THAT(complaint("\"name\": \"example\"", "\"name\": \"a b\""), HasSubstr("name"));
-  EXPECT_THAT(complaint("\"rooms\"", "rooms"), HasSubstr("not valid JSON"));
+  EXPECT_THAT(complaint("\"rooms\"", "rooms"),
+              AllOf(HasSubstr("w.json: not valid JSON: line "), Not(HasSubstr("exception"))));
+  EXPECT_THAT(complaint("[1, 2]", "[1e999, 2]"), HasSubstr("the number 1e999 is too large"));
+  EXPECT_THAT(testing::messageOf<ConfigError>([] { parseWorld("", "w.json"); }),
+              HasSubstr("w.json: is empty"));
   EXPECT_THAT(testing::messageOf<InputError>([] { readWorld("/nowhere/w.json"); }),
               HasSubstr("/nowhere/w.json"));
 }

@@ -2,13 +2,12 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "g2o_convention.h"
 #include "roomgraph/backend/g2o_file.h"
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -48,8 +47,7 @@ class Reader {
   explicit Reader(const std::filesystem::path& file) : file_(file) {}
 
   FileContent read() {
-    std::ifstream in(file_);
-    if (!in || std::filesystem::is_directory(file_)) throw InputError(file_.string() + ": cannot be opened");
+    std::istringstream in(readTextFile(file_));
     for (std::string text; std::getline(in, text);) {
       ++line_;
       words_ = std::istringstream(text);
@@ -134,9 +132,18 @@ class Reader {
       for (int j = i; j < size; ++j)
         edge.information(i, j) = edge.information(j, i) = number("a number of the information matrix");
     end();
-    if (Eigen::LLT<Eigen::MatrixXd>(edge.information).info() != Eigen::Success)
-      fail("the information matrix is not positive definite");
+    if (!isInformation(edge)) fail("the information matrix is not positive definite");
     content_.edges.push_back(edge);
+  }
+
+  // Inside, factors hold covariances: the information must survive the way there and back.
+  static bool isInformation(const Edge& edge) {
+    const auto definite = [](const Eigen::MatrixXd& matrix) {
+      return matrix.allFinite() && Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
+    };
+    if (!definite(edge.information) || edge.information.rows() == 3) return definite(edge.information);
+    const Matrix6d covariance = covarianceOfG2o(edge.a_from_b, edge.information);
+    return covariance.allFinite() && definite(covariance.inverse());
   }
 
   void readFix() {

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "roomgraph/backend/factor_graph.h"
@@ -55,8 +56,9 @@ struct FactorGraph::Impl {
   void freeSize(LandmarkId id);
 
   /// With robust losses and weights applied; columns in the order of `blocks`, all of which must be variable.
-  Linearization linearize(const std::vector<double*>& blocks,
-                          const std::vector<ceres::ResidualBlockId>& residual_blocks) const;
+  /// Nothing when a residual or derivative is not finite.
+  std::optional<Linearization> linearize(const std::vector<double*>& blocks,
+                                         const std::vector<ceres::ResidualBlockId>& residual_blocks) const;
   /// Everything that is not held, in the order of the maps.
   std::vector<double*> variableBlocks();
   int freedoms(const double* block) const { return problem->ParameterBlockTangentSize(block); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include "graph_state.h"
+#include "solve.h"
 
 namespace roomgraph {
 
@@ -21,15 +22,15 @@ std::vector<double*> FactorGraph::Impl::variableBlocks() {
   return blocks;
 }
 
-Linearization FactorGraph::Impl::linearize(const std::vector<double*>& blocks,
-                                           const std::vector<ceres::ResidualBlockId>& residual_blocks) const {
+std::optional<Linearization> FactorGraph::Impl::linearize(
+    const std::vector<double*>& blocks, const std::vector<ceres::ResidualBlockId>& residual_blocks) const {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = blocks;
   options.residual_blocks = residual_blocks;
   options.num_threads = 1;
   std::vector<double> residuals;
   ceres::CRSMatrix rows;
-  problem->Evaluate(options, nullptr, &residuals, nullptr, &rows);
+  if (!evaluate(*problem, options, nullptr, &residuals, &rows)) return std::nullopt;
   Linearization out;
   out.residuals = Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
   out.jacobian = Eigen::Map<Eigen::SparseMatrix<double, Eigen::RowMajor>>(

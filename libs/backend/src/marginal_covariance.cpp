@@ -23,7 +23,8 @@ class Covariances {
       places_[block] = {size_, graph.freedoms(block)};
       size_ += graph.freedoms(block);
     }
-    if (!blocks.empty()) decompose(graph.linearize(blocks, {}).jacobian);
+    if (blocks.empty()) return;
+    if (const auto linear = graph.linearize(blocks, {})) decompose(linear->jacobian);
   }
 
   bool ok() const { return ok_; }
@@ -52,7 +53,7 @@ class Covariances {
   void decompose(const Sparse& jacobian) {
     Sparse information = jacobian.transpose() * jacobian;
     const Eigen::VectorXd diagonal = information.diagonal();
-    if (diagonal.minCoeff() <= 0) return;
+    if (!diagonal.allFinite() || diagonal.minCoeff() <= 0) return;
     scale_ = diagonal.cwiseSqrt().cwiseInverse();
     information = scale_.asDiagonal() * information * scale_.asDiagonal();
     solver_.compute(information);

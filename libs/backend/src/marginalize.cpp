@@ -130,9 +130,10 @@ std::optional<MarginalPrior> FactorGraph::marginalize(const Variables& keep) con
   Eigen::Index removed = 0;
   for (const double* block : blocks) removed += impl_->freedoms(block);
   blocks.insert(blocks.end(), columns.blocks.begin(), columns.blocks.end());
-  const Linearization linear = impl_->linearize(blocks, absorbed.factors);
-  Eigen::MatrixXd system(linear.jacobian.rows(), linear.jacobian.cols() + 1);
-  system << Eigen::MatrixXd(linear.jacobian), linear.residuals;
+  const auto linear = impl_->linearize(blocks, absorbed.factors);
+  if (!linear) return std::nullopt;
+  Eigen::MatrixXd system(linear->jacobian.rows(), linear->jacobian.cols() + 1);
+  system << Eigen::MatrixXd(linear->jacobian), linear->residuals;
   const Eigen::MatrixXd left =
       compressed(withoutRemoved(system.leftCols(removed), system.rightCols(system.cols() - removed)));
   const Eigen::Index separate = left.cols() - 1;

@@ -4,13 +4,14 @@
 
 #include <glog/logging.h>
 
+#include <limits>
 #include <mutex>
 
 namespace roomgraph {
 namespace {
 
-// Ceres reports a singular problem on stderr before it says so in its result. The level is the process's: it
-// is touched by the first solve that begins and the last that ends, if several run at once.
+// Ceres reports what is singular or not finite on stderr before it says so in its result. The level is the
+// process's: it is touched by the first call that begins and the last that ends, if several run at once.
 class QuietCeres {
  public:
   QuietCeres() {
@@ -65,10 +66,15 @@ SolveReport solve(const SolveOptions& options, ceres::Solver::Options solver, ce
           static_cast<int>(summary.iterations.size()), summary.message};
 }
 
+bool evaluate(ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options, double* cost,
+              std::vector<double>* residuals, ceres::CRSMatrix* jacobian) {
+  const QuietCeres quiet;
+  return problem.Evaluate(options, cost, residuals, nullptr, jacobian);
+}
+
 double costNow(ceres::Problem& problem) {
   double cost = 0;
-  problem.Evaluate({}, &cost, nullptr, nullptr, nullptr);
-  return cost;
+  return evaluate(problem, {}, &cost, nullptr, nullptr) ? cost : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace roomgraph

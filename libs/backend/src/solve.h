@@ -4,6 +4,8 @@
 
 #include <ceres/ceres.h>
 
+#include <vector>
+
 #include "roomgraph/backend/factor_graph.h"
 
 namespace roomgraph {
@@ -12,7 +14,10 @@ namespace roomgraph {
 ceres::Solver::Options solverOptions(const SolveOptions& options);
 /// Runs Ceres; it writes nothing to stderr.
 SolveReport solve(const SolveOptions& options, ceres::Solver::Options solver, ceres::Problem& problem);
-/// Half the sum of squared (robust, weighted) residuals.
+/// Evaluates, silently too. False when a residual or derivative is not finite: nothing is given then.
+bool evaluate(ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options, double* cost,
+              std::vector<double>* residuals, ceres::CRSMatrix* jacobian);
+/// Half the sum of squared (robust, weighted) residuals; NaN when it cannot be evaluated.
 double costNow(ceres::Problem& problem);
 
 }  // namespace roomgraph

@@ -2,11 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/core/ini_text.h"
 
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -63,12 +63,7 @@ std::vector<IniEntry> parseIni(const std::string& text, const std::string& name)
 }
 
 std::vector<IniEntry> parseIniFile(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw InputError(file.string() + ": is a folder, not a file");
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  auto entries = parseIni(text.str(), file.string());
+  auto entries = parseIni(readTextFile(file), file.string());
   for (auto& entry : entries) entry.folder = std::filesystem::absolute(file).parent_path();
   return entries;
 }

@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_registration.h"
+#include "image_memory.h"
 #include "record_source.h"
 
 namespace roomgraph {
@@ -87,7 +88,7 @@ Outcome<Frame> convert(CObservation3DRangeScan& observation, const std::string& 
   using Result = Outcome<Frame>;
   if (const auto missing = missingExternalFile(observation, image_folder); !missing.empty())
     return Result::failure("image missing: " + missing);
-  observation.load();
+  loadImages(observation);
   const auto& ranges = observation.rangeImage;
   const bool has_depth = observation.hasRangeImage && ranges.rows() > 0 && ranges.cols() > 0;
   const bool has_color = observation.hasIntensityImage && !observation.intensityImage.isEmpty();
@@ -129,7 +130,7 @@ PinholeCamera cameraForImage(const mrpt::img::TCamera& calibration, int width, i
   camera.distortion = {calibration.k1(), calibration.k2(), calibration.p1(), calibration.p2(),
                        calibration.k3()};
   if (width == camera.width && height == camera.height) return camera;
-  if (width * camera.height != height * camera.width || camera.width == 0) return {};
+  if (1LL * width * camera.height != 1LL * height * camera.width || camera.width <= 0) return {};
   return camera.scaled(static_cast<double>(width) / camera.width);
 }
 

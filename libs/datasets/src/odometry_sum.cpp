@@ -5,11 +5,15 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CActionRobotMovement3D.h>
 
+#include "plausibility.h"
+
 namespace roomgraph {
 namespace {
 
 using mrpt::obs::CActionRobotMovement2D;
 using mrpt::obs::CActionRobotMovement3D;
+
+constexpr double kLargestStep_m = 1000;
 
 Pose3 increment(const CActionRobotMovement2D& movement) {
   const auto& raw = movement.rawOdometryIncrementReading;
@@ -34,9 +38,10 @@ std::optional<double> toSeconds(const mrpt::Clock::time_point& time) {
   return mrpt::Clock::toDouble(time);
 }
 
-bool OdometrySum::add(const mrpt::obs::CActionCollection& actions) {
+std::string OdometrySum::add(const mrpt::obs::CActionCollection& actions) {
   // Wheel odometry is preferred to what a scan matcher once wrote into the recording.
   std::optional<Pose3> movement;
+  std::optional<double> t;
   bool from_wheels = false;
   for (std::size_t i = 0; i < actions.size(); ++i) {
     const auto& action = actions.get(i);
@@ -50,11 +55,15 @@ bool OdometrySum::add(const mrpt::obs::CActionCollection& actions) {
     } else {
       continue;
     }
-    time_ = toSeconds(action.timestamp);
+    t = toSeconds(action.timestamp);
   }
-  if (!movement) return false;
+  if (!movement) return "no movement of the robot in it";
+  if (const auto problem = problemOf(*movement); !problem.empty()) return "movement: " + problem;
+  if (t && !plausibleTime(*t)) return "time stamp is not between 1970 and 2200";
+  if (movement->translation().norm() > kLargestStep_m) return "movement of more than 1 km in one record";
   odom_from_robot_ = normalized(odom_from_robot_ * *movement);
-  return true;
+  time_ = t;
+  return "";
 }
 
 }  // namespace roomgraph

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CActionCollection.h>
 
 #include <optional>
+#include <string>
 
 #include "roomgraph/observations/scan.h"
 
@@ -14,8 +15,9 @@ namespace roomgraph {
 /// first one.
 class OdometrySum {
  public:
-  /// False when the collection holds no movement of the robot.
-  bool add(const mrpt::obs::CActionCollection& actions);
+  /// Why nothing was added ("no movement of the robot in it", "movement: pose is not finite", …); empty when
+  /// all is well.
+  std::string add(const mrpt::obs::CActionCollection& actions);
   /// Time of the last action added, s; nothing when it carries none.
   std::optional<double> time() const { return time_; }
   Pose2 pose() const { return planarPart(odom_from_robot_); }

@@ -13,6 +13,7 @@
 
 #include "image_folder.h"
 #include "odometry_sum.h"
+#include "plausibility.h"
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/observations/detection_comment.h"
@@ -26,15 +27,20 @@ using mrpt::serialization::CSerializable;
 
 constexpr double kAtOnce = -std::numeric_limits<double>::infinity();
 
+double stampOf(const mrpt::obs::CObservation& observation) {
+  const auto t = toSeconds(observation.timestamp);
+  return t && plausibleTime(*t) ? *t : kAtOnce;
+}
+
 // Earliest time of what a record holds; a record without a time goes with the one before it.
 double timeOf(const CSerializable::Ptr& object) {
   if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
-    return toSeconds(observation->timestamp).value_or(kAtOnce);
+    return stampOf(*observation);
   const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
   double earliest = std::numeric_limits<double>::infinity();
   if (frame)
     for (const auto& observation : *frame)
-      if (const auto t = toSeconds(observation->timestamp)) earliest = std::min(earliest, *t);
+      if (const double t = stampOf(*observation); t != kAtOnce) earliest = std::min(earliest, t);
   return std::isfinite(earliest) ? earliest : kAtOnce;
 }
 

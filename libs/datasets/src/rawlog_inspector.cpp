@@ -5,16 +5,19 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "clock_offset.h"
 #include "image_folder.h"
 #include "odometry_sum.h"
+#include "plausibility.h"
 #include "record_source.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/CObservationDetections.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "sensor_choice.h"
 #include "sensor_statistics.h"
+#include "stamp_queue.h"
 
 namespace roomgraph {
 namespace {
@@ -42,22 +45,16 @@ class Inspector {
       : image_folder_(imageFolderOf(file)), poses_(poses) {}
 
   void add(const mrpt::serialization::CSerializable::Ptr& object) {
-    if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
-      ++paired_;
-      addActions(*actions);
-    } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
-      ++paired_;
-      for (const auto& observation : *frame) addObservation(observation);
-    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
-      ++single_;
-      addObservation(observation);
-    } else if (object) {
-      sensor("", shortClassName(object->GetRuntimeClass()->className)).times.add(std::nullopt);
-    }
+    take(object);
+    while (const auto item = waiting_.pop(false)) use(*item);
+  }
+  /// No more records.
+  void finish() {
+    while (const auto item = waiting_.pop(true)) use(*item);
   }
 
   void report(RawlogReport& out) const {
-    for (const auto& [reason, count] : broken_) out.skipped[reason] += count;
+    for (const auto& [reason, count] : skipped_) out.skipped[reason] += count;
     out.format = paired_ == 0 ? "observations" : single_ == 0 ? "actions and sensory frames" : "mixed";
     out.records = paired_ + single_;
     out.largest_step_back_s = largest_step_back_;
@@ -79,6 +76,49 @@ class Inspector {
   }
 
  private:
+  using Waiting = StampQueue<CObservation::Ptr>;
+
+  void take(const mrpt::serialization::CSerializable::Ptr& object) {
+    if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
+      ++paired_;
+      addActions(*actions);
+    } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
+      ++paired_;
+      for (const auto& observation : *frame) take(observation);
+    } else if (const auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
+      ++single_;
+      take(observation);
+    } else if (object) {
+      sensor("", shortClassName(object->GetRuntimeClass()->className)).times.add(std::nullopt);
+    }
+  }
+
+  // Implausible ones are left out here just as when they are replayed.
+  void take(const CObservation::Ptr& written) {
+    if (!written) return;
+    const auto meant = unpacked(written);
+    if (!meant) {
+      ++skipped_[meant.reason()];
+      return;
+    }
+    const CObservation::Ptr& observation = *meant;
+    const std::string name = shortClassName(observation->GetRuntimeClass()->className);
+    if (const auto problem = problemOf(*observation); !problem.empty())
+      ++skipped_[name + ": " + problem];
+    else if (const auto t = toSeconds(observation->timestamp))
+      waiting_.push(name + " " + observation->sensorLabel, *t, observation);
+    else
+      addObservation(observation);
+  }
+
+  void use(const Waiting::Item& item) {
+    const std::string name = shortClassName(item.record->GetRuntimeClass()->className);
+    if (item.stamp_is_wrong)
+      ++skipped_[name + ": " + kStampIsWrong];
+    else
+      addObservation(item.record);
+  }
+
   Sensor& sensor(const std::string& label, const std::string& class_name) {
     for (const auto& entry : sensors_)
       if (entry->report.label == label && entry->report.class_name == class_name) return *entry;
@@ -121,8 +161,9 @@ class Inspector {
 
   void addActions(const CActionCollection& actions) {
     Sensor& entry = sensor("", "CActionCollection");
-    if (!sum_.add(actions)) {
+    if (const auto problem = sum_.add(actions); !problem.empty()) {
       entry.times.add(std::nullopt);
+      ++skipped_["CActionCollection: " + problem];
       return;
     }
     addTime(entry, sum_.time());
@@ -138,13 +179,7 @@ class Inspector {
         entry.report.pose_changes || !pose.isApprox(*entry.report.robot_from_sensor, kPoseTolerance);
   }
 
-  void addObservation(const CObservation::Ptr& written) {
-    const auto meant = unpacked(written);
-    if (!meant) {
-      ++broken_[meant.reason()];
-      return;
-    }
-    const CObservation::Ptr& observation = *meant;
+  void addObservation(const CObservation::Ptr& observation) {
     Sensor& entry =
         sensor(observation->sensorLabel, shortClassName(observation->GetRuntimeClass()->className));
     const auto t = toSeconds(observation->timestamp);
@@ -164,7 +199,11 @@ class Inspector {
     } else if (const auto images = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {
       entry.report.used = true;
       if (!entry.images) entry.images.emplace();
-      entry.images->add(*images, image_folder_);
+      try {
+        entry.images->add(*images, image_folder_);
+      } catch (const std::exception& error) {
+        ++skipped_["CObservation3DRangeScan: image unreadable: " + firstLine(error)];
+      }
     } else {
       entry.report.used = std::dynamic_pointer_cast<CObservationDetections>(observation) != nullptr;
     }
@@ -173,7 +212,8 @@ class Inspector {
   std::string image_folder_;
   SensorPoses poses_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::map<std::string, int> broken_;  ///< observations by reason
+  Waiting waiting_;
+  std::map<std::string, int> skipped_;
   OdometrySum sum_;
   Trajectory odometry_;
   int paired_ = 0, single_ = 0, index_ = 0;
@@ -208,6 +248,7 @@ RawlogReport inspectRawlog(const std::filesystem::path& file, const std::functio
       ++report.skipped[item->reason];
     if (progress) progress(source.progress());
   }
+  inspector.finish();
   inspector.report(report);
   report.truncation = source.truncation();
   report.findings = findProblems(report);

@@ -7,14 +7,14 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <deque>
-
 #include "frame_conversion.h"
 #include "image_folder.h"
 #include "odometry_sum.h"
+#include "plausibility.h"
 #include "record_source.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "sensor_choice.h"
+#include "stamp_queue.h"
 
 namespace roomgraph {
 
@@ -50,24 +50,26 @@ struct RawlogReader::Impl {
   OdometrySum odometry;
   bool odometry_waits = false;  ///< for the time of the next observation
   // Observations are converted when they are asked for: a sensory frame may hold many images.
-  std::deque<std::variant<CObservation::Ptr, OdometryReading>> waiting;
+  StampQueue<std::variant<CObservation::Ptr, OdometryReading>> waiting;
+  bool source_ended = false;
   std::int64_t frame_count = 0;
   std::string missing_image;  ///< reason of the first frame whose image is missing
 };
 
 void RawlogReader::Impl::takeActions(const CActionCollection& actions) {
-  if (!odometry.add(actions)) {
-    ++statistics.skipped["CActionCollection: no movement of the robot in it"];
+  if (const auto problem = odometry.add(actions); !problem.empty()) {
+    ++statistics.skipped["CActionCollection: " + problem];
     return;
   }
   odometry_waits = !odometry.time();
-  if (!odometry_waits) waiting.emplace_back(OdometryReading{*odometry.time(), odometry.pose()});
+  if (!odometry_waits)
+    waiting.push("CActionCollection", *odometry.time(), OdometryReading{*odometry.time(), odometry.pose()});
 }
 
 void RawlogReader::Impl::giveTimeToOdometry(double t) {
   if (!odometry_waits) return;
   odometry_waits = false;
-  waiting.emplace_back(OdometryReading{t, odometry.pose()});
+  waiting.push("CActionCollection", t, OdometryReading{t, odometry.pose()});
 }
 
 void RawlogReader::Impl::takeObservation(const CObservation::Ptr& written) {
@@ -78,11 +80,15 @@ void RawlogReader::Impl::takeObservation(const CObservation::Ptr& written) {
     return;
   }
   const CObservation::Ptr& observation = *meant;
-  if (const auto t = toSeconds(observation->timestamp)) {
-    giveTimeToOdometry(*t);
-    waiting.emplace_back(observation);
+  const std::string name = shortClassName(observation->GetRuntimeClass()->className);
+  const auto t = toSeconds(observation->timestamp);
+  if (!t) {
+    ++statistics.skipped[name + ": invalid time stamp"];
+  } else if (const auto problem = problemOf(*observation); !problem.empty()) {
+    ++statistics.skipped[name + ": " + problem];
   } else {
-    ++statistics.skipped[shortClassName(observation->GetRuntimeClass()->className) + ": invalid time stamp"];
+    giveTimeToOdometry(*t);
+    waiting.push(name + " " + observation->sensorLabel, *t, observation);
   }
 }
 
@@ -160,30 +166,31 @@ std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& obser
 
 std::optional<Record> RawlogReader::Impl::next() {
   while (true) {
-    while (waiting.empty()) {
+    const auto entry = waiting.pop(source_ended);
+    if (!entry) {
+      if (source_ended) return std::nullopt;
       const auto item = source.next();
       if (!item) {
         if (odometry_waits)
           ++statistics.skipped["CActionCollection: no time stamp, and no observation after it"];
         odometry_waits = false;
         statistics.warning = source.truncation();
-        return std::nullopt;
-      }
-      if (item->object)
+        source_ended = true;
+      } else if (item->object) {
         take(item->object);
-      else
+      } else {
         ++statistics.skipped[item->reason];
-    }
-    const auto entry = waiting.front();
-    waiting.pop_front();
-    if (const auto* reading = std::get_if<OdometryReading>(&entry)) {
+      }
+    } else if (entry->stamp_is_wrong) {
+      ++statistics.skipped[entry->sensor.substr(0, entry->sensor.find(' ')) + ": " + kStampIsWrong];
+    } else if (const auto* reading = std::get_if<OdometryReading>(&entry->record)) {
       if (options.odometry && choices.odometry.takes("")) {
         ++statistics.used["CActionCollection"];
         return *reading;
       }
       ++statistics.skipped[std::string("CActionCollection: ") +
                            (options.odometry ? "another sensor was chosen" : "not asked for")];
-    } else if (auto record = convert(std::get<CObservation::Ptr>(entry))) {
+    } else if (auto record = convert(std::get<CObservation::Ptr>(entry->record))) {
       return record;
     }
   }

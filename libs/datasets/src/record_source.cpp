@@ -13,7 +13,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <new>
 
+#include "image_memory.h"
+#include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/observations/register_classes.h"
 
@@ -23,9 +26,21 @@ namespace {
 constexpr std::uint8_t kNewFormat =
     0x80;  // set in the length byte of a header; older files have a 32 bit length
 constexpr std::uint8_t kEndFlag = 0x88;  // last byte of every object
+// What parsing may allocate: some small containers, and all that the record holds several times over.
+constexpr std::size_t kBytesPerByte = 8, kLongestRecordBytes = 64u << 20;
 
 bool isNameCharacter(std::uint8_t c) {
   return std::isalnum(c) || c == '_' || c == ':' || c == '<' || c == '>';
+}
+
+// A header of MRPT's begins with the length of the name. Says no to nearly all bytes that are none, cheaply.
+bool maybeHeader(const std::uint8_t* bytes, std::size_t count) {
+  constexpr std::size_t kLooked = 5;
+  if (count < kLooked) return true;
+  const bool new_format = bytes[0] & kNewFormat;
+  if (!new_format && (bytes[1] || bytes[2] || bytes[3])) return false;
+  const std::size_t first = new_format ? 1 : 4;
+  return std::all_of(bytes + first, bytes + kLooked, isNameCharacter);
 }
 
 enum class Kind { kPair, kObservation, kOther, kUnknown };
@@ -47,16 +62,6 @@ bool looksLikeRecord(const std::string& class_name) {
 
 }  // namespace
 
-std::string firstLine(const std::exception& error) {
-  std::string text = error.what();
-  // MRPT: "Message:  <text>\nLocation: …" or plain text.
-  if (const auto message = text.find("Message:"); message != std::string::npos)
-    text = text.substr(message + 8);
-  text = text.substr(0, text.find('\n'));
-  text.erase(0, text.find_first_not_of(' '));
-  return text.empty() ? "unknown error" : text;
-}
-
 std::string shortClassName(const std::string& name) {
   const auto colon = name.rfind(':');
   return colon == std::string::npos ? name : name.substr(colon + 1);
@@ -70,6 +75,7 @@ RecordSource::RecordSource(const std::filesystem::path& file) : stream_(file) {
   if (!looksLikeRecord(first))
     throw InputError(file.string() + ": not a rawlog (holds an object of class " + first + ")");
   frames_format_ = kindOf(first) == Kind::kPair;
+  countImageMemory();
 }
 
 double RecordSource::progress() const {
@@ -95,7 +101,7 @@ std::string RecordSource::headerAt(std::uint64_t offset, std::size_t* length) {
   return std::string(reinterpret_cast<const char*>(name), count);
 }
 
-std::optional<std::uint64_t> RecordSource::findRecord(std::uint64_t from) {
+std::optional<std::uint64_t> RecordSource::findRecord(std::uint64_t from, bool pairs) {
   for (std::uint64_t block = from;;) {
     std::size_t size = 16 * 1024;
     while (size > 0 && !stream_.peek(block, size)) size /= 2;
@@ -106,13 +112,28 @@ std::optional<std::uint64_t> RecordSource::findRecord(std::uint64_t from) {
       const void* flag = std::memchr(bytes + i, kEndFlag, size - i);
       if (!flag) break;
       i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(flag) - bytes);
+      if (!maybeHeader(bytes + i + 1, size - i - 1)) continue;
       const std::uint64_t candidate = block + i + 1;
       const std::string name = headerAt(candidate);
-      const bool fits = frames_format_ ? kindOf(name) == Kind::kPair : looksLikeRecord(name);
+      const bool fits = pairs ? kindOf(name) == Kind::kPair : looksLikeRecord(name);
       if (!name.empty() && fits) return candidate;
     }
     block += size;
   }
+}
+
+std::uint64_t RecordSource::endOfData(std::uint64_t from) {
+  std::uint64_t end = from;
+  for (std::size_t step = 1u << 20; step > 0; step /= 2)
+    while (stream_.peek(end, step)) end += step;
+  return end;
+}
+
+std::size_t RecordSource::lengthOf(std::uint64_t offset, const std::string& name) {
+  // A sensory frame holds observations: only the next pair ends it.
+  const auto next_record = findRecord(offset + name.size(), frames_format_ || kindOf(name) == Kind::kPair);
+  const std::uint64_t length = (next_record ? *next_record : endOfData(offset)) - offset;
+  return static_cast<std::size_t>(std::min<std::uint64_t>(length, kLongestRecordBytes));
 }
 
 void RecordSource::setTruncated(std::uint64_t offset, const std::string& cause) {
@@ -122,7 +143,7 @@ void RecordSource::setTruncated(std::uint64_t offset, const std::string& cause) 
 }
 
 std::optional<RecordSource::Item> RecordSource::recover(Item item, const std::string& cause) {
-  const auto next_record = findRecord(item.offset);
+  const auto next_record = findRecord(item.offset, frames_format_);
   if (!next_record) {
     setTruncated(item.offset, stream_.damage().empty() ? cause : stream_.damage());
     return std::nullopt;
@@ -134,14 +155,12 @@ std::optional<RecordSource::Item> RecordSource::recover(Item item, const std::st
 
 std::optional<RecordSource::Item> RecordSource::stepOver(Item item) {
   item.reason = skip_class_ + ": not asked for";
-  if (const auto next_record = findRecord(item.offset)) {
+  if (const auto next_record = findRecord(item.offset, frames_format_)) {
     stream_.rewind(*next_record);
     return item;
   }
   // The last record of the file: complete when the data ends with the end flag.
-  std::uint64_t end = item.offset;
-  for (std::size_t step = 1u << 20; step > 0; step /= 2)
-    while (stream_.peek(end, step)) end += step;
+  const std::uint64_t end = endOfData(item.offset);
   if (stream_.damage().empty() && *stream_.peek(end - 1, 1) == kEndFlag) {
     stream_.rewind(end);
     return item;
@@ -170,13 +189,32 @@ std::optional<RecordSource::Item> RecordSource::next() {
   if (!skip_class_.empty() && shortClassName(name) == skip_class_) return stepOver(item);
   if (kindOf(name) == Kind::kUnknown) return recover(item, "unknown class " + name);
   try {
-    item.object = stream_.ReadObject();
-    frames_format_ = kindOf(name) == Kind::kPair;
+    parse(item, name);
     return item;
+  } catch (const std::bad_alloc&) {
+    return recover(item, shortClassName(name) + ": a size in it does not fit its length");
   } catch (const std::exception& error) {
     return recover(item, stream_.metEnd() ? shortClassName(name) + ": data is missing"
                                           : shortClassName(name) + ": " + firstLine(error));
   }
+}
+
+// The length of a record is looked for only when it needs more than those before it: that takes time.
+void RecordSource::parse(Item& item, const std::string& name) {
+  const auto read = [&](std::size_t allowance) {
+    const AllocationLimit limit(allowance);
+    item.object = stream_.ReadObject();
+  };
+  try {
+    read(allowance_);
+  } catch (const std::bad_alloc&) {
+    const std::size_t allowance = kSpareBytes + kBytesPerByte * lengthOf(item.offset, name);
+    if (allowance <= allowance_) throw;
+    stream_.rewind(item.offset);
+    read(allowance);
+    allowance_ = allowance;
+  }
+  frames_format_ = kindOf(name) == Kind::kPair;
 }
 
 }  // namespace roomgraph

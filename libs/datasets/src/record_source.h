@@ -10,6 +10,7 @@
 #include <string>
 
 #include "replay_stream.h"
+#include "roomgraph/core/error_text.h"
 
 namespace roomgraph {
 
@@ -41,7 +42,13 @@ class RecordSource {
   /// Class name in the object header at `offset`; empty when there is none.
   std::string headerAt(std::uint64_t offset, std::size_t* length = nullptr);
   /// Offset of the next record at or after `from`; nothing when the file ends before.
-  std::optional<std::uint64_t> findRecord(std::uint64_t from);
+  /// `pairs`: only actions and sensory frames count.
+  std::optional<std::uint64_t> findRecord(std::uint64_t from, bool pairs);
+  std::uint64_t endOfData(std::uint64_t from);
+  /// Bytes from the header at `offset` to the next record, but no more than a record can have.
+  std::size_t lengthOf(std::uint64_t offset, const std::string& name);
+  /// Throws std::bad_alloc when the record asks for more memory than its length can need.
+  void parse(Item& item, const std::string& name);
   std::optional<Item> stepOver(Item item);
   std::optional<Item> recover(Item item, const std::string& cause);
   void setTruncated(std::uint64_t offset, const std::string& cause);
@@ -49,10 +56,10 @@ class RecordSource {
   ReplayStream stream_;
   std::string skip_class_, truncation_;
   bool frames_format_ = false;  ///< action/sensory-frame pairs
+  static constexpr std::size_t kSpareBytes = 1u << 20;
+  std::size_t allowance_ = kSpareBytes;  ///< bytes that parsing may allocate: what a sound record needed
 };
 
-/// First line of an exception's text, without MRPT's call stack.
-std::string firstLine(const std::exception& error);
 /// Class name without its namespace.
 std::string shortClassName(const std::string& name);
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
+#include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
@@ -50,6 +52,8 @@ void ReplayStream::mark() {
 
 bool ReplayStream::fetch() {
   if (ended_ || bytes_.size() > kLongestRecordBytes) return false;
+  const AllocationLimit unlimited(
+      std::numeric_limits<std::size_t>::max());  // the limit is for what is parsed
   const std::size_t before = bytes_.size();
   bytes_.resize(before + kChunkBytes);
   const int got = gzread(file_.get(), bytes_.data() + before, kChunkBytes);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "frame_conversion.h"
+#include "image_memory.h"
 
 namespace roomgraph {
 namespace {
@@ -82,7 +83,7 @@ void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const
   summary_.depth += observation.hasRangeImage;
   const bool first = seen_++ == 0;
   if (!first && seen_ % kImageStride != 0) return;
-  observation.load();
+  loadImages(observation);
   if (observation.hasRangeImage) addDepth(observation);
   if (first) describe(observation);
 }
@@ -177,7 +178,8 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
     }
     if (turn < kLeastTurn) continue;
     // Twice the turn in both directions leaves room for an aperture that is wrong by a factor of two.
-    const auto shift = beamShift(scans_[i].ranges_m, scans_[j].ranges_m, static_cast<int>(2.5 * turn / step));
+    const auto shift = beamShift(scans_[i].ranges_m, scans_[j].ranges_m,
+                                 static_cast<int>(std::min(2.5 * turn / step, 1.0 * summary_.beams)));
     if (shift && *shift != 0) ratios.push_back(direction * planarPart(*moved).yaw / (*shift * step));
     i = j;
   }

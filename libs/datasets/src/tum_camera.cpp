@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/datasets/camera_presets.h"
 
 namespace roomgraph {
@@ -18,16 +18,11 @@ namespace {
 using nlohmann::json;
 
 json readJson(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
+  if (!std::filesystem::is_regular_file(file))
     throw InputError(file.string() + ": no such camera file; the presets are " + presetNames());
-  try {
-    auto content = json::parse(in);
-    if (!content.is_object()) throw InputError(file.string() + ": is not a JSON object");
-    return content;
-  } catch (const json::exception& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
+  auto content = parseJson<json>(readTextFile(file), file.string());
+  if (!content.is_object()) throw InputError(file.string() + ": is not a JSON object");
+  return content;
 }
 
 // What is known, from the least to the most special source.
@@ -102,7 +97,7 @@ TumCamera readSource(const std::filesystem::path& folder, const TumImportOptions
     values.take(file);
     return readFile(file);
   } catch (const json::exception& error) {
-    throw InputError(std::string("camera file: ") + error.what());
+    throw InputError("camera file: " + firstLine(error));
   }
 }
 

@@ -2,13 +2,12 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/detection/decoders.h"
 #include "roomgraph/detection/recorded_detector.h"
 
@@ -18,12 +17,16 @@ namespace {
 using Json = nlohmann::json;
 
 double seconds(const Json& value) {
-  return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+  const double t = value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+  if (!std::isfinite(t)) throw std::invalid_argument("the time stamp is no number");
+  return t;
 }
 
 bool sound(const Detection& d) {
-  return std::isfinite(d.box.u_min) && std::isfinite(d.box.v_min) && std::isfinite(d.box.u_max) &&
-         std::isfinite(d.box.v_max) && !d.box.empty() && d.score >= 0 && d.score <= 1;
+  constexpr double kFarthest_px = 1e6;  // no camera is that large; arithmetic with a box must not overflow
+  const auto near = [](double side) { return std::abs(side) < kFarthest_px; };
+  return near(d.box.u_min) && near(d.box.v_min) && near(d.box.u_max) && near(d.box.v_max) && !d.box.empty() &&
+         d.score >= 0 && d.score <= 1;
 }
 
 // A mask over the whole image, cut to its box; the box is the mask's own.
@@ -38,8 +41,7 @@ void readMask(const std::filesystem::path& file, Detection& detection) {
   detection.mask = mask(box) > 0;
 }
 
-void addJsonLine(const std::string& line, const std::filesystem::path& folder, DetectionRecords& records) {
-  const Json json = Json::parse(line);
+void addJsonLine(const Json& json, const std::filesystem::path& folder, DetectionRecords& records) {
   RecordedBoxes boxes;
   for (const Json& item : json.at("boxes")) {
     Detection detection;
@@ -77,8 +79,7 @@ void addTextLine(const std::string& line, DetectionRecords& records) {
 }  // namespace
 
 DetectionRecords readDetectionFile(const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file + ": cannot be read");
+  std::istringstream in(readTextFile(file));
   const auto folder = std::filesystem::path(file).parent_path();
   DetectionRecords records;
   int number = 0;
@@ -86,10 +87,16 @@ DetectionRecords readDetectionFile(const std::string& file) {
     ++number;
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
+    const std::string place = file + ":" + std::to_string(number) + ": not a record of detections";
     try {
-      line[first] == '{' ? addJsonLine(line, folder, records) : addTextLine(line, records);
+      if (line[first] == '{')
+        addJsonLine(parseJson<Json>(line, place), folder, records);
+      else
+        addTextLine(line, records);
+    } catch (const InputError&) {
+      throw;
     } catch (const std::exception& error) {
-      throw InputError(file + ":" + std::to_string(number) + ": not a record of detections: " + error.what());
+      throw InputError(place + ": " + firstLine(error));
     }
   }
   return records;

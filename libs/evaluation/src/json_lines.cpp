@@ -2,25 +2,26 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "json_lines.h"
 
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 
 int forEachJsonLine(const std::filesystem::path& file,
                     const std::function<void(const nlohmann::json&)>& use) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
+  std::istringstream in(readTextFile(file));
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::string place = file.string() + ":" + std::to_string(number);
+    const auto record = parseJson<nlohmann::json>(line, place);
     try {
-      use(nlohmann::json::parse(line));
+      use(record);
     } catch (const std::exception& error) {
-      throw InputError(file.string() + ":" + std::to_string(number) + ": " + error.what());
+      throw InputError(place + ": " + firstLine(error));
     }
   }
   return number;

@@ -4,9 +4,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -25,8 +25,7 @@ double parseNumber(std::string text, const std::string& place) {
 }  // namespace
 
 std::vector<NumberRow> readNumberTable(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
+  std::istringstream in(readTextFile(file));
   std::vector<NumberRow> rows;
   int number = 0;
   for (std::string line; std::getline(in, line);) {

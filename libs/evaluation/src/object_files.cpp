@@ -2,11 +2,10 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/evaluation/object_files.h"
 
-#include <fstream>
 #include <map>
 
 #include "json_lines.h"
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
 namespace {
@@ -41,12 +40,10 @@ bool isGoodView(const json& object, const VisibilityRule& rule) {
 }  // namespace
 
 std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw InputError(file.string() + ": cannot be opened");
+  const auto content = parseJson<json>(readTextFile(file), file.string());
   std::vector<EvaluatedObject> objects;
   std::string place = file.string();
   try {
-    const json content = json::parse(in);
     const char* key = content.contains("landmarks") ? "landmarks" : "objects";
     const json& records = content.at(key);
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -54,7 +51,7 @@ std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file) {
       objects.push_back(toObject(records.at(i)));
     }
   } catch (const std::exception& error) {
-    throw InputError(place + ": " + error.what());
+    throw InputError(place + ": " + firstLine(error));
   }
   return objects;
 }

@@ -10,6 +10,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kGrowthMargin = 2.0;  // m, so that a grid does not grow with every scan
+constexpr double kFarthestCell = 1e9;  // numbers of cells must fit an int, with room for the neighbours
 
 /// Catmull-Rom weights of the four neighbours at t in [0, 1), and their derivatives by t.
 void catmullRom(double t, double weights[4], double slopes[4]) {
@@ -31,8 +32,11 @@ float oddsOf(double probability) {
 }  // namespace
 
 Eigen::Vector2i ProbabilityGrid::cellOf(const Eigen::Vector2d& point) const {
-  return {static_cast<int>(std::floor((point.x() - corner_.x()) / cell_m_)),
-          static_cast<int>(std::floor((point.y() - corner_.y()) / cell_m_))};
+  const auto number = [this](double along) {
+    const double cell = std::floor(along / cell_m_);
+    return static_cast<int>(std::abs(cell) < kFarthestCell ? cell : -kFarthestCell);
+  };
+  return {number(point.x() - corner_.x()), number(point.y() - corner_.y())};
 }
 
 void ProbabilityGrid::growToContain(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
@@ -82,6 +86,7 @@ void ProbabilityGrid::insert(const PlanarScan& scan, const Pose2& grid_from_robo
   const Eigen::Vector2d origin = grid_from_robot * scan.origin;
   Eigen::Vector2d low = origin, high = origin;
   for (const Eigen::Vector2d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  if (!low.allFinite() || !high.allFinite()) return;
   growToContain(low, high);
   if (++insertion_ == 0) {
     std::fill(touched_.begin(), touched_.end(), std::uint16_t{0});
@@ -98,6 +103,10 @@ void ProbabilityGrid::insert(const PlanarScan& scan, const Pose2& grid_from_robo
 
 double ProbabilityGrid::interpolate(const Eigen::Vector2d& point, Eigen::Vector2d* gradient) const {
   const double gx = (point.x() - corner_.x()) / cell_m_ - 0.5, gy = (point.y() - corner_.y()) / cell_m_ - 0.5;
+  if (!(std::abs(gx) < kFarthestCell) || !(std::abs(gy) < kFarthestCell)) {
+    if (gradient) gradient->setZero();
+    return kMin;
+  }
   const double fx = std::floor(gx), fy = std::floor(gy);
   const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
   double wx[4], wy[4], sx[4], sy[4];

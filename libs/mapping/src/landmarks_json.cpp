@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
@@ -168,14 +167,7 @@ void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesy
 }
 
 std::vector<Landmark> loadLandmarksJson(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file.string() + ": cannot be opened");
-  Json json;
-  try {
-    json = Json::parse(in);
-  } catch (const Json::exception& error) {
-    throw InputError(file.string() + ": not JSON: " + error.what());
-  }
+  const auto json = parseJson<Json>(readTextFile(file), file.string());
   if (!json.is_object() || json.contains("landmarks") == json.contains("objects"))
     throw InputError(file.string() + ": no list under 'landmarks' or 'objects'");
   const std::string key = json.contains("landmarks") ? "landmarks" : "objects";

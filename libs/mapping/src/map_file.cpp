@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include <mrpt/core/exceptions.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/io/zip.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <new>
+
+#include "map_check.h"
+#include "roomgraph/core/allocation_limit.h"
+#include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/mapping/map_files.h"
@@ -14,24 +18,36 @@
 namespace roomgraph {
 namespace {
 
-/// MRPT prefixes its messages with file and line and appends a backtrace: keeps the line that says what
-/// happened.
-std::string cause(const std::exception& error) {
-  std::string text = error.what();
-  const auto mark = text.rfind("Message:");
-  if (mark != std::string::npos) text = text.substr(mark + 8);
-  const auto start = text.find_first_not_of(" \t\n");
-  if (start == std::string::npos) return "unreadable";
-  return text.substr(start, text.find('\n', start) - start);
+constexpr std::size_t kLargestBytes = std::size_t{1} << 30;  // a grid of 1 km x 1 km at 0.05 m has 0.8 GB
+constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 8;
+
+std::vector<std::uint8_t> inflated(const std::filesystem::path& file) {
+  mrpt::io::CFileGZInputStream in;
+  if (!in.open(file.string())) throw InputError(file.string() + ": cannot be opened");
+  constexpr std::size_t kChunk = 1u << 20;
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t got = kChunk; got == kChunk && bytes.size() < kLargestBytes;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kChunk);
+    got = in.Read(bytes.data() + before, kChunk);
+    if (got > kChunk) got = 0;  // -1: damaged; what is missing is found out below
+    bytes.resize(before + got);
+  }
+  return bytes;
 }
 
 mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& file) {
-  mrpt::io::CFileGZInputStream in;
-  if (!in.open(file.string())) throw InputError(file.string() + ": cannot be opened");
+  const auto bytes = inflated(file);
+  mrpt::io::CMemoryStream in;
+  in.assignMemoryNotOwn(bytes.data(), bytes.size());
   try {
+    const AllocationLimit limit(kSpareBytes + kBytesPerByte * bytes.size());
     return mrpt::serialization::archiveFrom(in).ReadObject();
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string() +
+                     ": not a roomgraph map, or damaged (a size in it is larger than the file)");
   } catch (const std::exception& error) {
-    const std::string what = cause(error);
+    const std::string what = firstLine(error);
     if (what.find("version") != std::string::npos)
       throw InputError(file.string() + ": was written by a newer version of roomgraph (" + what + ")");
     throw InputError(file.string() + ": not a roomgraph map, or damaged (" + what + ")");
@@ -64,6 +80,8 @@ CSemanticMap loadMap(const std::filesystem::path& file) {
     throw InputError(file.string() + ": holds " +
                      (object ? std::string("a ") + object->GetRuntimeClass()->className : "nothing") +
                      ", not a roomgraph map (CSemanticMap)");
+  if (const auto problem = problemOf(*map); !problem.empty())
+    throw InputError(file.string() + ": damaged: " + problem);
   return *map;
 }
 

@@ -2,11 +2,12 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <mrpt/containers/yaml.h>
 
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;  // map_server's usual values
 constexpr unsigned char kFree = 254, kOccupied = 0, kUnknown = 205;
+constexpr double kFarthest_m = 1e6;
 
 unsigned char grayOf(double p_free) {
   if (1 - p_free > kOccupiedThreshold) return kOccupied;
@@ -28,9 +30,9 @@ struct RosMap {
 };
 
 RosMap readYaml(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) throw InputError(file.string() + ": no such file");
+  const std::string text = readTextFile(file);
   try {
-    const auto yaml = mrpt::containers::yaml::FromFile(file.string());
+    const auto yaml = mrpt::containers::yaml::FromText(text);
     RosMap map;
     map.image = yaml["image"].as<std::string>();
     if (map.image.is_relative()) map.image = file.parent_path() / map.image;
@@ -43,11 +45,13 @@ RosMap readYaml(const std::filesystem::path& file) {
     map.occupied_threshold = yaml["occupied_thresh"].as<double>();
     map.free_threshold = yaml["free_thresh"].as<double>();
     map.negate = yaml.getOrDefault<int>("negate", 0) != 0;
-    if (!(map.resolution_m > 0)) throw std::runtime_error("'resolution' is not positive");
+    if (!(map.resolution_m > 1e-4) || !(map.resolution_m < 100))
+      throw std::runtime_error("'resolution' is not in (0.0001, 100) m");
+    if (!(std::abs(map.x_min) < kFarthest_m) || !(std::abs(map.y_min) < kFarthest_m))
+      throw std::runtime_error("'origin' is too far away");
     return map;
   } catch (const std::exception& error) {
-    const std::string what = error.what();
-    throw InputError(file.string() + ": not a map_server yaml: " + what.substr(0, what.find('\n')));
+    throw InputError(file.string() + ": not a map_server yaml: " + firstLine(error));
   }
 }
 

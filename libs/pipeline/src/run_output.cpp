@@ -179,7 +179,9 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("config.ini", slam.stages().effective_config);
   write("objects.ini", slam.stages().objects);
   write("timings.csv", timings.str());
-  write("summary.json", summaryJson(slam, result, read, replayed, origin).dump(2) + "\n");
+  write("summary.json", summaryJson(slam, result, read, replayed, origin)
+                                .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+                            "\n");
 }
 
 }  // namespace roomgraph

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "roomgraph/core/errors.h"
 #include "roomgraph/lidar/dynamic_return_filter.h"
 
 namespace roomgraph {
@@ -306,7 +307,11 @@ SlamResult SemanticSlam::collect() {
   result.world_from_robot = result.map.world_from_robot = dense.poses();
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
   const auto timing = times_.measure("occupancy map");
-  result.map.occupancy = stages_->mapper.build(dense);
+  try {
+    result.map.occupancy = stages_->mapper.build(dense);
+  } catch (const RunError& error) {  // all else is still good
+    ++result.counts.reasons[error.what()];
+  }
   return result;
 }
 

@@ -2,12 +2,10 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/simulation/world_file.h"
 
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "json_entry.h"
-#include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/simulation/models.h"
 #include "roomgraph/simulation/texture.h"
 #include "sensor_entries.h"
@@ -190,13 +188,7 @@ World world(JsonEntry& entry) {
 }  // namespace
 
 World parseWorld(const std::string& text, const std::string& name) {
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text, nullptr, true, true);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw ConfigError(name + ": not valid JSON: " + error.what());
-  }
-  JsonEntry entry(json, name, "");
+  JsonEntry entry(parseJson<nlohmann::json, ConfigError>(text, name, true), name, "");
   World out = world(entry);
   out.file = name;
   checkWorld(out);
@@ -204,11 +196,7 @@ World parseWorld(const std::string& text, const std::string& name) {
 }
 
 World readWorld(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(file) || !(text << in.rdbuf()))
-    throw InputError(file.string() + ": cannot be read");
-  return parseWorld(text.str(), file.string());
+  return parseWorld(readTextFile(file), file.string());
 }
 
 }  // namespace roomgraph

@@ -60,6 +60,7 @@ class FactorGraph {
   /// the cost. Only for graphs of nothing but poses and movements. Returns whether anything changed.
   bool initializePoses();
   /// Sum of squared residuals, whitened and weighted, with robust losses applied: twice the cost.
+  /// NaN when it cannot be evaluated (something in it is not finite, or too large).
   double chiSquared() const;
 
   Pose3 pose(NodeId id) const;
@@ -71,7 +72,7 @@ class FactorGraph {
   std::size_t factors() const;
 
   /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is
-  /// singular. A yaw that nothing measures is uniform over the circle.
+  /// singular or cannot be evaluated. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
   /// Marginal covariance of a pose: translation in world, then rotation vector w with R = exp(w) R_estimated.
   /// Zero for a fixed pose; nothing when the problem is singular.
@@ -85,7 +86,7 @@ class FactorGraph {
   /// What is left for `keep` when everything else is removed (Schur complement at the current estimate). It
   /// takes in every factor that touches something removed, and every MarginalPrior; factors among kept
   /// variables stay the caller's to add again. Add it to a graph of the kept variables. Nothing when the
-  /// removed part says nothing about the kept one.
+  /// removed part says nothing about the kept one, or cannot be evaluated.
   std::optional<MarginalPrior> marginalize(const Variables& keep) const;
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),

@@ -37,9 +37,11 @@ class ProbabilityGrid {
   float at(int ix, int iy) const { return inside(ix, iy) ? std::max(kMin, cells_[index(ix, iy)]) : kMin; }
   /// Whether a scan ever touched the cell.
   bool known(int ix, int iy) const { return inside(ix, iy) && cells_[index(ix, iy)] > 0; }
+  /// A point that is not finite or too far away gets a cell far outside.
   Eigen::Vector2i cellOf(const Eigen::Vector2d& point) const;
 
   /// Bicubic (Catmull-Rom) interpolation between cell centres at a point (m); continuous gradient (1/m).
+  /// kMin, without a slope, for a point that is not finite.
   double interpolate(const Eigen::Vector2d& point, Eigen::Vector2d* gradient = nullptr) const;
 
  private:

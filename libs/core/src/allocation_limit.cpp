@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "roomgraph/core/allocation_limit.h"
+
+#include <mrpt/core/aligned_allocator.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <new>
+
+namespace roomgraph {
+namespace {
+
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+// Read by every allocation of the process: "initial-exec" makes that one instruction.
+[[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t left = kUnlimited;
+
+// MRPT's exceptions compose their text in what(), which must not throw: handlers may have what they need.
+bool isForMessage(std::size_t size) {
+  constexpr std::size_t kLongestMessage = 1u << 16;
+  return size <= kLongestMessage && std::current_exception();
+}
+
+bool allowed(std::size_t size) {
+  if (left == kUnlimited) return true;
+  if (size > left) return isForMessage(size);
+  left -= size;
+  return true;
+}
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  if (!allowed(size)) return nullptr;
+  if (alignment <= alignof(std::max_align_t)) return std::malloc(std::max<std::size_t>(size, 1));
+  if (size > kUnlimited - alignment) return nullptr;
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+void* allocateOrThrow(std::size_t size, std::size_t alignment) {
+  while (true) {
+    if (void* memory = allocate(size, alignment)) return memory;
+    const auto handler = std::get_new_handler();
+    if (!handler || AllocationLimit::active()) throw std::bad_alloc();
+    handler();
+  }
+}
+
+}  // namespace
+
+AllocationLimit::AllocationLimit(std::size_t bytes) : outer_(left) {
+  left = std::min(bytes, kUnlimited - 1);
+}
+
+AllocationLimit::~AllocationLimit() {
+  left = outer_;
+}
+
+bool AllocationLimit::active() {
+  return left != kUnlimited;
+}
+
+}  // namespace roomgraph
+
+// Takes the place of MRPT's own, which returns null when there is no memory: its containers then write to
+// address 0. MRPT frees with free(), as do we.
+void* mrpt::aligned_malloc(std::size_t size, std::size_t alignment) {
+  return roomgraph::allocateOrThrow(size, alignment);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+using roomgraph::allocate;
+using roomgraph::allocateOrThrow;
+
+constexpr std::size_t kPlain = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+// The replaceable allocation functions of [new.delete]; the default nothrow and array forms that are not
+// here call these.
+void* operator new(std::size_t size) {
+  return allocateOrThrow(size, kPlain);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocateOrThrow(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "map_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr double kFarthest_m = 1e6, kLargestSize_m = 1000;
+constexpr double kRounding = 1e-6;
+
+std::string problemOf(const mrpt::maps::COccupancyGridMap2D& grid) {
+  const auto cells = std::uint64_t{grid.getSizeX()} * grid.getSizeY();
+  if (cells != grid.getRawMap().size()) return "its grid's size does not fit its cells";
+  const double resolution = static_cast<double>(grid.getResolution());
+  if (!(resolution > 1e-4) || !(resolution < 100)) return "its grid's resolution is not in (0.0001, 100) m";
+  const auto fits = [&](float low, float high, unsigned count) {
+    const double span = static_cast<double>(high) - static_cast<double>(low);
+    return std::abs(low) < kFarthest_m && std::abs(span / resolution - count) < 1 + 0.01 * count;
+  };
+  if (!fits(grid.getXMin(), grid.getXMax(), grid.getSizeX()) ||
+      !fits(grid.getYMin(), grid.getYMax(), grid.getSizeY()))
+    return "its grid's borders do not fit its cells";
+  return "";
+}
+
+std::string problemOf(const Landmark& landmark) {
+  if (!(landmark.position.norm() < kFarthest_m)) return "position is not finite or too far away";
+  if (!std::isfinite(landmark.yaw)) return "yaw is not finite";
+  for (const double size : {landmark.shape.width, landmark.shape.depth, landmark.shape.height})
+    if (!(size >= 0 && size < kLargestSize_m)) return "size is not in [0, 1000) m";
+  if (!landmark.covariance.allFinite()) return "covariance is not finite";
+  if (!(landmark.existence >= 0 && landmark.existence <= 1 + kRounding)) return "existence is not in [0, 1]";
+  for (const auto& [name, probability] : landmark.class_posterior)
+    if (!(probability >= 0 && probability <= 1 + kRounding)) return "probability of a class is not in [0, 1]";
+  return "";
+}
+
+bool isPose(const StampedPose& stamped) {
+  return std::isfinite(stamped.t) && stamped.pose.matrix().allFinite() &&
+         stamped.pose.translation().norm() < kFarthest_m && stamped.pose.linear().isUnitary(1e-3);
+}
+
+}  // namespace
+
+std::string problemOf(const CSemanticMap& map) {
+  if (map.occupancy)
+    if (auto problem = problemOf(*map.occupancy); !problem.empty()) return problem;
+  for (const auto& landmark : map.landmarks)
+    if (const auto problem = problemOf(landmark); !problem.empty())
+      return "landmark " + std::to_string(landmark.id.value) + ": " + problem;
+  const auto& poses = map.world_from_robot;
+  if (!std::all_of(poses.begin(), poses.end(), isPose)) return "a pose of its trajectory is none";
+  const auto later = [](const StampedPose& a, const StampedPose& b) { return !(a.t < b.t); };
+  if (std::adjacent_find(poses.begin(), poses.end(), later) != poses.end())
+    return "its trajectory is not in order of time";
+  return "";
+}
+
+}  // namespace roomgraph
