@@ -277,7 +277,7 @@ READERS = [
     ("run, no images", 325, "slim.rawlog", [], RUN, damage_bytes),
     ("run --map", 125, "map.rgmap", ["slim.rawlog"], [*RUN, "--map", "map.rgmap"], damage_bytes),
     ("run --map, inflated", 125, "map.raw", ["slim.rawlog"], [*RUN, "--map", "map.raw"], damage_bytes),
-    ("snapshot", 300, "map.raw", [], ["snapshot", "map.raw", "-o", "x.png", "--size", "64x48"], damage_bytes),
+    ("snapshot", 300, "map.raw", [], ["snapshot", "map.raw", "-o", "x.png", "--size", "64x64"], damage_bytes),
     ("optimize", 400, "graph.g2o", [], ["optimize", "graph.g2o", "-o", "again.g2o", "--quiet"], damage_text),
     ("simulate", 250, "world.json", [], ["simulate", "world.json", "-o", "out"], damage_text),
     ("config", 150, "shipped.ini", ["slim.rawlog", "objects.ini"], [*RUN, "--config", "shipped.ini"], damage_text),

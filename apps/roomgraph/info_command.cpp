@@ -190,6 +190,7 @@ struct Arguments {
 };
 
 void inspect(const Arguments& arguments) {
+  if (!arguments.json.empty()) requireOther(arguments.json, {arguments.rawlog});
   SensorPoses poses;
   for (const auto& text : arguments.poses)
     for (const auto& [label, pose] : parseSensorPoses(text, "--pose " + text))

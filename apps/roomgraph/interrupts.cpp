@@ -12,7 +12,10 @@ volatile std::sig_atomic_t raised = 0;
 
 void raise(int) {
   raised = 1;
-  for (const int signal : kSignals) std::signal(signal, SIG_DFL);
+  // A terminal that closes says so twice, the shell and the kernel: that is no wish to end at once.
+  std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace roomgraph {
 
 /// From now on the first Ctrl-C, SIGTERM or SIGHUP (a closed terminal) only raises a flag, so that what was
-/// done so far can be written; the second one ends the program at once.
+/// done so far can be written; a second Ctrl-C or SIGTERM ends the program at once.
 void catchInterrupts();
 bool interrupted();
 

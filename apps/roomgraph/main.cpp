@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read, 4 interrupted "
-      "(what was done so far is complete).\n"
+      "(results cover what was done until then; an import writes nothing).\n"
       "All keys of the configuration: roomgraph config-reference.");
   roomgraph::observations::registerClasses();
   roomgraph::addCommands(app);

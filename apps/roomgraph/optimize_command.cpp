@@ -61,9 +61,11 @@ void run(Graph& graph, const NodeTimes& times, const Arguments& arguments) {
   options.progress = [&](int iteration, double cost) { line.update(iteration, "chi2 " + decimal(2 * cost)); };
   const SolveReport report = optimize(graph, options);
   line.finish();
-  if (!report.usable) throw RunError(arguments.graph.string() + ": cannot be optimised: " + report.message);
+  const double after = chiSquared(graph);
+  if (!report.usable || !std::isfinite(after))
+    throw RunError(arguments.graph.string() + ": cannot be optimised: " + report.message);
   saveG2o(graph, arguments.output, times);
-  std::cout << "chi2 after  " << decimal(chiSquared(graph)) << " (" << report.iterations << " iterations)\n"
+  std::cout << "chi2 after  " << decimal(after) << " (" << report.iterations << " iterations)\n"
             << arguments.output.string() << ": written\n";
 }
 

@@ -7,11 +7,13 @@
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <optional>
+#include <sstream>
 
 #include "commands.h"
 #include "configuration.h"
 #include "interrupts.h"
 #include "program.h"
+#include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
@@ -53,12 +55,17 @@ void check(const RunOptions& options, const Stages& stages) {
 }
 
 // Files that are read are not to be written.
-void protectInputs(const RunOptions& options, const Configuration& configuration,
-                   const OutputFolder& output) {
-  for (const auto& file : {std::filesystem::path(options.input), std::filesystem::path(options.map),
-                           configuration.file, configuration.objects_file})
-    output.protect(file);
-  for (const auto& entry : configuration.config.entries()) output.protect(entry.folder / entry.value);
+std::vector<std::filesystem::path> inputsOf(const RunOptions& options, const Configuration& configuration) {
+  std::vector<std::filesystem::path> files{options.input, options.map, configuration.file,
+                                           configuration.objects_file};
+  for (const auto& entry : configuration.config.entries()) {
+    std::istringstream items(entry.value);
+    for (std::string item; std::getline(items, item, ',');) {
+      item.erase(0, item.find_first_not_of(' '));
+      if (!item.empty()) files.push_back(entry.folder / item);
+    }
+  }
+  return files;
 }
 
 // Sinks that the command line asks for, besides the run's own files.
@@ -85,7 +92,6 @@ ExtraSinks addSinks(const RunOptions& options, Stages& stages) {
 ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam) {
   Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
   const Stopwatch watch;
-  catchInterrupts();
   const ReplayState state =
       replay(reader, slam, options.span,
              {[&](const ReplayState& now) { line.update(now.share, describeProgress(now, watch.seconds())); },
@@ -97,19 +103,22 @@ ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, 
 // A run without poses has no result, and there is a reason.
 void requireRecords(const RunOptions& options, const Stages& stages, const ReplayState& replayed,
                     const SlamResult& result) {
+  const bool sensors = stages.tracking.enabled || stages.lidar.enabled;
+  const bool nothing_seen = sensors && result.counts.frames + result.counts.scans == 0;
+  if (replayed.interrupted && (nothing_seen || result.world_from_robot.empty()))
+    throw Interrupted("interrupted before there was a pose; " + options.output + " is as it was");
   char span[96];
   std::snprintf(span, sizeof span, "nothing between %g s and the end (%.1f s)", options.span.from_s,
                 replayed.last_t - replayed.start_t);
   if (replayed.records == 0 && options.span.from_s > 0) throw InputError(options.input + ": " + span);
-  const bool sensors = stages.tracking.enabled || stages.lidar.enabled;
-  if (replayed.records == 0 || (sensors && result.counts.frames + result.counts.scans == 0))
+  if (replayed.records == 0 || nothing_seen)
     throw InputError(options.input +
                      ": no usable record of a camera (RGB-D) or a lidar (2D scans); "
                      "'roomgraph info' tells what is inside");
   if (result.world_from_robot.empty()) throw RunError(options.input + ": no pose could be found");
 }
 
-// Without a renderer there is a run all the same.
+// A run without a picture is a run all the same; a full disk is another matter.
 bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png) {
   try {
     renderSnapshot(map, database, {.title = map.origin}, png);
@@ -117,8 +126,12 @@ bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const
   } catch (const NoRenderer& error) {
     std::cerr << "roomgraph: warning: no snapshot.png: " << error.what()
               << " (--no-snapshot: not asked for)\n";
-    return false;
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::cerr << "roomgraph: warning: no snapshot.png: " << firstLine(error) << "\n";
   }
+  return false;
 }
 
 std::string whatWasReplayed(const ReplayState& replayed) {
@@ -144,8 +157,10 @@ void run(const RunOptions& options) {
     std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
-  auto output = std::make_shared<RunOutput>(options.output);
-  protectInputs(options, configuration, output->files());
+  const auto inputs = inputsOf(options, configuration);
+  if (!options.recording.empty()) requireOther(options.recording, inputs);
+  catchInterrupts();
+  auto output = std::make_shared<RunOutput>(options.output, inputs);
   const ExtraSinks extra = addSinks(options, *stages);
   SemanticSlam slam(std::move(stages));
   if (earlier) slam.setMap(std::move(*earlier));
@@ -155,7 +170,6 @@ void run(const RunOptions& options) {
 
   const Stopwatch watch;
   const ReplayState replayed = replayWithProgress(options, reader, slam);
-  if (extra.recording) extra.recording->finish();
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam.stages(), replayed, result);
@@ -164,6 +178,7 @@ void run(const RunOptions& options) {
   const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.stages().database,
                                                           output->files().pending("snapshot.png"));
   output->files().publish();
+  if (extra.recording) extra.recording->finish();
 
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
   const std::string detector = slam.stages().detector ? slam.stages().detector->warning() : "";

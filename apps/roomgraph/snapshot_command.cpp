@@ -30,7 +30,8 @@ SnapshotOptions toOptions(const Arguments& arguments) {
     throw ConfigError("--size " + arguments.size +
                       ": give WIDTHxHEIGHT in pixels, 64 to 8192, as in 1280x960");
   options.title = arguments.title;
-  if (std::filesystem::path(arguments.output).extension() != ".png")
+  const auto ending = std::filesystem::path(arguments.output).extension();
+  if (ending != ".png" && ending != ".PNG")
     throw ConfigError("--output " + arguments.output + ": a picture is a PNG: name it something.png");
   return options;
 }

@@ -218,6 +218,10 @@ TEST(G2oReader, ErrorsNameFileAndLine) {
   EXPECT_THAT(errorOf(two + "VERTEX_SE3:QUAT 2 0 0 0 0 0 0 1\n"), HasSubstr("2D and 3D"));
   EXPECT_THAT(errorOf("VERTEX_SE3:QUAT 2 0 0 0 0 0 0 2\n"), HasSubstr("quaternion's length"));
   EXPECT_THAT(errorOf("# LANDMARK 3 0 ball 1 1 1\n"), HasSubstr("'ball' is no shape"));
+  const std::string named = two + "# LANDMARK 1 7 cylinder 1 1 1\n";
+  EXPECT_THAT(errorOf(named + "# LANDMARK 0 7 cylinder 1 1 1\n"), HasSubstr("bad.g2o:4: landmark 7"));
+  EXPECT_THAT(errorOf(named + "# LANDMARK 1 8 cylinder 1 1 1\n"), HasSubstr("was named before"));
+  EXPECT_THAT(errorOf(two + "# LANDMARK 9 7 cylinder 1 1 1\n"), HasSubstr("landmark 7 is vertex 9"));
   EXPECT_THAT(errorOf("# nothing\n"), HasSubstr("holds no VERTEX_SE2"));
   EXPECT_THAT(messageOf<InputError>([&] { loadG2o(folder.file("none.g2o")); }), HasSubstr("none.g2o"));
   EXPECT_THAT(messageOf<InputError>([&] { loadG2o(folder.path()); }), HasSubstr("cannot be opened"));

@@ -47,6 +47,23 @@ TEST(PendingFile, TwoWritersOfOneFileAreTold) {
               HasSubstr("another process is writing it"));
 }
 
+TEST(PendingFile, DevicesAndFoldersAreNotReplaced) {
+  TemporaryFolder folder;
+  EXPECT_THAT(messageOf<RunError>([] { PendingFile("/dev/null"); }), HasSubstr("/dev/null: is not a file"));
+  EXPECT_THAT(messageOf<RunError>([&] { PendingFile pending(folder.path()); }), HasSubstr("is not a file"));
+}
+
+TEST(RequireOther, AnInputIsNoOutput) {
+  TemporaryFolder folder;
+  const auto input = folder.write("x", "text");
+  std::filesystem::create_symlink(input, folder.file("y"));
+  EXPECT_THAT(messageOf<ConfigError>([&] {
+                requireOther(folder.file("y"), {"", input});
+              }),
+              HasSubstr("another"));
+  EXPECT_NO_THROW(requireOther(folder.file("z"), {input}));
+}
+
 TEST(WriteFileAtomically, ReplacesFilesAndWhatLinksPointTo) {
   TemporaryFolder folder;
   folder.write("target", "old");

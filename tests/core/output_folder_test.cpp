@@ -56,6 +56,19 @@ TEST_F(OutputFolderTest, WhatAKilledProcessLeftIsRemoved) {
   EXPECT_EQ(folder.count(), 1u);
 }
 
+// Killed between two files: what is whole is put into place before anything else happens.
+TEST_F(OutputFolderTest, ChangingPlacesIsGoneOnWith) {
+  folder.write("path", "new, in its place already");
+  folder.write("picture", "old");
+  std::filesystem::create_directory(folder.file("roomgraph_unfinished"));
+  folder.write("roomgraph_unfinished/summary", "new");
+  folder.write("roomgraph_unfinished/complete", "path\nsummary\n");
+  { const OutputFolder next(folder.path(), names); }
+  EXPECT_EQ(folder.read("path"), "new, in its place already");
+  EXPECT_EQ(folder.read("summary"), "new");
+  EXPECT_EQ(folder.count(), 2u);
+}
+
 TEST_F(OutputFolderTest, IsLockedWhileInUse) {
   {
     const OutputFolder first(folder.path(), names);
@@ -67,15 +80,19 @@ TEST_F(OutputFolderTest, IsLockedWhileInUse) {
 }
 
 TEST_F(OutputFolderTest, InputsAreNotReplaced) {
-  const OutputFolder out(folder.path(), names);
   folder.write("path", "input");
   folder.write("other", "input");
   std::filesystem::create_symlink(folder.file("path"), folder.file("alias"));
-  EXPECT_THAT(messageOf<ConfigError>([&] { out.protect(folder.file("path")); }), HasSubstr("choose another"));
-  EXPECT_THAT(messageOf<ConfigError>([&] { out.protect(folder.file("alias")); }), HasSubstr("alias"));
-  EXPECT_NO_THROW(out.protect(folder.file("other")));
-  EXPECT_NO_THROW(out.protect(folder.file("none")));
-  EXPECT_NO_THROW(out.protect(""));
+  std::filesystem::create_directory(folder.file("roomgraph_unfinished"));
+  const auto rescued = folder.write("roomgraph_unfinished/live", "left by a killed process, and read now");
+  const auto with = [&](const std::filesystem::path& input) { OutputFolder(folder.path(), names, {input}); };
+  EXPECT_THAT(messageOf<ConfigError>([&] { with(folder.file("path")); }), HasSubstr("choose another"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { with(folder.file("alias")); }), HasSubstr("alias"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { with(rescued); }), HasSubstr("live"));
+  EXPECT_TRUE(std::filesystem::exists(rescued));
+  EXPECT_NO_THROW(with(folder.file("other")));
+  EXPECT_NO_THROW(with(folder.file("none")));
+  EXPECT_NO_THROW(with(""));
 }
 
 TEST_F(OutputFolderTest, AFolderIsNotReplacedByAResult) {

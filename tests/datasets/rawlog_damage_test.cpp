@@ -152,12 +152,17 @@ TEST(RawlogDamage, SizeOfAScanThatDoesNotFitItsBytesIsNamed) {
               HasSubstr("CObservation2DRangeScan: a size in it does not fit its length"));
 }
 
-TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
-  TemporaryFolder folder;
+std::string jpegRecord() {
   const bool plain = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
-  std::string broken = bytesOf(makeImages(2));
+  const std::string bytes = bytesOf(makeImages(2));
   mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(plain);
+  return bytes;
+}
+
+TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
+  TemporaryFolder folder;
+  std::string broken = jpegRecord();
   // Start of frame: marker, length, 8 bits, height, width.
   const auto at = broken.find("\xff\xc0");
   ASSERT_NE(at, std::string::npos);
@@ -165,8 +170,24 @@ TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
   writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
   const auto result = read(folder / "x.rawlog");
   EXPECT_EQ(result.records, 2);
-  EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("256 MB"));
+  EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("does not fit its length"));
   EXPECT_LT(testing::peakMegabytes(), 700);
+}
+
+// libjpeg's own handler of errors would call exit().
+TEST(RawlogDamage, JpegWithoutItsDataCostsOnlyItsRecord) {
+  TemporaryFolder folder;
+  std::string broken = jpegRecord();
+  const auto scan = broken.find("\xff\xda");
+  ASSERT_NE(scan, std::string::npos);
+  broken[scan + 1] = '\xd9';  // the end of the image instead of the start of its data
+  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  ::testing::internal::CaptureStderr();
+  const auto result = read(folder / "x.rawlog");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(result.records, 2);
+  ASSERT_EQ(result.statistics.skipped.size(), 1u);
+  EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("broken record: CObservation3DRangeScan"));
 }
 
 TEST(RawlogDamage, LongRecordsAmongOthersOfAPairAreParsedWhole) {

@@ -72,6 +72,20 @@ TEST(StampQueue, AGapInTheRecordingIsNoDamage) {
       << "slow, but regular: only of the last nothing can be said";
 }
 
+// After a pause a fast sensor is back long before the second record of a slow one.
+TEST(StampQueue, ASlowSensorComesBackAfterAPause) {
+  for (const double apart : {0.0, 500.0}) {
+    std::vector<Stamp> stamps;
+    for (int i = 0; i < 90 * 150; ++i) {
+      const double t = i / 90.0;
+      if (t > 20 && t < 85) continue;
+      stamps.push_back({"lidar", 1000 + t});
+      if (i % 90 == 0) stamps.push_back({"camera", 1000 + t + apart});
+    }
+    EXPECT_THAT(wrongOf(stamps), IsEmpty()) << "clocks apart by " << apart;
+  }
+}
+
 TEST(StampQueue, ClocksApartAreNoDamage) {
   std::vector<Stamp> stamps;
   for (int i = 0; i < 20; ++i) {

@@ -6,6 +6,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <bit>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -153,15 +154,17 @@ TEST(MapFile, ImpossibleSizesAreErrors) {
     std::memcpy(broken.data() + at, &value, sizeof value);
     return folder.write("bad.rgmap", broken);
   };
-  const std::uint32_t sides[] = {map.occupancy->getSizeX(), map.occupancy->getSizeY()}, poses = 40;
-  const auto sides_at = bytes.find(std::string(reinterpret_cast<const char*>(sides), sizeof sides));
+  const float borders[] = {-1, 5, -2, 2};
+  const std::uint32_t poses = 40;
+  const auto borders_at = bytes.find(std::string(reinterpret_cast<const char*>(borders), sizeof borders));
   const auto poses_at = bytes.rfind(std::string(reinterpret_cast<const char*>(&poses), sizeof poses));
-  ASSERT_NE(sides_at, std::string::npos);
+  ASSERT_NE(borders_at, std::string::npos);
   ASSERT_NE(poses_at, std::string::npos);
-  EXPECT_THAT(loadError(with(sides_at, 0x00ffffff)), HasSubstr("a size in it is larger than the file"));
-  EXPECT_THAT(loadError(with(poses_at, 0xffffffff)), HasSubstr("a size in it is larger than the file"));
-  // 2^31 * 80 wraps to 0 cells: what the grid says of itself must agree.
-  EXPECT_THAT(loadError(with(sides_at, 0x80000000)), HasSubstr("damaged"));
+  for (const std::uint32_t count : {0xffffffffu, 0x80000000u, 0x01000000u})
+    EXPECT_THAT(loadError(with(poses_at, count)), HasSubstr("a size in it is larger than the file")) << count;
+  // A border of the grid 10^7 m away.
+  EXPECT_THAT(loadError(with(borders_at + sizeof(float), std::bit_cast<std::uint32_t>(1e7f))),
+              HasSubstr("bad.rgmap"));
 }
 
 TEST(MapFile, UnwritablePlaceIsARunError) {

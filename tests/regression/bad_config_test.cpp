@@ -71,7 +71,7 @@ TEST_F(BadConfig, FilesThatAreMissingOrBroken) {
   expectOneLine(runFile(folder.write("broken.ini", "[pipeline\nx\n")), 2, HasSubstr("broken.ini"));
   expectOneLine(runFile(folder.write("key.ini", "[pipeline]\nlookahead=1\n")), 2,
                 AllOf(HasSubstr("key.ini"), HasSubstr("lookahead_s")));
-  expectOneLine(runFile(folder.write("objects.ini", "[pipeline]\nobjects_file = absent.ini\n")), 3,
+  expectOneLine(runFile(folder.write("objects.ini", "[pipeline]\nobjects_file = absent.ini\n")), 2,
                 HasSubstr("absent.ini"));
 }
 

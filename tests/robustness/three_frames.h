@@ -9,6 +9,7 @@
 
 #include "rawlog_maker.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/register_classes.h"
 
 namespace roomgraph::testing {
@@ -37,7 +38,7 @@ inline std::shared_ptr<CObservationDetections> makeDetections(double t) {
 }
 
 /// Odometry, scan, detections, images: three times, 0.1 s apart.
-inline ThreeFrames threeFrames() {
+inline ThreeFrames threeFrames(int width = 64, int height = 48) {
   observations::registerClasses();
   ThreeFrames out;
   for (int i = 0; i < 3; ++i) {
@@ -45,7 +46,21 @@ inline ThreeFrames threeFrames() {
     out.records.push_back(test::makeOdometry(t, 0.04 * i, 0, 0.01 * i));
     out.records.push_back(test::makeScan(t + 0.01, 2, 60));
     out.records.push_back(makeDetections(t + 0.02));
-    out.records.push_back(test::makeImages(t + 0.02, 64, 48));
+    out.records.push_back(test::makeImages(t + 0.02, width, height));
+  }
+  return out;
+}
+
+/// The same as actions and sensory frames in turn, boxes as comments.
+inline ThreeFrames threePairs(int width = 64, int height = 48) {
+  observations::registerClasses();
+  ThreeFrames out;
+  for (int i = 0; i < 3; ++i) {
+    const double t = 1000 + 0.1 * i;
+    const auto boxes = std::make_shared<mrpt::obs::CObservationComment>(toComment(*makeDetections(t + 0.02)));
+    out.records.push_back(test::makeAction(t, 0.04, 0, 0.01));
+    out.records.push_back(test::makeSensoryFrame(
+        {test::makeScan(t + 0.01, 2, 60), boxes, test::makeImages(t + 0.02, width, height)}));
   }
   return out;
 }

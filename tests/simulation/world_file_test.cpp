@@ -47,6 +47,8 @@ TEST(WorldFile, EveryMistakeNamesFileAndEntry) {
   EXPECT_THAT(complaint("\"preset\": \"kinect\"", "\"preset\": \"eye\""), HasSubstr("sensors.camera.preset"));
   EXPECT_THAT(complaint("#ffffff", "white"), HasSubstr("rooms[0].wall.color"));
   EXPECT_THAT(complaint("[1, 2]", "[1]"), HasSubstr("robot.path_m[0]"));
+  EXPECT_THAT(complaint("[1, 2]", "[1e12, 2]"),
+              AllOf(HasSubstr("robot.path_m[0]"), HasSubstr("must be within 1000 m")));
   EXPECT_THAT(complaint("\"name\": \"example\"", "\"name\": \"a b\""), HasSubstr("name"));
   EXPECT_THAT(complaint("\"rooms\"", "rooms"),
               AllOf(HasSubstr("w.json: not valid JSON: line "), Not(HasSubstr("exception"))));

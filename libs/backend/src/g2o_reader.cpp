@@ -184,6 +184,10 @@ class Reader {
     name.shape.depth = number("the depth");
     name.shape.height = number("the height");
     end();
+    for (const auto& [other, landmark] : content_.landmarks)
+      if (other == vertex || landmark.id == name.id)
+        fail("landmark " + std::to_string(name.id.value) + " of vertex " + std::to_string(vertex.value) +
+             ": that landmark or that vertex was named before");
     content_.landmarks[vertex] = name;
   }
 
@@ -210,6 +214,10 @@ std::set<NodeId> checked(const FileContent& content, const std::filesystem::path
                        std::to_string(edge.a.value));
   }
   for (const auto& [line, vertex, t] : content.stamps) known(line, vertex, "time of");
+  for (const auto& [vertex, landmark] : content.landmarks)
+    if (!content.vertices.contains(vertex))
+      throw InputError(file.string() + ": landmark " + std::to_string(landmark.id.value) + " is vertex " +
+                       std::to_string(vertex.value) + ", which is not in the file");
   std::set<NodeId> fixed;
   for (const auto& [line, id] : content.fixed) {
     known(line, id, "FIX of");

@@ -15,19 +15,23 @@ namespace {
 
 constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
+constexpr std::size_t kSmall = 1u << 14, kReserve = 1u << 18;
+
 // Read by every allocation of the process: "initial-exec" makes that one instruction.
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t left = kUnlimited;
+[[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t reserve = kReserve;
 
-// MRPT's exceptions compose their text in what(), which must not throw: handlers may have what they need.
-bool isForMessage(std::size_t size) {
-  constexpr std::size_t kLongestMessage = 1u << 16;
-  return size <= kLongestMessage && std::current_exception();
-}
-
+// MRPT's exceptions note the call stack and compose their text in functions that must not throw: small things
+// have a reserve of their own, and handlers get them in any case.
 bool allowed(std::size_t size) {
   if (left == kUnlimited) return true;
-  if (size > left) return isForMessage(size);
-  left -= size;
+  if (size <= left) {
+    left -= size;
+    return true;
+  }
+  if (size > kSmall) return false;
+  if (size > reserve) return std::current_exception() != nullptr;
+  reserve -= size;
   return true;
 }
 
@@ -51,6 +55,7 @@ void* allocateOrThrow(std::size_t size, std::size_t alignment) {
 
 AllocationLimit::AllocationLimit(std::size_t bytes) : outer_(left) {
   left = std::min(bytes, kUnlimited - 1);
+  if (outer_ == kUnlimited) reserve = kReserve;
 }
 
 AllocationLimit::~AllocationLimit() {

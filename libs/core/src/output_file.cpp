@@ -55,6 +55,9 @@ void OutputFile::finish() {
 }
 
 PendingFile::PendingFile(const fs::path& place) : place_(behindLinks(place)), temporary_(place_) {
+  std::error_code ignored;
+  if (fs::exists(place_, ignored) && !fs::is_regular_file(place_, ignored))
+    throw RunError("cannot write " + place.string() + ": is not a file");
   temporary_ += ".unfinished";
   lock_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) failToWrite(place, errno);
@@ -84,6 +87,13 @@ void writeFileAtomically(const fs::path& file, std::string_view bytes) {
   PendingFile pending(file);
   writeBytes(pending.path(), bytes);
   pending.commit();
+}
+
+void requireOther(const fs::path& output, const std::vector<fs::path>& inputs) {
+  std::error_code none;
+  for (const auto& input : inputs)
+    if (fs::equivalent(output, input, none))
+      throw ConfigError(output.string() + ": is read by this command; write to another file");
 }
 
 void flushToDisk(const fs::path& file) {

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <fstream>
+#include <set>
 #include <stdexcept>
 
 #include "roomgraph/core/errors.h"
@@ -34,14 +36,25 @@ class WithoutSignals {
   void (*former_[std::size(kSignals)])(int);
 };
 
+constexpr const char* kComplete = "complete";  // names what is to change places, when all is written
+
 void require(const std::error_code& error, const fs::path& path) {
   if (error) throw RunError("output folder " + path.string() + ": " + error.message());
 }
 
+bool isInside(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const auto inner = fs::weakly_canonical(file, error), outer = fs::weakly_canonical(folder, error);
+  return !file.empty() &&
+         std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)
+OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names,
+                           const std::vector<fs::path>& inputs)
     : folder_(folder), unfinished_(folder / "roomgraph_unfinished"), names_(std::move(names)) {
+  for (const auto& input : inputs) protect(input);
   std::error_code error;
   if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
     throw RunError("output folder " + folder_.string() + ": is a file");
@@ -51,14 +64,9 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
     if (fs::is_directory(folder_ / name, error))
       throw RunError("output folder " + folder_.string() + ": '" + name +
                      "' is a folder, and the name of a result; choose another output folder");
-  lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // File systems that cannot lock a folder (some of the network) go without.
-  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(lock_);
-    throw RunError("output folder " + folder_.string() +
-                   ": another process is writing into it; choose another one, or wait");
-  }
+  lock();
   try {
+    if (fs::exists(unfinished_ / kComplete, error)) settle();
     fs::remove_all(unfinished_, error);
     require(error, unfinished_);
     fs::create_directory(unfinished_, error);
@@ -71,8 +79,17 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  fs::remove_all(unfinished_, ignored);
+  if (!fs::exists(unfinished_ / kComplete, ignored)) fs::remove_all(unfinished_, ignored);
   if (lock_ >= 0) close(lock_);
+}
+
+// File systems that cannot lock a folder (some of the network) go without.
+void OutputFolder::lock() {
+  lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(lock_);
+  throw RunError("output folder " + folder_.string() +
+                 ": another process is writing into it; choose another one, or wait");
 }
 
 fs::path OutputFolder::pending(const std::string& name) const {
@@ -82,29 +99,44 @@ fs::path OutputFolder::pending(const std::string& name) const {
 }
 
 void OutputFolder::protect(const fs::path& input) const {
-  std::error_code ignored;
-  for (const auto& name : names_)
-    if (fs::equivalent(input, folder_ / name, ignored))
-      throw ConfigError(input.string() +
-                        ": is read by this run and would be replaced by its results; choose "
-                        "another output folder");
+  std::error_code none;
+  const bool replaced = std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
+    return fs::equivalent(input, folder_ / name, none);
+  });
+  if (replaced || isInside(input, unfinished_))
+    throw ConfigError(input.string() +
+                      ": is read by this run and would be replaced by its results; choose "
+                      "another output folder");
 }
 
 void OutputFolder::publish() {
-  std::error_code error;
-  const auto written = [&](const std::string& name) { return fs::exists(unfinished_ / name); };
-  for (const auto& name : names_)
-    if (written(name)) flushToDisk(unfinished_ / name);
+  std::string written;
+  for (const auto& name : names_) {
+    if (!fs::exists(unfinished_ / name)) continue;
+    flushToDisk(unfinished_ / name);
+    written += name + "\n";
+  }
+  writeFileAtomically(unfinished_ / kComplete, written);
   const WithoutSignals quiet;
-  fs::remove(folder_ / names_.back(), error);
+  settle();
+}
+
+// May be begun by one process and gone on with by another.
+void OutputFolder::settle() {
+  std::ifstream in(unfinished_ / kComplete);
+  std::set<std::string> written;
+  for (std::string name; std::getline(in, name);) written.insert(name);
+  std::error_code error;
+  if (fs::exists(unfinished_ / names_.back())) fs::remove(folder_ / names_.back(), error);
   require(error, folder_ / names_.back());
   for (const auto& name : names_) {
-    if (written(name))
-      fs::rename(unfinished_ / name, folder_ / name, error);
-    else
+    if (!written.contains(name))
       fs::remove(folder_ / name, error);
+    else if (fs::exists(unfinished_ / name))
+      fs::rename(unfinished_ / name, folder_ / name, error);
     require(error, folder_ / name);
   }
+  if (lock_ >= 0) fsync(lock_);
   fs::remove_all(unfinished_, error);
 }
 

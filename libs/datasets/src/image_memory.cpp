@@ -2,6 +2,7 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "image_memory.h"
 
+#include <new>
 #include <opencv2/core/mat.hpp>
 #include <stdexcept>
 
@@ -20,8 +21,7 @@ class CheckedAllocator : public cv::MatAllocator {
                          cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
     double bytes = static_cast<double>(CV_ELEM_SIZE(type));
     for (int i = 0; i < dimensions; ++i) bytes *= sizes[i];
-    if (AllocationLimit::active() && !data && bytes > kLargestImageBytes)
-      throw std::runtime_error("an image in it would take more than 256 MB");
+    if (AllocationLimit::active() && !data && bytes > kLargestImageBytes) throw std::bad_alloc();
     return standard_->allocate(dimensions, sizes, type, data, step, flags, usage);
   }
   bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
@@ -42,8 +42,12 @@ void countImageMemory() {
 }
 
 void loadImages(mrpt::obs::CObservation3DRangeScan& observation) {
-  const AllocationLimit limit(kExternalBytes);
-  observation.load();
+  try {
+    const AllocationLimit limit(kExternalBytes);
+    observation.load();
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error("it would take more than 256 MB");
+  }
 }
 
 }  // namespace roomgraph

@@ -11,7 +11,6 @@
 #include <mrpt/serialization/CSerializable.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <new>
 
@@ -27,10 +26,12 @@ constexpr std::uint8_t kNewFormat =
     0x80;  // set in the length byte of a header; older files have a 32 bit length
 constexpr std::uint8_t kEndFlag = 0x88;  // last byte of every object
 // What parsing may allocate: some small containers, and all that the record holds several times over.
-constexpr std::size_t kBytesPerByte = 8, kLongestRecordBytes = 64u << 20;
+constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 8;
+constexpr std::size_t kSmallBytes = 2u << 20, kLongestRecordBytes = 64u << 20;
 
 bool isNameCharacter(std::uint8_t c) {
-  return std::isalnum(c) || c == '_' || c == ':' || c == '<' || c == '>';
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
+         c == '<' || c == '>';
 }
 
 // A header of MRPT's begins with the length of the name. Says no to nearly all bytes that are none, cheaply.
@@ -199,21 +200,22 @@ std::optional<RecordSource::Item> RecordSource::next() {
   }
 }
 
-// The length of a record is looked for only when it needs more than those before it: that takes time.
+// Looking for the end of a record takes time, and most are small: done for those of a class whose last one
+// was large, or none is known. Never after an attempt that failed: an image of MRPT's whose memory was
+// refused is half made, and its pool would give it to the next record of that size.
+std::size_t RecordSource::allowanceFor(std::uint64_t offset, const std::string& name) {
+  const auto last = lengths_.find(name);
+  const bool small = last != lengths_.end() && last->second < kSmallBytes;
+  return kSpareBytes + kBytesPerByte * (small ? kSmallBytes * 2 : lengthOf(offset, name));
+}
+
 void RecordSource::parse(Item& item, const std::string& name) {
-  const auto read = [&](std::size_t allowance) {
+  const std::size_t allowance = allowanceFor(item.offset, name);
+  {
     const AllocationLimit limit(allowance);
     item.object = stream_.ReadObject();
-  };
-  try {
-    read(allowance_);
-  } catch (const std::bad_alloc&) {
-    const std::size_t allowance = kSpareBytes + kBytesPerByte * lengthOf(item.offset, name);
-    if (allowance <= allowance_) throw;
-    stream_.rewind(item.offset);
-    read(allowance);
-    allowance_ = allowance;
   }
+  lengths_[name] = stream_.position() - item.offset;
   frames_format_ = kindOf(name) == Kind::kPair;
 }
 

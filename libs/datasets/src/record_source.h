@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -47,6 +48,8 @@ class RecordSource {
   std::uint64_t endOfData(std::uint64_t from);
   /// Bytes from the header at `offset` to the next record, but no more than a record can have.
   std::size_t lengthOf(std::uint64_t offset, const std::string& name);
+  /// Bytes that parsing may allocate.
+  std::size_t allowanceFor(std::uint64_t offset, const std::string& name);
   /// Throws std::bad_alloc when the record asks for more memory than its length can need.
   void parse(Item& item, const std::string& name);
   std::optional<Item> stepOver(Item item);
@@ -55,9 +58,8 @@ class RecordSource {
 
   ReplayStream stream_;
   std::string skip_class_, truncation_;
-  bool frames_format_ = false;  ///< action/sensory-frame pairs
-  static constexpr std::size_t kSpareBytes = 1u << 20;
-  std::size_t allowance_ = kSpareBytes;  ///< bytes that parsing may allocate: what a sound record needed
+  bool frames_format_ = false;                    ///< action/sensory-frame pairs
+  std::map<std::string, std::uint64_t> lengths_;  ///< of the last sound record of each class, bytes
 };
 
 /// Class name without its namespace.

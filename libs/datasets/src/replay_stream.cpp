@@ -16,7 +16,7 @@ namespace {
 // Small, because zlib drops what it has of a call when it meets broken data.
 constexpr std::size_t kChunkBytes = 32 * 1024;
 // A damaged length field must not make the program read the rest of the file into memory.
-constexpr std::size_t kLongestRecordBytes = 512u << 20;
+constexpr std::size_t kLongestRecordBytes = 128u << 20;
 constexpr std::size_t kForgetBytes = 4u << 20;
 
 }  // namespace

@@ -38,7 +38,7 @@ class StampQueue {
   /// The next record, when it is known what its stamp is worth; `complete`: none will be pushed any more.
   std::optional<Item> pop(bool complete) {
     if (items_.empty()) return std::nullopt;
-    const auto wrong = isWrong(complete || items_.size() >= kLongest);
+    const auto wrong = isWrong(complete);
     if (!wrong) return std::nullopt;
     Item item = std::move(items_.front());
     items_.pop_front();
@@ -53,11 +53,14 @@ class StampQueue {
   static bool far(double a, double b) { return std::abs(a - b) > kFar_s; }
 
   // Nothing: it depends on what comes.
-  std::optional<bool> isWrong(bool decide) const {
+  std::optional<bool> isWrong(bool complete) const {
+    const bool decide = complete || items_.size() >= kLongest;
     const Item& item = items_.front();
     const auto own = last_.find(item.sensor);
     const double before = own != last_.end() ? own->second : latest_;  // NaN: it is the very first
     if (!std::isnan(before) && !far(item.t, before)) return false;
+    // After a pause of all sensors the slow ones come back later than the fast ones.
+    if (!std::isnan(latest_) && !far(item.t, latest_)) return false;
     double next[2];
     int count = 0;
     for (auto other = items_.begin() + 1; other != items_.end() && count < 2; ++other)
@@ -68,7 +71,8 @@ class StampQueue {
       if (count < 2) return decide ? std::optional(false) : std::nullopt;
       return !far(next[0], next[1]);
     }
-    if (count == 0) return decide ? std::optional(true) : std::nullopt;
+    // The very last of its sensor is given up; one that just has to wait too long has nothing against it.
+    if (count == 0) return decide ? std::optional(complete) : std::nullopt;
     const double around = std::abs(next[0] - before);
     return around < std::abs(item.t - before) && around < std::abs(item.t - next[0]);
   }

@@ -161,7 +161,7 @@ void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesy
       json["first_seen"] = seen->second.first;
       json["last_seen"] = seen->second.last;
     }
-    text += (i ? ",\n  " : "\n  ") + json.dump();
+    text += (i ? ",\n  " : "\n  ") + json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   writeFileAtomically(file, text + "\n]}\n");
 }

@@ -18,8 +18,9 @@
 namespace roomgraph {
 namespace {
 
-constexpr std::size_t kLargestBytes = std::size_t{1} << 30;  // a grid of 1 km x 1 km at 0.05 m has 0.8 GB
-constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 8;
+constexpr std::size_t kLargestBytes = 128u
+                                      << 20;  // a grid of 400 m x 400 m at 0.05 m, and 64 MB for the rest
+constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 4;
 
 std::vector<std::uint8_t> inflated(const std::filesystem::path& file) {
   mrpt::io::CFileGZInputStream in;

@@ -84,9 +84,13 @@ mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& ya
   const cv::Mat image = exists ? cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE) : cv::Mat();
   if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");
   mrpt::maps::COccupancyGridMap2D grid;
-  grid.setSize(static_cast<float>(map.x_min), static_cast<float>(map.x_min + image.cols * map.resolution_m),
-               static_cast<float>(map.y_min), static_cast<float>(map.y_min + image.rows * map.resolution_m),
-               static_cast<float>(map.resolution_m));
+  try {
+    grid.setSize(static_cast<float>(map.x_min), static_cast<float>(map.x_min + image.cols * map.resolution_m),
+                 static_cast<float>(map.y_min), static_cast<float>(map.y_min + image.rows * map.resolution_m),
+                 static_cast<float>(map.resolution_m));
+  } catch (const std::exception& error) {  // too small for the digits of a float
+    throw InputError(yaml.string() + ": 'resolution' and 'origin' do not fit: " + firstLine(error));
+  }
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
       const int gray = image.at<unsigned char>(v, u);

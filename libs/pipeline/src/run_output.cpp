@@ -16,6 +16,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// Names may be no UTF-8.
+std::string textOf(const ordered_json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
+}
+
 ordered_json boxJson(const Box2& box) {
   return {box.u_min, box.v_min, box.u_max, box.v_max};
 }
@@ -137,11 +142,13 @@ void writeTum(std::ostream& out, const std::vector<StampedPose>& poses) {
   for (const auto& stamped : poses) writeStamped(out, stamped.t, stamped.pose);
 }
 
-RunOutput::RunOutput(const std::filesystem::path& folder)
-    : files_(folder, {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
-                      "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "map.pgm", "map.yaml",
-                      "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "snapshot.png",
-                      "summary.json"}),
+RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs)
+    : files_(folder,
+             {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
+              "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "map.pgm", "map.yaml",
+              "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "snapshot.png",
+              "summary.json"},
+             inputs),
       live_(files_.pending("live.tum")),
       detections_(files_.pending("detections.jsonl")),
       associations_(files_.pending("associations_live.jsonl")) {}
@@ -149,8 +156,9 @@ RunOutput::RunOutput(const std::filesystem::path& folder)
 void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   writeStamped(live_, report.t, report.world_from_robot);
-  if (report.detector_ran || report.boxes_carried) detections_ << detectionsJson(report) << '\n';
-  if (!report.decisions.empty()) associations_ << associationsJson(report.t, report.decisions) << '\n';
+  if (report.detector_ran || report.boxes_carried) detections_ << textOf(detectionsJson(report)) << '\n';
+  if (!report.decisions.empty())
+    associations_ << textOf(associationsJson(report.t, report.decisions)) << '\n';
   for (OutputFile* file : {&live_, &detections_, &associations_}) file->check();
 }
 
@@ -165,7 +173,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   writeTum(robot, result.world_from_robot);
   writeTum(camera, result.world_from_camera);
   for (const auto& frame : slam.objects().frames())
-    associations << associationsJson(frame.t, frame.decisions) << '\n';
+    associations << textOf(associationsJson(frame.t, frame.decisions)) << '\n';
   writeTimings(timings, slam.times());
   write("trajectory.tum", robot.str());
   write("trajectory_camera.tum", camera.str());
@@ -179,9 +187,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("config.ini", slam.stages().effective_config);
   write("objects.ini", slam.stages().objects);
   write("timings.csv", timings.str());
-  write("summary.json", summaryJson(slam, result, read, replayed, origin)
-                                .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
-                            "\n");
+  write("summary.json", textOf(summaryJson(slam, result, read, replayed, origin), 2) + "\n");
 }
 
 }  // namespace roomgraph

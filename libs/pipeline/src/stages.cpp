@@ -2,12 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "roomgraph/pipeline/stages.h"
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/detection/register_classes.h"
 #include "roomgraph/lidar/register_classes.h"
 #include "roomgraph/observations/register_classes.h"
@@ -111,12 +110,6 @@ void makeObjectStages(Stages& stages, Loader& loader) {
   loader.read("object_loop_closing", stages.object_loops);
 }
 
-std::string contentOf(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 void prepareAll(Stages& stages) {
   for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
                                                     stages.scan_loop_closer.get(), stages.detector.get(),
@@ -147,8 +140,12 @@ std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::
   configSchema().check(config);
   const std::filesystem::path objects =
       general.objects_file.empty() ? objects_file : std::filesystem::path(general.objects_file);
-  stages->database = ObjectDatabase::fromFile(objects);
-  stages->objects = contentOf(objects);
+  try {
+    stages->objects = readTextFile(objects);
+  } catch (const InputError& error) {
+    throw ConfigError(std::string("[pipeline] objects_file: ") + error.what());
+  }
+  stages->database = ObjectDatabase::fromText(stages->objects, objects.string());
   general.objects_file = "objects.ini";
   loader.note("pipeline", general);
   makeFrontEnds(*stages, loader);

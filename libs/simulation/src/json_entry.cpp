@@ -45,6 +45,13 @@ double JsonEntry::checked(const nlohmann::json& value, const std::string& key) c
   return value.get<double>();
 }
 
+double JsonEntry::coordinate(const nlohmann::json& value, const std::string& key) const {
+  constexpr double kFarthest_m = 1000;
+  const double metres = checked(value, key);
+  if (std::abs(metres) > kFarthest_m) fail(key, "must be within 1000 m, is " + value.dump());
+  return metres;
+}
+
 double JsonEntry::number(const std::string& key, std::optional<double> fallback, double min, double max) {
   const auto* found = find(key);
   if (!found && !fallback) fail(key, "is missing; must be " + range(min, max));
@@ -91,7 +98,7 @@ std::vector<double> JsonEntry::numbers(const std::string& key, std::size_t count
     fail(key,
          (found ? "must be" : "is missing; must be") + (" a list of " + std::to_string(count)) + " numbers");
   std::vector<double> out;
-  for (const auto& item : *found) out.push_back(checked(item, key));
+  for (const auto& item : *found) out.push_back(coordinate(item, key));
   return out;
 }
 
@@ -114,7 +121,7 @@ std::vector<Eigen::Vector2d> JsonEntry::path(const std::string& key) {
     const auto& point = found->at(i);
     const std::string item = key + "[" + std::to_string(i) + "]";
     if (!point.is_array() || point.size() != 2) fail(item, "must be a point [x, y]");
-    out.emplace_back(checked(point[0], item), checked(point[1], item));
+    out.emplace_back(coordinate(point[0], item), coordinate(point[1], item));
   }
   return out;
 }

@@ -28,7 +28,7 @@ class JsonEntry {
   /// Text that must be one of `choices`.
   std::string choice(const std::string& key, std::optional<std::string> fallback,
                      const std::vector<std::string>& choices);
-  /// Array of `count` finite numbers.
+  /// Array of `count` coordinates or sizes, m: within 1000 m.
   std::vector<double> numbers(const std::string& key, std::size_t count);
   /// "#rrggbb" as shares in [0, 1].
   std::array<double, 3> color(const std::string& key, const std::array<double, 3>& fallback);
@@ -50,6 +50,7 @@ class JsonEntry {
  private:
   const nlohmann::json* find(const std::string& key);
   double checked(const nlohmann::json& value, const std::string& key) const;
+  double coordinate(const nlohmann::json& value, const std::string& key) const;
 
   nlohmann::json value_;
   std::string file_, place_;

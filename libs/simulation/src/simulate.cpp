@@ -8,8 +8,8 @@
 #include <tbb/task_group.h>
 
 #include "roomgraph/core/output_folder.h"
-#include "roomgraph/observations/rawlog_writer.h"
 #include "roomgraph/observations/detection_comment.h"
+#include "roomgraph/observations/rawlog_writer.h"
 #include "roomgraph/simulation/color_renderer.h"
 #include "roomgraph/simulation/scene.h"
 #include "truth_files.h"
@@ -94,7 +94,7 @@ std::vector<std::string> fileNames(const World& world) {
 Simulation::Simulation(const World& world, const std::filesystem::path& folder,
                        const SimulateOptions& options)
     : world_(world),
-      folder_(folder, fileNames(world)),
+      folder_(folder, fileNames(world), {world.file}),
       options_(options),
       scene_(world),
       rawlog_(folder_.pending(world.name + ".rawlog")),

@@ -36,6 +36,7 @@ void TruthFile::line(const char* format, ...) {
   std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   *this << text << "\n";
+  check();
 }
 
 void writePose(TruthFile& file, double t, const Pose3& pose) {

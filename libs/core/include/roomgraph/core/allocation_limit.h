@@ -7,9 +7,9 @@
 namespace roomgraph {
 
 /// While it lives, this thread may allocate `bytes` in all through operator new and mrpt::aligned_malloc;
-/// what goes beyond throws std::bad_alloc. Memory that is freed again counts as well. Exception
-/// handlers still get what their messages need. Limits may be nested: an inner one replaces the outer one
-/// while it lives. Other threads are not concerned.
+/// what goes beyond throws std::bad_alloc. Memory that is freed again counts as well. Small
+/// allocations still get a quarter of a megabyte then, so that exceptions can be made and told. Limits may be
+/// nested: an inner one replaces the outer one while it lives. Other threads are not concerned.
 ///
 /// Why: MRPT's readers resize containers to whatever count a file gives before they read the elements, and
 /// its allocator returns null instead of throwing. A damaged count would fill the memory or crash. No class'

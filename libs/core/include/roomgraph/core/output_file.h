@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <vector>
 
 namespace roomgraph {
 
@@ -26,8 +27,8 @@ class OutputFile : public std::ofstream {
 /// what it held before, or all of the new content.
 class PendingFile {
  public:
-  /// Reserves the temporary name. Throws RunError: the folder cannot be written, or another process is
-  /// writing the same file.
+  /// Reserves the temporary name. Throws RunError: the folder cannot be written, the place is a folder or a
+  /// device, or another process is writing the same file.
   explicit PendingFile(const std::filesystem::path& place);
   /// Removes what was not put into place.
   ~PendingFile();
@@ -47,6 +48,9 @@ class PendingFile {
 /// Writes all of a file at once, by way of a PendingFile; what is not a regular file (a pipe, /dev/stdout) is
 /// written directly. Throws RunError naming file and cause.
 void writeFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+
+/// Throws ConfigError when `output` is one of the inputs, under whatever name.
+void requireOther(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
 
 /// Waits until the file is on the disk: some file systems find only then that it is full. Throws RunError.
 void flushToDisk(const std::filesystem::path& file);

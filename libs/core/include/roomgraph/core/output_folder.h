@@ -10,14 +10,15 @@ namespace roomgraph {
 
 /// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and put into
 /// place when all are whole, so FOLDER holds the former results or the new ones, never some of each. It is
-/// locked meanwhile (the lock goes with the process). A process that is killed leaves that; the next one
-/// removes it.
+/// locked meanwhile (the lock goes with the process). What a killed process left is removed by the next one;
+/// if it was killed while the files changed places, the next one goes on with that.
 class OutputFolder {
  public:
   /// Makes and locks the folder. `names`: every file that such a command may write, the one that says that
   /// all are there last. Throws RunError: cannot be made or written, one of the names is a folder, or another
-  /// process uses it.
-  OutputFolder(const std::filesystem::path& folder, std::vector<std::string> names);
+  /// process uses it; ConfigError: one of the inputs would be replaced or removed.
+  OutputFolder(const std::filesystem::path& folder, std::vector<std::string> names,
+               const std::vector<std::filesystem::path>& inputs = {});
   /// Removes what was not published.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -27,14 +28,16 @@ class OutputFolder {
   const std::filesystem::path& folder() const { return folder_; }
   /// Where to write the file `name`, which is one of the names.
   std::filesystem::path pending(const std::string& name) const;
-  /// Throws ConfigError when `input` is a file that publish() would replace or remove.
-  void protect(const std::filesystem::path& input) const;
   /// Puts all files into place, the last name last; removes those of the names that were not written this
   /// time. Before that the last one of the former results goes: without it a folder is not whole. Signals
   /// that end a program wait meanwhile. Throws RunError.
   void publish();
 
  private:
+  void protect(const std::filesystem::path& input) const;
+  void lock();
+  void settle();
+
   std::filesystem::path folder_, unfinished_;
   std::vector<std::string> names_;
   int lock_ = -1;

@@ -25,8 +25,8 @@ struct RunOrigin {
 /// written.
 class RunOutput : public Sink {
  public:
-  /// Makes and locks the folder.
-  explicit RunOutput(const std::filesystem::path& folder);
+  /// Makes and locks the folder. Throws ConfigError when one of the inputs would be replaced.
+  RunOutput(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs);
 
   void onStep(const StepReport& report) override;
 

@@ -51,8 +51,8 @@ struct Stages {
 };
 
 /// Loads the plug-ins, makes the stages and gives them their parameters. `objects_file`: the object database
-/// when the config names none. Throws ConfigError (unknown section, key, class, value) or InputError (object
-/// database, network file).
+/// when the config names none. Throws ConfigError (unknown section, key, class, value; object database) or
+/// InputError (network file).
 std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& objects_file);
 
 /// Every section and key that a config may hold, with all registered implementations.

@@ -26,7 +26,8 @@ struct SimulateResult {
 };
 
 /// Drives through the world and writes NAME.rawlog (gzip) and the truth files into `folder`, which is made.
-/// The same world and seed give the same bytes. Throws RunError when something cannot be written or rendered.
+/// The same world and seed give the same bytes. Throws RunError when something cannot be written or rendered,
+/// ConfigError when the world file would be replaced.
 SimulateResult simulate(const World& world, const std::filesystem::path& folder,
                         const SimulateOptions& options);
 
