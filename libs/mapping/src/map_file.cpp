@@ -2,10 +2,11 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/io/zip.h>
 #include <mrpt/serialization/CArchive.h>
+#include <zlib.h>
 
 #include <new>
+#include <stdexcept>
 
 #include "map_check.h"
 #include "roomgraph/core/allocation_limit.h"
@@ -55,17 +56,32 @@ mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& 
   }
 }
 
+// MRPT's own function for this goes by way of a temporary file, whose name two processes may have in common.
+std::string gzipped(std::string_view bytes) {
+  constexpr int kLevel = 6, kGzipWindow = 15 + 16, kMemory = 8;
+  z_stream stream{};
+  if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzipWindow, kMemory, Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string out(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  const int code = deflate(&stream, Z_FINISH);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (code != Z_STREAM_END) throw std::logic_error("zlib's bound of the compressed size does not hold");
+  return out;
+}
+
 }  // namespace
 
 void saveMap(const CSemanticMap& map, const std::filesystem::path& file) {
   mrpt::io::CMemoryStream memory;
   auto archive = mrpt::serialization::archiveFrom(memory);
   archive << map;
-  const auto* begin = static_cast<const std::uint8_t*>(memory.getRawBufferData());
-  std::vector<std::uint8_t> zipped;
-  if (!mrpt::io::zip::compress_gz_data_block({begin, begin + memory.getTotalBytesCount()}, zipped, 6))
-    throw RunError("cannot write " + file.string() + ": compression failed");
-  writeFileAtomically(file, {reinterpret_cast<const char*>(zipped.data()), zipped.size()});
+  writeFileAtomically(file, gzipped({static_cast<const char*>(memory.getRawBufferData()),
+                                     static_cast<std::size_t>(memory.getTotalBytesCount())}));
 }
 
 CSemanticMap loadMap(const std::filesystem::path& file) {
