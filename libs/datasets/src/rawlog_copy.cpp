@@ -39,8 +39,10 @@ double timeOf(const CSerializable::Ptr& object) {
   const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
   double earliest = std::numeric_limits<double>::infinity();
   if (frame)
-    for (const auto& observation : *frame)
+    for (const auto& observation : *frame) {
+      if (!observation) continue;  // MRPT could not make it
       if (const double t = stampOf(*observation); t != kAtOnce) earliest = std::min(earliest, t);
+    }
   return std::isfinite(earliest) ? earliest : kAtOnce;
 }
 
