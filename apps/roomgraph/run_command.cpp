@@ -13,6 +13,7 @@
 #include "interrupts.h"
 #include "program.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/mentioned_files.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
@@ -58,7 +59,7 @@ void protectInputs(const RunOptions& options, const Configuration& configuration
   for (const auto& file : {std::filesystem::path(options.input), std::filesystem::path(options.map),
                            configuration.file, configuration.objects_file})
     output.protect(file);
-  for (const auto& entry : configuration.config.entries()) output.protect(entry.folder / entry.value);
+  for (const auto& file : mentionedFiles(configuration.config)) output.protect(file);
 }
 
 // Sinks that the command line asks for, besides the run's own files.
