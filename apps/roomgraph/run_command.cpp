@@ -7,7 +7,6 @@
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <optional>
-#include <sstream>
 
 #include "commands.h"
 #include "configuration.h"
@@ -15,6 +14,7 @@
 #include "program.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/mentioned_files.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
@@ -58,13 +58,7 @@ void check(const RunOptions& options, const Stages& stages) {
 std::vector<std::filesystem::path> inputsOf(const RunOptions& options, const Configuration& configuration) {
   std::vector<std::filesystem::path> files{options.input, options.map, configuration.file,
                                            configuration.objects_file};
-  for (const auto& entry : configuration.config.entries()) {
-    std::istringstream items(entry.value);
-    for (std::string item; std::getline(items, item, ',');) {
-      item.erase(0, item.find_first_not_of(' '));
-      if (!item.empty()) files.push_back(entry.folder / item);
-    }
-  }
+  for (const auto& file : mentionedFiles(configuration.config)) files.push_back(file);
   return files;
 }
 

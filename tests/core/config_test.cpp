@@ -7,6 +7,7 @@
 #include "errors_of.h"
 #include "example_stages.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/mentioned_files.h"
 #include "temp_file.h"
 
 namespace roomgraph {
@@ -80,6 +81,57 @@ TEST(Config, CurrentValuesReadBack) {
   PoliteGreeter copy;
   Config::fromText(text).read("greeting", copy);
   EXPECT_EQ(currentValues(copy), values);
+}
+
+class Texts : public Configurable {
+ public:
+  void declareParameters(ParameterVisitor& v) override {
+    v.add("text", text, {.doc = ""});
+    v.add("list", list, {.doc = ""});
+    v.add("after", after, {.doc = ""});
+  }
+  std::string text, after;
+  std::vector<std::string> list;
+};
+
+// Every text of up to four of the characters that mean something, alone and as an item of a list.
+TEST(Config, AnyTextComesBackAsItWas) {
+  const std::string special = "a \"\\#;,=[]\n\r\t";
+  std::vector<std::string> nasty{""};
+  for (std::size_t i = 0; nasty[i].size() < 4; ++i)
+    for (const char c : special) nasty.push_back(nasty[i] + c);
+  for (std::size_t i = 0; i < nasty.size(); ++i) {
+    Texts written, read;
+    written.text = nasty[i];
+    written.after = "end";
+    written.list = {nasty[i], "b", nasty[(i * 7919) % nasty.size()]};
+    std::string lines = "[s]\n";
+    for (const auto& [key, value] : currentValues(written)) lines += key + " = " + value + "\n";
+    Config::fromText(lines).read("s", read);
+    ASSERT_EQ(read.text, written.text) << lines;
+    ASSERT_EQ(read.list, written.list) << lines;
+    ASSERT_EQ(read.after, "end") << lines;
+  }
+}
+
+TEST(Config, QuotesHideCommentsOnlyWhereTheyOpen) {
+  Texts read;
+  const auto config = Config::fromText(
+      "[s]\ntext = \"a # b\" # comment\nlist = c, \"d ; e\", f\"g # comment\nafter = 5\" #\n");
+  config.read("s", read);
+  EXPECT_EQ(read.text, "a # b");
+  EXPECT_THAT(read.list, ElementsAre("c", "d ; e", "f\"g"));
+  EXPECT_EQ(read.after, "5\"");
+  EXPECT_EQ(config.text("s", "text", ""), "a # b");
+  EXPECT_THAT(
+      messageOf<ConfigError>([&] { Config::fromText("[s]\ntext = \"a # b\n", "c.ini").read("s", read); }),
+      AllOf(HasSubstr("c.ini:2"), HasSubstr("double quotes")));
+}
+
+TEST(Config, MentionedFilesAreTextsAndItems) {
+  const auto config = Config::fromText("[s]\ntext = \"a #1, b\"\nlist = c, \"d, e\"\n");
+  const auto files = mentionedFiles(config);
+  EXPECT_THAT(files, ::testing::IsSupersetOf<std::filesystem::path>({"a #1, b", "c", "d, e"}));
 }
 
 TEST(Config, MissingFile) {

@@ -77,5 +77,20 @@ TEST(Parameters, FormattedValuesReadBackExactly) {
   EXPECT_EQ(parsed<std::vector<std::string>>(formatParameter(list)), list);
 }
 
+TEST(Parameters, QuotesOnlyWhereTheyAreNeeded) {
+  EXPECT_EQ(formatParameter(std::string("/a b/c;d#e,f\\g.txt")), "/a b/c;d#e,f\\g.txt");
+  EXPECT_EQ(formatParameter(std::string("#e6862a")), "#e6862a");
+  EXPECT_EQ(formatParameter(std::string("a #1, b")), R"("a #1, b")");
+  EXPECT_EQ(formatParameter(std::string(R"(" \ )")), R"("\" \\ ")");
+  EXPECT_EQ(formatParameter(std::vector<std::string>{"a", "b, c", "d"}), R"(a, "b, c", d)");
+  EXPECT_THAT(parsed<std::vector<std::string>>(R"( "a, b" ,c,"", "d")"), ElementsAre("a, b", "c", "", "d"));
+  EXPECT_EQ(parsed<std::string>(R"(say "a")"), R"(say "a")") << "a quote inside is a character";
+  for (const char* text : {R"(")", R"("a)", R"("a" b)", R"("a\")", R"("\x")"}) {
+    EXPECT_THAT(refused<std::string>(text), HasSubstr("double quotes")) << text;
+    EXPECT_THAT(refused<std::vector<std::string>>("c, " + std::string(text)), HasSubstr("double quotes"))
+        << text;
+  }
+}
+
 }  // namespace
 }  // namespace roomgraph

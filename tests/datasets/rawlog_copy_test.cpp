@@ -91,6 +91,15 @@ TEST_F(RawlogCopyTest, SensoryFramesAndTheEndOfTheInput) {
             joined({input[0], commentAt(1.1), input[1], input[2], commentAt(2.1), input[3], commentAt(9)}));
 }
 
+TEST_F(RawlogCopyTest, SensoryFramesWithMissingObjects) {
+  const std::string frame = withNull(makeSensoryFrame({makeScan(1), makeImages(2)}));
+  writeBytes(in, bytesOf(makeAction(1, 1, 0, 0)) + frame);
+  RawlogCopy copy(in, out);
+  copy.insert(*detectionsAt(2));
+  copy.finish();
+  EXPECT_EQ(unzipped(out), joined({makeAction(1, 1, 0, 0), commentAt(2)}) + frame);
+}
+
 TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {
   std::filesystem::create_directories(folder / "x_Images");
   auto images = makeImages(1);

@@ -137,4 +137,16 @@ inline mrpt::obs::CSensoryFrame::Ptr makeSensoryFrame(
   return frame;
 }
 
+/// Bytes of a sensory frame whose first observation, a scan, MRPT wrote as a null pointer.
+inline std::string withNull(const mrpt::obs::CSensoryFrame::Ptr& frame) {
+  std::string bytes = bytesOf(frame);
+  const std::string scan = bytesOf(frame->getObservationByIndex(0));
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive.WriteObject(nullptr);
+  const std::string null(static_cast<const char*>(stream.getRawBufferData()),
+                         static_cast<std::size_t>(stream.getTotalBytesCount()));
+  return bytes.replace(bytes.find(scan), scan.size(), null);
+}
+
 }  // namespace roomgraph::test

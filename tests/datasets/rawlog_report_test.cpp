@@ -251,6 +251,13 @@ TEST_F(Doctor, ActionFormat) {
   EXPECT_NEAR(*report.sensors[0].path_length_m, 1, 1e-9) << "the first action is where odometry begins";
   EXPECT_NEAR(report.sensors[0].odometry_turn_rad, 0.5, 1e-9);
   EXPECT_THAT(report.findings, Contains(finding(Severity::kNote, "1 of 2 actions have no time stamp")));
+  const auto damaged =
+      inspect({makeAction(1, 1e12, 0, 0), makeSensoryFrame({makeScan(1)}), makeAction(2, 1, 0, 0.5)});
+  EXPECT_EQ(damaged.skipped.size(), 1u);
+  const auto& actions = damaged.sensors.at(0);
+  EXPECT_EQ(actions.class_name, "CActionCollection");
+  EXPECT_EQ(actions.count, 1) << "what was skipped is not counted again";
+  EXPECT_EQ(actions.invalid_times, 0);
 }
 
 TEST(DoctorOnRealData, LabRecordingIsWell) {

@@ -14,8 +14,10 @@ using namespace roomgraph::test;
 using roomgraph::testing::messageOf;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::Pair;
 
 mrpt::obs::CObservation2DRangeScan::Ptr scanOf(const std::string& label, double t) {
@@ -107,6 +109,19 @@ TEST_F(SensorChoiceTest, LabelsChoose) {
   EXPECT_DOUBLE_EQ(content.odometry[0].odom_from_robot.x, 2);
   EXPECT_THAT(content.statistics.sensor_warnings, IsEmpty()) << "the user knows";
   EXPECT_EQ(content.statistics.skipped.at("CObservation2DRangeScan 'FRONT': another sensor was chosen"), 3);
+}
+
+TEST_F(SensorChoiceTest, WhatHasNoLabelCannotBeChosen) {
+  const auto advice = [&](const std::vector<Object>& objects) {
+    writeRawlog(file, objects);
+    return read().statistics.sensor_warnings.at(0);
+  };
+  EXPECT_THAT(advice({scanOf("FRONT", 1), scanOf("", 1.1)}),
+              AllOf(HasSubstr("'FRONT' is used, '' not; a sensor without a label cannot be chosen"),
+                    Not(HasSubstr("--set"))));
+  EXPECT_THAT(advice({scanOf("FRONT", 1), scanOf("", 1.1), scanOf("REAR", 1.2)}),
+              EndsWith("choose with --set lidar.label=REAR"));
+  EXPECT_THAT(advice({scanOf("", 1), scanOf("REAR", 1.2)}), EndsWith("choose with --set lidar.label=REAR"));
 }
 
 TEST_F(SensorChoiceTest, OneOfEachKindNeedsNoWord) {

@@ -19,6 +19,7 @@ using namespace roomgraph::test;
 using roomgraph::testing::messageOf;
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -45,7 +46,15 @@ class TumImport : public ::testing::Test {
     while (auto record = reader.next()) out.push_back(std::get<Frame>(std::move(*record)));
     return out;
   }
-  TemporaryFolder folder_;
+  static std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  TemporaryFolder folder_, elsewhere_;
+  const std::filesystem::path other_ = elsewhere_.path();
 };
 
 TEST_F(TumImport, AssociationsInEitherColumnOrder) {
@@ -210,12 +219,103 @@ TEST_F(TumImport, OutputMustBeAFile) {
 TEST_F(TumImport, ExternalImagesStayLossless) {
   addImages("a", 5001);
   writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
-  EXPECT_EQ(convert({.external_images = true}).written, 1);
-  EXPECT_TRUE(std::filesystem::is_directory(folder_ / "out_Images"));
-  const auto read = frames();
-  ASSERT_EQ(read.size(), 1u);
-  EXPECT_EQ(read[0].color.at<cv::Vec3b>(2, 3), cv::Vec3b(10, 120, 230));
-  EXPECT_NEAR(read[0].depth.at<float>(2, 3), 1.0002, 1e-6);
+  for (const char* name : {"out.rawlog", "zipped.rawlog.gz"}) {
+    const auto file = other_ / name;
+    EXPECT_EQ(importTum(folder_.path(), file, {.external_images = true}).written, 1);
+    RawlogReader reader(file);
+    const auto frame = std::get<Frame>(reader.next().value());
+    EXPECT_EQ(frame.color.at<cv::Vec3b>(2, 3), cv::Vec3b(10, 120, 230));
+    EXPECT_NEAR(frame.depth.at<float>(2, 3), 1.0002, 1e-6);
+  }
+  EXPECT_THAT(namesIn(other_), ElementsAre("out.rawlog", "out_Images", "zipped.rawlog.gz", "zipped_Images"));
+}
+
+TEST_F(TumImport, AFormerImportStaysWholeUntilTheNewOneIs) {
+  addImages("a", 5000);
+  addImages("b", 6000);
+  const auto import = [&](const std::function<void(std::size_t, std::size_t)>& progress) {
+    return importTum(folder_.path(), other_ / "x.rawlog", {.external_images = true}, progress);
+  };
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_ / "groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  import(nullptr);
+  const auto former = namesIn(other_ / "x_Images");
+  writeBytes(folder_ / "associations.txt", "2 rgb/b.png 2 depth/b.png\n");
+  writeBytes(folder_ / "groundtruth.txt", "2 0 0 0 0 0 0 1\n");
+  // A folder in its place is what the last step of writing a rawlog fails at.
+  const auto place = other_ / "x.rawlog", aside = other_ / "aside";
+  EXPECT_THROW(import([&](std::size_t, std::size_t) {
+                 std::filesystem::rename(place, aside);
+                 std::filesystem::create_directories(place / "occupied");
+               }),
+               RunError);
+  std::filesystem::remove_all(place);
+  std::filesystem::rename(aside, place);
+  EXPECT_EQ(namesIn(other_ / "x_Images"), former);
+  EXPECT_EQ(readBytes(other_ / "x.groundtruth.txt"), "1 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(namesIn(other_), ElementsAre("x.groundtruth.txt", "x.rawlog", "x_Images"));
+  import(nullptr);
+  EXPECT_THAT(namesIn(other_ / "x_Images"), ElementsAre("RGBD_2.000000_depth.bin", "RGBD_2.000000_rgb.png"));
+  EXPECT_EQ(readBytes(other_ / "x.groundtruth.txt"), "2 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(namesIn(other_), ElementsAre("x.groundtruth.txt", "x.rawlog", "x_Images"));
+  // One that was killed while it moved the images left the former ones in its own folder.
+  std::filesystem::create_directories(other_ / "x_Images.unfinished");
+  std::filesystem::rename(other_ / "x_Images", other_ / "x_Images.unfinished/old");
+  EXPECT_THROW(import([](std::size_t, std::size_t) { throw Interrupted("now"); }), Interrupted);
+  EXPECT_EQ(namesIn(other_ / "x_Images").size(), 2u);
+  EXPECT_THAT(namesIn(other_), ElementsAre("x.groundtruth.txt", "x.rawlog", "x_Images"));
+}
+
+TEST_F(TumImport, NothingOfAFormerImportIsLeftBesideANewOne) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_ / "groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  const auto file = other_ / "x.rawlog";
+  importTum(folder_.path(), file, {.external_images = true});
+  std::filesystem::remove(folder_ / "groundtruth.txt");
+  const auto result = importTum(folder_.path(), file);
+  EXPECT_THAT(namesIn(other_), ElementsAre("x.rawlog"));
+  EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("x.groundtruth.txt of the former import was removed"),
+                                           HasSubstr("x_Images of the former import was removed")));
+  // Of somebody else: not beside an import, and not only images of one.
+  std::filesystem::remove(file);
+  writeBytes(other_ / "x.groundtruth.txt", "mine");
+  EXPECT_THAT(importTum(folder_.path(), file).warnings, IsEmpty());
+  importTum(folder_.path(), file, {.external_images = true});
+  writeBytes(other_ / "x_Images" / "holiday.png", "mine");
+  importTum(folder_.path(), file);
+  EXPECT_EQ(readBytes(other_ / "x_Images" / "holiday.png"), "mine");
+  EXPECT_THAT(messageOf<ConfigError>([&] { importTum(folder_.path(), file, {.external_images = true}); }),
+              HasSubstr("x_Images: is not from an import"));
+  EXPECT_EQ(readBytes(other_ / "x_Images" / "holiday.png"), "mine");
+}
+
+TEST_F(TumImport, WhatIsReadIsNotReplaced) {
+  addImages("a", 5000);
+  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  for (const char* name : {"associations.txt", "camera.json", "rgb/a.png", "depth/a.png"}) {
+    const std::string before = readBytes(folder_ / name);
+    EXPECT_THAT(messageOf<ConfigError>([&] { importTum(folder_.path(), folder_ / name); }),
+                HasSubstr("is read by this import"))
+        << name;
+    EXPECT_EQ(readBytes(folder_ / name), before);
+  }
+  const auto refusal = [&](const std::filesystem::path& folder, const std::filesystem::path& rawlog) {
+    return messageOf<ConfigError>([&] { importTum(folder, rawlog, {.external_images = true}); });
+  };
+  const auto input = other_ / "desk_Images";
+  std::filesystem::copy(folder_.path(), input, std::filesystem::copy_options::recursive);
+  std::filesystem::create_directory_symlink(input, other_ / "link");
+  for (const auto& folder : {input, other_ / "link", input / ""})
+    EXPECT_THAT(refusal(folder, other_ / "desk.rawlog"), HasSubstr("is read; name another rawlog")) << folder;
+  EXPECT_THAT(refusal(input, input / "x.rawlog"), HasSubstr("is read")) << "in the folder";
+  std::filesystem::create_directories(other_ / "y_Images");
+  std::filesystem::rename(input, other_ / "y_Images/desk");
+  EXPECT_THAT(refusal(other_ / "y_Images/desk", other_ / "y.rawlog"), HasSubstr("is read")) << "around it";
+  writeBytes(folder_ / "associations.txt",
+             "1 " + (other_ / "y_Images/desk/rgb/a.png").string() + " 1 depth/a.png\n");
+  EXPECT_THAT(refusal(folder_.path(), other_ / "y.rawlog"), HasSubstr("is read")) << "an image elsewhere";
+  EXPECT_TRUE(std::filesystem::exists(other_ / "y_Images/desk/rgb/a.png"));
 }
 
 TEST_F(TumImport, NegativeFocalLengthMirrorsTheWorldOnly) {

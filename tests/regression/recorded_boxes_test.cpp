@@ -68,6 +68,18 @@ TEST_F(RecordedBoxesRun, WithoutBoxesOneLineSaysWhatToDo) {
   EXPECT_EQ(run(input).err, "") << "no images";
 }
 
+TEST_F(RecordedBoxesRun, BoxesThatStartLateAreNotDenied) {
+  auto records = TinyRecording(4).records({false, true, true});
+  while (records.size() < 20001) records.push_back(test::makeOdometry(1001, 0, 0, 0));
+  const auto input = folder.file("long.rawlog");
+  test::writeRawlog(input, records);
+  EXPECT_THAT(
+      linesOf(run(input).err),
+      ElementsAre("roomgraph: warning: no network named and no boxes at the beginning of long.rawlog: "
+                  "objects will be mapped only if boxes come later; name one with --set "
+                  "detection.models=FILE.onnx"));
+}
+
 TEST_F(RecordedBoxesRun, BoxesOfOtherTimesAreWarnedAbout) {
   ASSERT_EQ(run(kRoom).exit_code, 0);
   std::string shifted;

@@ -47,6 +47,34 @@ TEST(Repeat, SameInputGivesTheSameBitsWhateverTheThreads) {
   expectSameFiles(first, single);
 }
 
+// Names of files that mean something in an INI file come back from the run's own config.
+TEST(Repeat, FromTheConfigOfARunInAFolderWithAnOddName) {
+  TemporaryFolder folder;
+  const auto odd = folder.path() / "a #1, b";
+  const std::filesystem::path source = ROOMGRAPH_SOURCE_DIR;
+  std::filesystem::create_directories(odd);
+  const auto room = source / "rawlogs" / "tiny_room.rawlog";
+  const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", room.string(), "-o", output, "--quiet", "--no-snapshot"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CallResult result = call(folder.path(), arguments, odd);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return odd / output;
+  };
+  std::filesystem::copy_file(run("boxes", {}) / "detections.jsonl", odd / "boxes.jsonl");
+  const auto first = run("first", {"--set", "detection.file=boxes.jsonl"});
+  EXPECT_NE(contentOf(first / "config.ini").find("file = \"" + (odd / "boxes.jsonl").string() + "\"\n"),
+            std::string::npos);
+  const auto second = run("second", {"--config", "first/config.ini"});
+  for (const char* name : {"config.ini", "landmarks.json", "trajectory.tum", "detections.jsonl"})
+    EXPECT_TRUE(contentOf(first / name) == contentOf(second / name)) << name << " differs";
+  const CallResult onto = call(
+      folder.path(),
+      {"run", room.string(), "-o", "first", "--quiet", "--set", "detection.file=\"first/detections.jsonl\""},
+      odd);
+  expectOneLine(onto, 2, ::testing::HasSubstr("would be replaced by its results"));
+}
+
 // The replay is interrupted as soon as the first live poses are on disk.
 class Interrupt : public ::testing::TestWithParam<int> {};
 
@@ -58,7 +86,8 @@ TEST_P(Interrupt, EndsTheReplayAndKeepsWhatItFound) {
   Program program(folder.path(), {"run", folder.file("long.rawlog").string(), "-o", out.string(), "--quiet"});
   for (int i = 0; i < 3000; ++i) {
     std::error_code none_yet;
-    if (std::filesystem::file_size(out / "roomgraph_unfinished" / "live.tum", none_yet) > 0 && !none_yet) break;
+    if (std::filesystem::file_size(out / "roomgraph_unfinished" / "live.tum", none_yet) > 0 && !none_yet)
+      break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   ASSERT_EQ(kill(program.pid(), GetParam()), 0);

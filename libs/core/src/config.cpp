@@ -104,10 +104,9 @@ void Config::read(const std::string& section, Configurable& target) const {
 
 std::string Config::text(const std::string& section, const std::string& key,
                          const std::string& fallback) const {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const IniEntry& entry) {
-    return entry.section == section && entry.key == key;
-  });
-  return found == entries_.end() ? fallback : found->value;
+  std::string value = fallback;
+  Reader(entries_, section).add(key, value, {.doc = ""});
+  return value;
 }
 
 std::vector<std::pair<std::string, std::string>> currentValues(Configurable& source) {

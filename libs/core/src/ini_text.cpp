@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "quoted_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/text_file.h"
 
@@ -21,7 +22,12 @@ std::string withoutComment(const std::string& line) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   const auto equals = line.find('=');
   const auto value = equals == std::string::npos ? equals : line.find_first_not_of(" \t", equals + 1);
+  bool begins_item = false;  // of a list, or the value: where quotes may open
   for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto end = begins_item && line[i] == '"' ? endOfQuoted(line, i) : std::string::npos;
+    if (end == line.size()) break;
+    if (end != std::string::npos) i = end;
+    if (!blank(line[i])) begins_item = i == equals || line[i] == ',';
     const bool marker = line[i] == '#' || line[i] == ';';
     if (!marker || (i > 0 && !blank(line[i - 1]))) continue;
     // "color = #e6862a": a marker with text attached to it, first after the equals sign, belongs to the

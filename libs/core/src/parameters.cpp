@@ -4,19 +4,13 @@
 
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include "quoted_text.h"
 #include "roomgraph/core/suggest.h"
 
 namespace roomgraph {
 namespace {
-
-std::string trim(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 template <class Number>
 Number parseNumber(const std::string& text, std::string_view type, const ParameterInfo& info) {
@@ -44,10 +38,13 @@ std::string formatParameter(int value) {
   return std::to_string(value);
 }
 std::string formatParameter(const std::string& value) {
-  return value;
+  return quotedWhenNeeded(value, false);
 }
 std::string formatParameter(const std::vector<std::string>& value) {
-  return join(value);
+  std::vector<std::string> items;
+  items.reserve(value.size());
+  for (const auto& item : value) items.push_back(quotedWhenNeeded(item, true));
+  return join(items);
 }
 
 std::string formatParameter(double value) {
@@ -75,19 +72,14 @@ void parseParameter(const std::string& text, const ParameterInfo& info, double& 
 }
 
 void parseParameter(const std::string& text, const ParameterInfo& info, std::string& value) {
-  checkChoice(text, info);
-  value = text;
+  const std::string meant = unquoted(text);
+  checkChoice(meant, info);
+  value = meant;
 }
 
 void parseParameter(const std::string& text, const ParameterInfo& info, std::vector<std::string>& value) {
-  std::vector<std::string> items;
-  std::istringstream stream(text);
-  for (std::string item; std::getline(stream, item, ',');) {
-    item = trim(item);
-    if (item.empty()) continue;
-    checkChoice(item, info);
-    items.push_back(item);
-  }
+  const std::vector<std::string> items = listItems(text);
+  for (const auto& item : items) checkChoice(item, info);
   value = items;
 }
 

@@ -39,8 +39,10 @@ double timeOf(const CSerializable::Ptr& object) {
   const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object);
   double earliest = std::numeric_limits<double>::infinity();
   if (frame)
-    for (const auto& observation : *frame)
+    for (const auto& observation : *frame) {
+      if (!observation) continue;  // MRPT could not make it
       if (const double t = stampOf(*observation); t != kAtOnce) earliest = std::min(earliest, t);
+    }
   return std::isfinite(earliest) ? earliest : kAtOnce;
 }
 
@@ -55,9 +57,7 @@ void linkImages(const fs::path& input, const fs::path& output) {
   const fs::path images = imageFolderOf(input), expected = imageFolderOf(output);
   std::error_code error;
   if (!fs::is_directory(images, error) || fs::equivalent(images, expected, error)) return;
-  fs::path name = output;
-  if (name.extension() == ".gz") name.replace_extension();
-  const fs::path link = fs::absolute(output).parent_path() / (name.stem().string() + "_Images");
+  const fs::path link = withoutEndings(fs::absolute(output)).string() + "_Images";
   fs::create_directory_symlink(fs::canonical(images), link, error);
   if (error)
     throw RunError(link.string() + ": no link to the external images in " + images.string() + ": " +

@@ -160,12 +160,11 @@ class Inspector {
   }
 
   void addActions(const CActionCollection& actions) {
-    Sensor& entry = sensor("", "CActionCollection");
     if (const auto problem = sum_.add(actions); !problem.empty()) {
-      entry.times.add(std::nullopt);
       ++skipped_["CActionCollection: " + problem];
       return;
     }
+    Sensor& entry = sensor("", "CActionCollection");
     addTime(entry, sum_.time());
     addOdometry(entry, sum_.time(), sum_.pose());
   }

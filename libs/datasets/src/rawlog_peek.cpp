@@ -5,9 +5,9 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include <optional>
+#include <algorithm>
+#include <iterator>
 
-#include "odometry_sum.h"
 #include "record_source.h"
 #include "roomgraph/observations/detection_comment.h"
 
@@ -17,15 +17,16 @@ namespace {
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation3DRangeScan;
 
-constexpr double kSpan_s = 10;
-constexpr int kRecords = 2000;
+constexpr int kRecords = 20000;
 constexpr std::uint64_t kBytes = 128u << 20;
 constexpr const char* kImages = "CObservation3DRangeScan";
 
 std::vector<CObservation::Ptr> observationsIn(const mrpt::serialization::CSerializable::Ptr& object) {
   std::vector<CObservation::Ptr> out;
   if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
-    out.assign(frame->begin(), frame->end());
+    std::copy_if(frame->begin(), frame->end(), std::back_inserter(out), [](const auto& observation) {
+      return observation != nullptr;
+    });  // null: MRPT could not make it
   else if (const auto single = std::dynamic_pointer_cast<CObservation>(object))
     out.push_back(single);
   return out;
@@ -43,18 +44,12 @@ RawlogPeek peekRawlog(const std::filesystem::path& file) {
   RecordSource source(file);
   source.skipClass(kImages);
   RawlogPeek peek;
-  std::optional<double> start;
   for (int records = 0; records < kRecords && !(peek.frames && peek.detections); ++records) {
     const auto item = source.next();
+    peek.whole = !item;
     if (!item || item->offset > kBytes) break;
     peek.frames |= !item->object && item->reason.starts_with(kImages);
-    for (const auto& observation : observationsIn(item->object)) {
-      note(peek, observation);
-      const auto t = toSeconds(observation->timestamp);
-      if (!t) continue;
-      if (!start) start = *t;
-      if (*t - *start > kSpan_s) return peek;
-    }
+    for (const auto& observation : observationsIn(item->object)) note(peek, observation);
   }
   return peek;
 }

@@ -93,7 +93,12 @@ std::string SensorChoice::what() const {
 }
 
 std::string SensorChoice::hint() const {
-  return seen_.size() < 2 ? "" : "choose with --set " + section_ + ".label=" + seen_[1];
+  if (seen_.size() < 2) return "";
+  const auto other =
+      std::find_if(seen_.begin() + 1, seen_.end(), [](const auto& label) { return !label.empty(); });
+  if (other == seen_.end())
+    return "a sensor without a label cannot be chosen: give it one first (RawLogViewer of MRPT can)";
+  return "choose with --set " + section_ + ".label=" + *other;
 }
 
 std::vector<std::string> SensorChoices::warnings() const {

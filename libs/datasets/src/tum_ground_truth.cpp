@@ -6,8 +6,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "roomgraph/core/output_file.h"
-
 namespace roomgraph {
 
 namespace fs = std::filesystem;
@@ -23,9 +21,8 @@ fs::path findGroundTruth(const fs::path& folder) {
   return found;
 }
 
-void copyGroundTruth(const fs::path& from, const fs::path& to, bool mirrored,
-                     std::optional<double> frame_rate_hz) {
-  std::ifstream in(from);
+std::string groundTruthText(const fs::path& file, bool mirrored, std::optional<double> frame_rate_hz) {
+  std::ifstream in(file);
   std::ostringstream out;
   for (std::string line; std::getline(in, line);) {
     double t, x, y, z, qx, qy, qz, qw;
@@ -44,7 +41,7 @@ void copyGroundTruth(const fs::path& from, const fs::path& to, bool mirrored,
                   sign * qx, qy, sign * qz, qw);
     out << text;
   }
-  writeFileAtomically(to, out.str());
+  return out.str();
 }
 
 }  // namespace roomgraph

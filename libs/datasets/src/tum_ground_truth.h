@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace roomgraph {
 
@@ -11,9 +12,9 @@ namespace roomgraph {
 /// is none.
 std::filesystem::path findGroundTruth(const std::filesystem::path& folder);
 
-/// Copies "t tx ty tz qx qy qz qw" lines; `mirrored`: poses become S T S, S = diag(1, -1, 1); frame numbers
-/// become seconds at `frame_rate_hz`. Throws RunError when the output cannot be written.
-void copyGroundTruth(const std::filesystem::path& from, const std::filesystem::path& to, bool mirrored,
-                     std::optional<double> frame_rate_hz);
+/// The file's "t tx ty tz qx qy qz qw" lines; `mirrored`: poses become S T S, S = diag(1, -1, 1); frame
+/// numbers become seconds at `frame_rate_hz`.
+std::string groundTruthText(const std::filesystem::path& file, bool mirrored,
+                            std::optional<double> frame_rate_hz);
 
 }  // namespace roomgraph

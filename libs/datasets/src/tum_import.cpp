@@ -16,10 +16,10 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
-#include "roomgraph/observations/rawlog_writer.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
 #include "tum_lists.h"
+#include "tum_output.h"
 
 namespace roomgraph {
 namespace {
@@ -52,20 +52,8 @@ std::size_t sizeOfGzip(const fs::path& file) {
 
 class Writer {
  public:
-  Writer(const fs::path& rawlog, const TumCamera& camera, const TumImportOptions& options)
-      : rawlog_(rawlog), camera_(camera), options_(options) {
-    if (!options.external_images) return;
-    images_ = rawlog.parent_path() / (rawlog.stem().string() + "_Images");
-    pending_images_ = images_.string() + ".unfinished";
-    std::error_code error;
-    fs::remove_all(pending_images_, error);
-    fs::create_directories(pending_images_, error);
-    if (error) throw RunError(pending_images_.string() + ": cannot be made: " + error.message());
-  }
-  ~Writer() {
-    std::error_code ignored;
-    if (!pending_images_.empty()) fs::remove_all(pending_images_, ignored);
-  }
+  Writer(TumOutput& output, const TumCamera& camera, const TumImportOptions& options)
+      : output_(output), camera_(camera), options_(options) {}
 
   /// Empty, or why the pair was left out. Throws InputError when the images do not fit the camera.
   std::string write(const TumPair& pair) {
@@ -83,16 +71,8 @@ class Writer {
     const double rate = options_.frame_rate_hz.value_or(1);
     record.timestamp = mrpt::Clock::fromDouble(pair.t / rate);
     if (options_.external_images) storeOutside(record, pair);
-    rawlog_.write(record);
+    output_.rawlog().write(record);
     return "";
-  }
-  /// Puts images and rawlog into their places.
-  void finish() {
-    std::error_code error;
-    if (!images_.empty()) fs::remove_all(images_, error);
-    if (!images_.empty()) fs::rename(pending_images_, images_, error);
-    if (error) throw RunError("cannot write " + images_.string() + ": " + error.message());
-    rawlog_.finish();
   }
   const PinholeCamera& camera() const { return camera_.camera; }
 
@@ -129,18 +109,18 @@ class Writer {
     std::snprintf(stamp, sizeof stamp, "_%.6f", pair.t);
     const std::string name = options_.label + stamp;
     const std::string color = name + "_rgb" + pair.color.extension().string();
+    const fs::path& folder = output_.images();
     std::error_code error;
-    fs::copy_file(pair.color, pending_images_ / color, fs::copy_options::overwrite_existing, error);
-    if (error) throw RunError("cannot write " + (pending_images_ / color).string() + ": " + error.message());
+    fs::copy_file(pair.color, folder / color, fs::copy_options::overwrite_existing, error);
+    if (error) throw RunError("cannot write " + (folder / color).string() + ": " + error.message());
     record.intensityImage.setExternalStorage(color);
     const std::string depth = name + "_depth.bin";
     const auto bytes = record.rangeImage.size() * sizeof(std::uint16_t);
-    record.rangeImage_convertToExternalStorage(depth, pending_images_.string() + "/");
-    if (sizeOfGzip(pending_images_ / depth) < bytes) failToWrite(pending_images_ / depth, ENOSPC);
+    record.rangeImage_convertToExternalStorage(depth, folder.string() + "/");
+    if (sizeOfGzip(folder / depth) < bytes) failToWrite(folder / depth, ENOSPC);
   }
 
-  RawlogWriter rawlog_;
-  fs::path images_, pending_images_;  ///< empty: images are in the rawlog
+  TumOutput& output_;
   TumCamera camera_;
   const TumImportOptions& options_;
 };
@@ -175,12 +155,16 @@ void checkCenter(const PinholeCamera& camera, std::vector<std::string>& warnings
   warnings.push_back(text.str());
 }
 
-void checkOutput(const fs::path& rawlog) {
-  if (fs::is_directory(rawlog))
-    throw RunError(rawlog.string() + ": is a folder; name the rawlog to write, e.g. " +
-                   (rawlog / "recording.rawlog").string());
-  const fs::path parent = fs::absolute(rawlog).parent_path();
-  if (!fs::is_directory(parent)) throw RunError(rawlog.string() + ": there is no folder " + parent.string());
+// Everything that is read, or would be if another file were not there.
+TumInputs inputsOf(const fs::path& folder, const TumImportOptions& options,
+                   const std::vector<TumPair>& pairs) {
+  TumInputs inputs{folder, {findGroundTruth(folder), options.camera_file.value_or(fs::path())}};
+  for (const char* name :
+       {"associations.txt", "association.txt", "associate.txt", "rgb.txt", "depth.txt", "camera.json"})
+    inputs.files.push_back(folder / name);
+  for (const auto& pair : pairs) inputs.files.insert(inputs.files.end(), {pair.color, pair.depth});
+  std::erase(inputs.files, fs::path());
+  return inputs;
 }
 
 }  // namespace
@@ -189,9 +173,11 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   if (options.frame_rate_hz && !(*options.frame_rate_hz > 0))
     throw ConfigError("the frame rate must be positive");
-  checkOutput(rawlog);
   TumImportResult result;
   const auto pairs = readTumPairs(folder, options.max_time_difference_s, result.warnings);
+  const TumPlaces places = placesOf(rawlog);
+  const TumInputs inputs = inputsOf(folder, options, pairs);
+  checkPlaces(places, inputs, options.external_images);
   const TumCamera camera = readTumCamera(folder, options);
   result.mirrored = camera.mirrored;
   if (camera.mirrored)
@@ -199,17 +185,19 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
         "fy < 0: |fy| is used and the ground truth is mirrored in y to a right-handed world");
   if (!options.frame_rate_hz && lookLikeFrameNumbers(pairs))
     result.warnings.push_back("the time stamps look like frame numbers: give the frame rate (ICL-NUIM: 30)");
-  Writer writer(rawlog, camera, options);
+  TumOutput output(places, options.external_images);
+  Writer writer(output, camera, options);
   writeAll(writer, pairs, result, progress);
   if (result.written == 0)
     throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
                      " pairs can be used; " + result.warnings.back());
   checkCenter(result.camera, result.warnings);
   if (const auto truth = findGroundTruth(folder); !truth.empty()) {
-    result.ground_truth = rawlog.parent_path() / (rawlog.stem().string() + ".groundtruth.txt");
-    copyGroundTruth(truth, result.ground_truth, camera.mirrored, options.frame_rate_hz);
+    result.ground_truth = places.ground_truth;
+    output.setGroundTruth(groundTruthText(truth, camera.mirrored, options.frame_rate_hz));
   }
-  writer.finish();
+  for (const auto& removed : output.commit(inputs))
+    result.warnings.push_back(removed.string() + " of the former import was removed: this one has none");
   return result;
 }
 

@@ -43,12 +43,21 @@ void RawlogWriter::write(std::string_view bytes) {
     failToWrite(impl_->place, errno);
 }
 
-void RawlogWriter::finish() {
+void RawlogWriter::close() {
   errno = 0;
   const int code = gzclose(impl_->file);
   impl_->file = nullptr;
   if (code != Z_OK) failToWrite(impl_->place, errno);
+  flushToDisk(impl_->pending.path());
+}
+
+void RawlogWriter::commit() {
   impl_->pending.commit();
+}
+
+void RawlogWriter::finish() {
+  close();
+  commit();
 }
 
 }  // namespace roomgraph

@@ -10,8 +10,10 @@ std::string missingDetections(const Stages& stages, const std::filesystem::path&
   if (!stages.detector || !stages.detector->idle()) return "";
   const RawlogPeek peek = peekRawlog(rawlog);
   if (peek.detections || !peek.frames) return "";
-  return "no network named and no boxes in " + rawlog.filename().string() +
-         ": objects will not be mapped; name one with --set detection.models=FILE.onnx";
+  return "no network named and no boxes " + std::string(peek.whole ? "in " : "at the beginning of ") +
+         rawlog.filename().string() + ": objects will " +
+         (peek.whole ? "not be mapped" : "be mapped only if boxes come later") +
+         "; name one with --set detection.models=FILE.onnx";
 }
 
 }  // namespace roomgraph

@@ -18,7 +18,8 @@ ReadOptions readOptionsOf(const Stages& stages) {
 void placeSensor(Config& config, const std::string& assignment) {
   parseSensorPoses(assignment, "--pose " + assignment);
   const std::string before = config.text("pipeline", "sensor_poses", "");
-  config.override("pipeline.sensor_poses=" + before + (before.empty() ? "" : ",") + assignment);
+  const std::string poses = before + (before.empty() ? "" : ",") + assignment;
+  config.override("pipeline.sensor_poses=" + formatParameter(poses));
 }
 
 }  // namespace roomgraph

@@ -28,7 +28,7 @@ class Config {
   /// out with absolute paths. Throws ConfigError with file, section, key, value and what is allowed.
   void read(const std::string& section, Configurable& target) const;
 
-  /// Raw text of one entry, or `fallback`.
+  /// Text of one entry, or `fallback`. Throws ConfigError when its quotes are not closed.
   std::string text(const std::string& section, const std::string& key, const std::string& fallback) const;
 
   const std::vector<IniEntry>& entries() const { return entries_; }

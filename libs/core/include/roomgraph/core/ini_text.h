@@ -15,10 +15,10 @@ struct IniEntry {
   std::filesystem::path folder = {};  ///< where relative files in the value are; empty: working directory
 };
 
-/// Splits an INI text. Comments start with # or ; at the line's start or after white space; "key = #e6862a"
-/// (text attached, first in the value) is a value; a byte order mark is no text. MRPT's reader keeps neither
-/// line numbers nor duplicates, which a strict config has to report. Throws ConfigError on a line that is
-/// neither a section, an entry nor a comment, and on duplicate keys.
+/// Splits an INI text. Comments start with # or ; at the line's start or after white space, not within double
+/// quotes (which stay in the value) and not in "key = #e6862a" (text attached, first in the value). MRPT's
+/// reader keeps neither line numbers nor duplicates, which a strict config has to report. Throws ConfigError
+/// on a line that is neither a section, an entry nor a comment, and on duplicate keys.
 std::vector<IniEntry> parseIni(const std::string& text, const std::string& name);
 /// Relative files in it are in the file's folder. Throws InputError when it cannot be read.
 std::vector<IniEntry> parseIniFile(const std::filesystem::path& file);

@@ -28,7 +28,7 @@ class ParameterVisitor {
   virtual void add(std::string_view key, int& value, const ParameterInfo& info) = 0;
   virtual void add(std::string_view key, double& value, const ParameterInfo& info) = 0;
   virtual void add(std::string_view key, std::string& value, const ParameterInfo& info) = 0;
-  /// In a file: items separated by commas.
+  /// In a file: items separated by commas; one that holds a comma is in double quotes.
   virtual void add(std::string_view key, std::vector<std::string>& value, const ParameterInfo& info) = 0;
 };
 
@@ -40,8 +40,8 @@ class Configurable {
   virtual void declareParameters(ParameterVisitor& visitor) { (void)visitor; }
 };
 
-/// Text of a value as it stands in an INI file, and back. parse throws std::invalid_argument with what is
-/// allowed.
+/// Text of a value as it stands in an INI file, in double quotes where it would not come back otherwise, and
+/// back. parse throws std::invalid_argument with what is allowed.
 std::string formatParameter(bool value);
 std::string formatParameter(int value);
 std::string formatParameter(double value);

@@ -10,10 +10,12 @@ namespace roomgraph {
 struct RawlogPeek {
   bool frames = false;      ///< RGB-D records
   bool detections = false;  ///< recorded boxes
+  bool whole = false;       ///< the file has no more than what was looked at
 };
 
-/// Looks at the first 10 s, 2000 records or 128 MiB (uncompressed), whichever ends first, without decoding
-/// images; ends early when there are both. Throws InputError like RawlogReader.
+/// Looks at the first 20000 records or 128 MiB (uncompressed), whichever ends first, without decoding images;
+/// ends early when there are both. Time stamps, which may be wrong, play no part. Throws InputError like
+/// RawlogReader.
 RawlogPeek peekRawlog(const std::filesystem::path& file);
 
 }  // namespace roomgraph

@@ -40,15 +40,17 @@ struct TumImportResult {
 /// Writes a TUM / ICL-NUIM folder as an observation-only rawlog (gz) of CObservation3DRangeScan, one for each
 /// pair in associations.txt (columns in either order) or, without that file, of rgb.txt and depth.txt paired
 /// by time. Depth values are kept as they are, with rangeUnits = 1 / depth_scale. Ground truth (camera poses)
-/// is written beside it as X.groundtruth.txt.
+/// is written beside it as X.groundtruth.txt. Rawlog and external images get into place together, at the end;
+/// what a former import to the same place left beside it and this one does not have is removed.
 ///
 /// ICL-NUIM gives fy < 0: its camera frame has y up and is left-handed, though its images are upright. The
 /// images are left as they are and |fy| is used, which puts the same ray through every pixel with y down;
 /// poses T of the ground truth become S T S with S = diag(1, -1, 1): the world is mirrored to be
 /// right-handed.
 ///
-/// Throws ConfigError (no intrinsics or depth scale, unknown preset), InputError (folder or lists unusable,
-/// no pair left) or RunError (output cannot be written).
+/// Throws ConfigError (no intrinsics or depth scale, unknown preset, a place to write that is read, an
+/// X_Images that no import made), InputError (folder or lists unusable, no pair left) or RunError (output
+/// cannot be written).
 TumImportResult importTum(const std::filesystem::path& folder, const std::filesystem::path& rawlog,
                           const TumImportOptions& options = {},
                           const std::function<void(std::size_t done, std::size_t total)>& progress = nullptr);

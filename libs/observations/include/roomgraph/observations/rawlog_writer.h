@@ -16,7 +16,7 @@ class RawlogWriter {
  public:
   /// Throws RunError naming file and cause.
   explicit RawlogWriter(const std::filesystem::path& rawlog);
-  /// Removes what was written when finish() was not called.
+  /// Removes what was written when it was not put into its place.
   ~RawlogWriter();
   RawlogWriter(RawlogWriter&&) noexcept;
   RawlogWriter& operator=(RawlogWriter&&) noexcept;
@@ -24,7 +24,11 @@ class RawlogWriter {
   void write(const mrpt::serialization::CSerializable& record);
   /// A record as it stands in another rawlog.
   void write(std::string_view bytes);
-  /// Closes the file and puts it into its place.
+  /// Closes the file: all of it is on the disk. Throws RunError naming file and cause.
+  void close();
+  /// Puts the file, which has been closed, into its place. Throws RunError.
+  void commit();
+  /// Both.
   void finish();
 
  private:

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#include "tum_output.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "image_folder.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path unfinished(const fs::path& file) {
+  return file.string() + ".unfinished";
+}
+
+// Absolute and without links, as far as it exists.
+fs::path real(const fs::path& file) {
+  std::error_code error;
+  const fs::path out = fs::weakly_canonical(fs::absolute(file), error).lexically_normal();
+  return error ? fs::absolute(file).lexically_normal() : out.has_filename() ? out : out.parent_path();
+}
+
+bool isIn(const fs::path& inner, const fs::path& outer) {
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+// Nothing may be written or removed there.
+bool isRead(const fs::path& folder, const TumInputs& inputs) {
+  const fs::path place = real(folder), input = real(inputs.folder);
+  return isIn(place, input) || isIn(input, place) ||
+         std::any_of(inputs.files.begin(), inputs.files.end(),
+                     [&](const fs::path& file) { return isIn(real(file), place); });
+}
+
+// Nothing but images of an import, whatever its label was.
+bool wasImported(const fs::path& folder) {
+  static const std::regex kName(R"(.+_-?\d+\.\d{6}_(rgb(\.\w+)?|depth\.bin))");
+  std::error_code error;
+  if (fs::is_symlink(folder, error) || !fs::is_directory(folder, error)) return false;
+  const fs::directory_iterator entries(folder, error);
+  return !error && std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    return entry.is_regular_file() && !entry.is_symlink() &&
+           std::regex_match(entry.path().filename().string(), kName);
+  });
+}
+
+void moveFolder(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw RunError("cannot write " + to.string() + ": " + error.message());
+}
+
+}  // namespace
+
+TumPlaces placesOf(const fs::path& rawlog) {
+  const fs::path name = withoutEndings(rawlog);
+  return {rawlog, name.string() + "_Images", name.string() + ".groundtruth.txt"};
+}
+
+void checkPlaces(const TumPlaces& places, const TumInputs& inputs, bool external_images) {
+  const fs::path& rawlog = places.rawlog;
+  if (fs::is_directory(rawlog))
+    throw RunError(rawlog.string() + ": is a folder; name the rawlog to write, e.g. " +
+                   (rawlog / "recording.rawlog").string());
+  const fs::path parent = fs::absolute(rawlog).parent_path();
+  if (!fs::is_directory(parent)) throw RunError(rawlog.string() + ": there is no folder " + parent.string());
+  std::error_code ignored;
+  for (const auto& file : inputs.files)
+    for (const auto& place : {rawlog, places.ground_truth})
+      if (fs::equivalent(file, place, ignored))
+        throw ConfigError(place.string() +
+                          ": is read by this import and would be replaced; name another rawlog");
+  if (!external_images) return;
+  for (const auto& folder : {places.images, unfinished(places.images)})
+    if (isRead(folder, inputs))
+      throw ConfigError(folder.string() + ": the external images would be written where " +
+                        inputs.folder.string() + " is read; name another rawlog");
+  if (fs::exists(fs::symlink_status(places.images)) && !wasImported(places.images))
+    throw ConfigError(places.images.string() +
+                      ": is not from an import and would be replaced; name another rawlog, or move it away");
+}
+
+TumOutput::TumOutput(TumPlaces places, bool external_images)
+    : places_(std::move(places)), replaces_(fs::exists(places_.rawlog)), rawlog_(places_.rawlog) {
+  if (!external_images) return;
+  pending_ = unfinished(places_.images);
+  new_images_ = pending_ / "new";
+  old_images_ = pending_ / "old";
+  std::error_code error;
+  restoreImages();  // an import was ended while it put its images into place
+  fs::remove_all(pending_, error);
+  fs::create_directories(new_images_, error);
+  if (error) throw RunError(new_images_.string() + ": cannot be made: " + error.message());
+}
+
+TumOutput::~TumOutput() {
+  std::error_code ignored;
+  const bool keeps_old = !committed_ && fs::exists(old_images_, ignored);  // they could not be put back
+  if (!pending_.empty() && !keeps_old) fs::remove_all(pending_, ignored);
+}
+
+void TumOutput::setGroundTruth(const std::string& text) {
+  ground_truth_.emplace(places_.ground_truth);
+  OutputFile out(ground_truth_->path());
+  out << text;
+  out.finish();
+}
+
+// When there are no others in their place.
+void TumOutput::restoreImages() {
+  std::error_code ignored;
+  if (fs::exists(old_images_, ignored) && !fs::exists(places_.images, ignored))
+    fs::rename(old_images_, places_.images, ignored);
+}
+
+void TumOutput::swapImages() {
+  if (fs::exists(places_.images)) moveFolder(places_.images, old_images_);
+  moveFolder(new_images_, places_.images);
+}
+
+std::vector<fs::path> TumOutput::commit(const TumInputs& inputs) {
+  rawlog_.close();  // the disk may turn out to be full only now
+  try {
+    if (!pending_.empty()) swapImages();
+    rawlog_.commit();
+  } catch (const RunError&) {
+    std::error_code ignored;
+    if (!pending_.empty() && !fs::exists(new_images_, ignored))
+      fs::rename(places_.images, new_images_, ignored);
+    restoreImages();
+    throw;
+  }
+  committed_ = true;
+  std::vector<fs::path> removed;
+  std::error_code ignored;
+  if (ground_truth_)
+    ground_truth_->commit();
+  else if (replaces_ && fs::remove(places_.ground_truth, ignored))
+    removed.push_back(places_.ground_truth);
+  if (pending_.empty() && replaces_ && wasImported(places_.images) && !isRead(places_.images, inputs) &&
+      fs::remove_all(places_.images, ignored) > 0)
+    removed.push_back(places_.images);
+  return removed;
+}
+
+}  // namespace roomgraph
