@@ -122,7 +122,8 @@ TEST_F(RecordingTest, WrongUseIsRefused) {
   fs::copy(kRoom, folder.file("own.rawlog"));
   auto itself = replayed;
   itself.insert(itself.end(), {"--record-detections", folder.file("own.rawlog").string()});
-  expectOneLine(run(folder.file("own.rawlog"), "out", itself), 1, ::testing::HasSubstr("is the input"));
+  expectOneLine(run(folder.file("own.rawlog"), "out", itself), 2,
+                ::testing::HasSubstr("is read by this command"));
   EXPECT_EQ(fs::file_size(folder.file("own.rawlog")), fs::file_size(kRoom));
   expectOneLine(run(kRoom, "out", {"--set", "detection.enabled=false", "--record-detections", "x.rawlog"}), 2,
                 ::testing::HasSubstr("needs a detector"));

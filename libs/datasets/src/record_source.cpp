@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
+#include "action_check.h"
 #include "image_memory.h"
 #include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
@@ -210,6 +212,12 @@ std::size_t RecordSource::allowanceFor(std::uint64_t offset, const std::string& 
 }
 
 void RecordSource::parse(Item& item, const std::string& name) {
+  if (shortClassName(name) == "CActionCollection") {
+    const std::size_t length = lengthOf(item.offset, name);
+    const auto* bytes = stream_.peek(item.offset, length);
+    if (bytes && !movementsCanBeParsed({reinterpret_cast<const char*>(bytes), length}))
+      throw std::runtime_error("a movement without its distribution");
+  }
   const std::size_t allowance = allowanceFor(item.offset, name);
   {
     const AllocationLimit limit(allowance);

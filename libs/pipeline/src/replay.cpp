@@ -24,7 +24,7 @@ std::optional<Record> nextInOrder(RawlogReader& reader, RecordSorter& sorter, bo
 
 // By the file from where the span begins in it, or by time, whichever is farther: the file may end first.
 double shareDone(double file_share, double file_from, double seconds, const ReplaySpan& span) {
-  const double by_file = file_from < 1 ? (file_share - file_from) / (1 - file_from) : 1;
+  const double by_file = file_from < 1 ? (file_share - file_from) / (1 - file_from) : span.until_s <= 0;
   const double by_time = span.until_s > 0 ? seconds / (span.until_s - span.from_s) : 0;
   return std::clamp(std::max(by_file, by_time), 0.0, 1.0);
 }
