@@ -57,7 +57,7 @@ TEST(Snapshot, ObjectsHaveTheirClassColourWhereTheyAre) {
     const SnapshotOptions options{SnapshotView::kTop, width, height, ""};
     const cv::Mat image = snapshot(map, options);
     const auto scene = buildScene(map, database());
-    const View view(*scene, map, options, mapArea(options));
+    const SceneView view(*scene, map, options, mapArea(options));
     for (const auto& landmark : map.landmarks) {
       const auto pixel = view.project(landmark.position);
       ASSERT_TRUE(pixel);

@@ -11,7 +11,7 @@
 namespace roomgraph::testing {
 namespace {
 
-View viewOf(const FrameContext& context) {
+Viewpoint viewOf(const FrameContext& context) {
   return {context.camera, context.world_from_camera};
 }
 
@@ -23,7 +23,7 @@ Proposal onlyProposal(FrameContext& context, const RoomObject& object) {
 }
 
 // Independent of projectShape: bounds of points all over the model's surface, seen by the second camera.
-Box2 boundsOfSamples(const RoomObject& object, const View& view) {
+Box2 boundsOfSamples(const RoomObject& object, const Viewpoint& view) {
   Box2 box{1e9, 1e9, -1e9, -1e9};
   const auto base = footprint(object.shape, 2000);
   for (const double z : {0.0, object.shape.height})
@@ -46,7 +46,7 @@ TEST(CarriedArea, IsWhereTheObjectIsSeenAfterTheCameraMoved) {
     FrameContext now =
         viewFrom(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4));
     const auto carried =
-        carriedArea(placedShape(onlyProposal(before, object), before.world_from_camera), viewOf(now));
+        carriedArea(shapeInWorld(onlyProposal(before, object), before.world_from_camera), viewOf(now));
     const Box2 expected = boundsOfSamples(object, viewOf(now));
     ASSERT_EQ(carried.has_value(), !clipped(expected, 640, 480).empty());
     if (!carried) continue;
@@ -65,7 +65,7 @@ TEST(CarriedArea, IsWhereTheObjectIsSeenAfterTheCameraMoved) {
 
 TEST(CarriedArea, IsNothingOutsideTheImageAndBehind) {
   FrameContext before = viewFrom(0, 0, 0);
-  const auto placed = placedShape(onlyProposal(before, chairAt(3, 0)), before.world_from_camera);
+  const auto placed = shapeInWorld(onlyProposal(before, chairAt(3, 0)), before.world_from_camera);
   for (const double yaw : {1.2, -1.2, 3.1}) EXPECT_FALSE(carriedArea(placed, viewOf(viewFrom(0, 0, yaw))));
   EXPECT_EQ(pairwisePotential(onlyProposal(before, chairAt(3, 0)).projected, std::nullopt), 1);
 }
@@ -83,7 +83,7 @@ TEST(PairwisePotential, IsOneLessTheOverlap) {
 TEST(PairwisePotential, GrowsWithTheDistanceOfTwoProposals) {
   FrameContext before = viewFrom(0, 0, 0), now = viewFrom(0.1, 0.1, 0.1);
   const auto carried =
-      carriedArea(placedShape(onlyProposal(before, chairAt(3, 0)), before.world_from_camera), viewOf(now));
+      carriedArea(shapeInWorld(onlyProposal(before, chairAt(3, 0)), before.world_from_camera), viewOf(now));
   double last = -1;
   for (const double y : {0.0, 0.1, 0.2, 0.4, 0.6}) {
     const double potential = pairwisePotential(onlyProposal(now, chairAt(3, y)).projected, carried);

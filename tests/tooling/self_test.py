@@ -8,6 +8,7 @@ import textwrap
 import unittest
 
 import check_layers
+import check_names
 import check_sizes
 import check_text
 import cpp_functions
@@ -25,6 +26,28 @@ class TreeTest(unittest.TestCase):
         file = self.root / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
+
+
+class Names(TreeTest):
+    def problems(self, *texts):
+        for i, text in enumerate(texts):
+            self.write(f"libs/l{i}/src/a.h", text)
+        return check_names.check(self.root)[0]
+
+    def test_one_name_in_two_places(self):
+        found = self.problems("namespace roomgraph {\nstruct View {\n  int a;\n};\n}\n",
+                              "namespace roomgraph {\n\nclass View final : public Base<int> {\n};\n}\n")
+        self.assertEqual(found, ["libs/l1/src/a.h:3: roomgraph::View is defined at libs/l0/src/a.h:2 already"])
+        self.assertEqual(len(self.problems("namespace roomgraph {\nenum class Kind { kA };\n}\n",
+                                           "namespace roomgraph {\nenum class Kind : int { kB };\n}\n")), 1)
+
+    def test_what_is_no_second_definition(self):
+        one = "namespace roomgraph {\nstruct View { int a; };\ntemplate <class T, class U = std::vector<T>>\nT f() { return {}; }\n"
+        self.assertEqual(self.problems(one + "}\n", "namespace roomgraph {\nclass View;\n}\n",
+                                       "namespace roomgraph {\nnamespace {\nstruct View { int b; };\n}\n}\n",
+                                       "namespace roomgraph::test {\nstruct View { int b; };\n}\n",
+                                       "namespace roomgraph {\nstruct Outer {\n  struct View { int b; };\n  View v{};\n};\n"
+                                       "template <class T>\nvoid g(T) {\n  struct View { int b; };\n}\n}\n"), [])
 
 
 class Layers(TreeTest):

@@ -39,7 +39,7 @@ void fill(cv::Mat& image, const Box2& box, const palette::TColor& color) {
   cv::fillConvexPoly(image, corners, 4, scalar(color), cv::LINE_AA, 4);
 }
 
-Box2 imageBox(const Landmark& landmark, const View& view) {
+Box2 imageBox(const Landmark& landmark, const SceneView& view) {
   Eigen::AlignedBox2d box;
   for (const auto& corner : footprintInWorld(landmark)) {
     for (const double height : {0.0, landmark.shape.height}) {
@@ -51,7 +51,8 @@ Box2 imageBox(const Landmark& landmark, const View& view) {
   return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
 }
 
-void drawLabels(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options, const View& view) {
+void drawLabels(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options,
+                const SceneView& view) {
   const TextStyle style{unit(options) * 0.9, palette::kInk, 2.2};
   const Box2 picture{0, 0, static_cast<double>(image.cols), static_cast<double>(image.rows)};
   std::vector<Label> labels;
@@ -138,7 +139,8 @@ void drawLegend(cv::Mat& image, const CSemanticMap& map, const ObjectDatabase& d
   if (!map.world_from_robot.empty()) legend.path("path, start to end");
 }
 
-void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options, const View& view) {
+void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options,
+               const SceneView& view) {
   const double u = unit(options), right = image.cols - 3 * u, v = image.rows - 2.6 * u;
   const double step = gridStep(contentExtent(map));
   std::ostringstream text;
@@ -164,7 +166,7 @@ Box2 mapArea(const SnapshotOptions& options) {
 }
 
 void drawOverlay(cv::Mat& image, const CSemanticMap& map, const ObjectDatabase& database,
-                 const SnapshotOptions& options, const View& view) {
+                 const SnapshotOptions& options, const SceneView& view) {
   drawLabels(image, map, options, view);
   drawTitle(image, map, options);
   drawLegend(image, map, database, options);

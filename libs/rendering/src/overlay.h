@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "view.h"
+#include "scene_view.h"
 
 namespace roomgraph {
 
@@ -12,6 +12,6 @@ namespace roomgraph {
 Box2 mapArea(const SnapshotOptions& options);
 /// Names of the objects, title, legend with counts, and scale, onto the rendered BGR image.
 void drawOverlay(cv::Mat& image, const CSemanticMap& map, const ObjectDatabase& database,
-                 const SnapshotOptions& options, const View& view);
+                 const SnapshotOptions& options, const SceneView& view);
 
 }  // namespace roomgraph

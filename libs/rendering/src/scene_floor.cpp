@@ -5,8 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "mesh.h"
 #include "scene_parts.h"
+#include "triangle_set.h"
 
 namespace roomgraph {
 namespace {
@@ -47,7 +47,7 @@ bool occupied(const mrpt::maps::COccupancyGridMap2D& grid, int x, int y) {
 
 /// The four sides and the top of one cell, leaving out sides that touch another occupied cell. Sides are
 /// shaded by direction, as if the light came from the south-west.
-void addCell(const mrpt::maps::COccupancyGridMap2D& grid, int x, int y, Mesh& mesh) {
+void addCell(const mrpt::maps::COccupancyGridMap2D& grid, int x, int y, TriangleSet& mesh) {
   const double r = static_cast<double>(grid.getResolution());
   const double x0 = static_cast<double>(grid.getXMin()) + x * r,
                y0 = static_cast<double>(grid.getYMin()) + y * r;
@@ -83,7 +83,7 @@ void addGridLines(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   const double step = gridStep(contentExtent(map)), width = lineWidth(map) * 0.4;
   const Eigen::Vector2d low = (box.min().head<2>() / step).array().floor() * step;
   const Eigen::Vector2d high = (box.max().head<2>() / step).array().ceil() * step;
-  Mesh mesh;
+  TriangleSet mesh;
   for (double x = low.x(); x < high.x() + step / 2; x += step)
     mesh.ribbon({x, low.y(), kGridHeight}, {x, high.y(), kGridHeight}, width, palette::kGridLine);
   for (double y = low.y(); y < high.y() + step / 2; y += step)
@@ -94,7 +94,7 @@ void addGridLines(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
 void addWalls(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   if (!map.occupancy) return;
   const auto& grid = *map.occupancy;
-  Mesh mesh;
+  TriangleSet mesh;
   for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
     for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x)
       if (occupied(grid, x, y)) addCell(grid, x, y, mesh);

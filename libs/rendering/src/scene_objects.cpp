@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh.h"
 #include "scene_parts.h"
+#include "triangle_set.h"
 
 namespace roomgraph {
 namespace {
@@ -24,7 +24,7 @@ double shade(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
 }
 
 void addBox(const std::vector<Eigen::Vector3d>& base, double height, const palette::TColor& color,
-            Mesh& mesh) {
+            TriangleSet& mesh) {
   const auto top = lifted(base, height);
   const auto dark = palette::mix(color, {0, 0, 0}, 0.3);
   for (std::size_t i = 0; i < base.size(); ++i) {
@@ -37,7 +37,7 @@ void addBox(const std::vector<Eigen::Vector3d>& base, double height, const palet
 
 /// Small triangle outside the front's middle.
 void addFrontArrow(const Landmark& landmark, double height, double size, const palette::TColor& color,
-                   Mesh& mesh) {
+                   TriangleSet& mesh) {
   const double front = landmark.shape.depth / 2;
   const auto at = [&](double forward, double left) {
     return Eigen::Vector3d(landmark.worldFromObject() * Eigen::Vector3d(forward, left, height));
@@ -63,7 +63,7 @@ void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database,
     const auto edge = palette::mix(color, {0, 0, 0}, 0.25);
     const auto base = lifted(footprintInWorld(landmark), kLift);
     const double height = std::max(landmark.shape.height, 0.02);
-    Mesh mesh;
+    TriangleSet mesh;
     mesh.outline(base, width, edge);
     addBox(base, height, color, mesh);
     mesh.outline(lifted(base, height + 0.004), width, edge);

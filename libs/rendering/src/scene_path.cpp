@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh.h"
 #include "scene_parts.h"
+#include "triangle_set.h"
 
 namespace roomgraph {
 namespace {
@@ -34,7 +34,7 @@ void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   const auto poses = thinned(map, 1.5 * width);
   const double begin = map.world_from_robot.front().t;
   const double span = std::max(map.world_from_robot.back().t - begin, 1e-9);
-  Mesh mesh;
+  TriangleSet mesh;
   // Later parts lie a little higher: where the path covers itself, the newest shows.
   const auto lift_at = [&](double t) { return kLift + 0.008 * (t - begin) / span; };
   for (std::size_t i = 1; i < poses.size(); ++i) {

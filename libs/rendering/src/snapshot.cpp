@@ -41,7 +41,7 @@ cv::Mat render(const mrpt::opengl::COpenGLScene& scene, const SnapshotOptions& o
 void renderSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const SnapshotOptions& options,
                     const std::filesystem::path& png) {
   const auto scene = buildScene(map, database);
-  const View view(*scene, map, options, mapArea(options));
+  const SceneView view(*scene, map, options, mapArea(options));
   cv::Mat image = render(*scene, options);
   drawOverlay(image, map, database, options, view);
   std::vector<unsigned char> bytes;

@@ -49,7 +49,7 @@ void CrfSelector::declareParameters(ParameterVisitor& v) {
 }
 
 std::vector<ObjectMeasurement> CrfSelector::select(const FrameProposals& frame, const FrameContext& context) {
-  const View view{context.camera, context.world_from_camera};
+  const Viewpoint view{context.camera, context.world_from_camera};
   const auto proposals = byDetection(frame);
   std::vector<Sighting> sightings;
   std::vector<std::uint8_t> labels;

@@ -20,7 +20,7 @@ Box2 movedAlong(const Box2& box, const ProjectedShape& from, const Box2& to) {
 }
 
 // Bounds of the box's corners under the camera's turn alone, as if the object were far away.
-std::optional<Box2> turned(const Sighting& sighting, const View& view) {
+std::optional<Box2> turned(const Sighting& sighting, const Viewpoint& view) {
   const Eigen::Matrix3d now_from_before =
       view.world_from_camera.linear().transpose() * sighting.view.world_from_camera.linear();
   const Box2& b = sighting.box;
@@ -38,11 +38,11 @@ std::optional<Box2> turned(const Sighting& sighting, const View& view) {
 }  // namespace
 
 Sighting makeSighting(const Detection& detection, const std::vector<const Proposal*>& proposals,
-                      const View& view, const std::vector<FeatureTrack>& features) {
+                      const Viewpoint& view, const std::vector<FeatureTrack>& features) {
   Sighting out{0, detection.box, view};
   out.unary.push_back(0);
   for (const Proposal* proposal : proposals) {
-    out.shapes.push_back(placedShape(*proposal, view.world_from_camera));
+    out.shapes.push_back(shapeInWorld(*proposal, view.world_from_camera));
     out.unary.push_back(unaryEnergy(*proposal, detection));
   }
   out.features = featuresInside(features, detection.box);
@@ -65,7 +65,7 @@ Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, do
   return energies;
 }
 
-std::optional<Box2> predictedBox(const Sighting& sighting, const View& view) {
+std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view) {
   std::optional<Box2> box;
   if (sighting.shapes.empty()) {
     box = turned(sighting, view);

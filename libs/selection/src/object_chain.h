@@ -14,8 +14,8 @@ namespace roomgraph {
 struct Sighting {
   int frame = 0;  ///< count of the frame, set when it enters the window
   Box2 box;       ///< of the detection, px
-  View view;
-  std::vector<PlacedShape> shapes;     ///< of the proposals 1..P
+  Viewpoint view;
+  std::vector<ShapeInWorld> shapes;     ///< of the proposals 1..P
   std::vector<double> unary;           ///< per state (crf.h): 0, then the proposals' energies
   std::vector<std::int64_t> features;  ///< inside the box, ascending
   Eigen::MatrixXd pairwise;            ///< energy with the states of the sighting before; empty: first
@@ -31,7 +31,7 @@ struct ObjectChain {
 
 /// `proposals`: those of this detection.
 Sighting makeSighting(const Detection& detection, const std::vector<const Proposal*>& proposals,
-                      const View& view, const std::vector<FeatureTrack>& features);
+                      const Viewpoint& view, const std::vector<FeatureTrack>& features);
 
 /// Pairwise energies w P between the states of two sightings, w = s (1 - beta) (Eq. 3, 6). "None" has no
 /// area: after a proposal it overlaps as little as can be and costs w, if there was anything to choose;
@@ -43,7 +43,7 @@ Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, do
 /// Where the detection's box should be in another view, cut by its border: the sighting's best shape, carried
 /// there, says how the box moves and grows; without proposals the box turns with the camera. Nothing when
 /// outside.
-std::optional<Box2> predictedBox(const Sighting& sighting, const View& view);
+std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view);
 
 /// The chain of one object over its sightings (frames without one are left out: their only state is "none").
 ChainProblem chainProblem(const ObjectChain& chain, bool must_appear);

@@ -14,7 +14,7 @@ void forget(std::vector<ObjectChain>& objects, int oldest) {
 }
 
 // The window's objects as they should be seen now; `places` says which object each is.
-std::vector<LabelledBox> expected(const std::vector<ObjectChain>& objects, const View& view,
+std::vector<LabelledBox> expected(const std::vector<ObjectChain>& objects, const Viewpoint& view,
                                   std::vector<int>& places) {
   std::vector<LabelledBox> boxes;
   for (std::size_t i = 0; i < objects.size(); ++i)
@@ -48,7 +48,7 @@ void extend(ObjectChain& object, Sighting sighting, const WindowStep& step) {
 }  // namespace
 
 WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
-                   const std::vector<std::uint8_t>& labels, const View& view, int frames,
+                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames,
                    double min_overlap) {
   WindowStep step;
   std::vector<LabelledBox> seen;

@@ -26,6 +26,6 @@ struct WindowStep {
 /// (one per detection, `labels` beside them) to the objects of the window and starts new objects for the
 /// rest.
 WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
-                   const std::vector<std::uint8_t>& labels, const View& view, int frames, double min_overlap);
+                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames, double min_overlap);
 
 }  // namespace roomgraph

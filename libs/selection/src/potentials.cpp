@@ -31,11 +31,11 @@ double unaryEnergy(const Proposal& proposal, const Detection& detection) {
   return detection.score * unaryPotential(proposal, detection) * (0.5 + 0.5 * proposal.score);
 }
 
-PlacedShape placedShape(const Proposal& proposal, const Pose3& world_from_camera) {
+ShapeInWorld shapeInWorld(const Proposal& proposal, const Pose3& world_from_camera) {
   return {proposal.shape, world_from_camera * proposal.camera_from_object, proposal.projected};
 }
 
-std::optional<ProjectedShape> carriedArea(const PlacedShape& shape, const View& view) {
+std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewpoint& view) {
   return projectShape(shape.shape, view.world_from_camera.inverse() * shape.world_from_object, view.camera);
 }
 

@@ -23,21 +23,21 @@ double unaryPotential(const Proposal& proposal, const Detection& detection);
 double unaryEnergy(const Proposal& proposal, const Detection& detection);
 
 /// A camera and where it stood.
-struct View {
+struct Viewpoint {
   PinholeCamera camera;
   Pose3 world_from_camera = Pose3::Identity();
 };
 
 /// A proposal fixed in world, so that later frames can predict where it is seen.
-struct PlacedShape {
+struct ShapeInWorld {
   ObjectShape shape;
   Pose3 world_from_object = Pose3::Identity();
   ProjectedShape projected;  ///< in the frame of the proposal: its area A, px
 };
-PlacedShape placedShape(const Proposal& proposal, const Pose3& world_from_camera);
+ShapeInWorld shapeInWorld(const Proposal& proposal, const Pose3& world_from_camera);
 
 /// H A(x): the shape's area carried into another view, px; nothing when it lies outside that image or behind.
-std::optional<ProjectedShape> carriedArea(const PlacedShape& shape, const View& view);
+std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewpoint& view);
 
 /// Pairwise potential of two proposals (paper Eq. 6): P = 1 - IoU(A(x_t), H A(x_{t-1})), in [0, 1]; of the
 /// areas inside the image. 1 when the former proposal should not be seen.

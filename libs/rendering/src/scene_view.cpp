@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include "view.h"
+#include "scene_view.h"
 
 #include <mrpt/opengl/COpenGLViewport.h>
 
@@ -44,8 +44,8 @@ std::vector<Eigen::Vector3d> contentPoints(const CSemanticMap& map) {
 
 }  // namespace
 
-View::View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
-           const Box2& inner)
+SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map,
+                     const SnapshotOptions& options, const Box2& inner)
     : viewport_(scene.getViewport()), width_(options.width), height_(options.height) {
   const Eigen::AlignedBox3d box = contentBounds(map);
   const double extent = contentExtent(map);
@@ -76,7 +76,7 @@ View::View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const Sna
 }
 
 // MRPT's camera model in orbit mode; its own matrices exist only while it renders.
-void View::update() {
+void SceneView::update() {
   viewport_->getCamera() = camera_;
   const double azimuth = static_cast<double>(camera_.getAzimuthDegrees()) / kDegrees;
   const double elevation = static_cast<double>(camera_.getElevationDegrees()) / kDegrees;
@@ -100,18 +100,18 @@ void View::update() {
   if (!orthographic()) clip_from_world_.row(3) = clip_from_world_.row(2);
 }
 
-std::optional<Eigen::Vector2d> View::project(const Eigen::Vector3d& world) const {
+std::optional<Eigen::Vector2d> SceneView::project(const Eigen::Vector3d& world) const {
   const Eigen::Vector4d clip = clip_from_world_ * world.homogeneous();
   if (clip.w() <= 1e-6) return std::nullopt;
   return Eigen::Vector2d((clip.x() / clip.w() + 1) / 2 * width_, (1 - clip.y() / clip.w()) / 2 * height_);
 }
 
-double View::pixelsPerMeter() const {
+double SceneView::pixelsPerMeter() const {
   return (*project(Eigen::Vector3d::UnitX()) - *project(Eigen::Vector3d::Zero())).norm();
 }
 
 /// Moves what the camera points at on the floor so that the picture moves by so many pixels.
-void View::shift(const Eigen::Vector2d& pixels) {
+void SceneView::shift(const Eigen::Vector2d& pixels) {
   const Eigen::Vector3d at(static_cast<double>(camera_.getPointingAtX()),
                            static_cast<double>(camera_.getPointingAtY()), 0);
   const double step = 0.01;
@@ -125,7 +125,7 @@ void View::shift(const Eigen::Vector2d& pixels) {
 }
 
 /// Alternates zooming and shifting until the content's image fills `inner`.
-void View::fit(const std::vector<Eigen::Vector3d>& content, const Box2& inner) {
+void SceneView::fit(const std::vector<Eigen::Vector3d>& content, const Box2& inner) {
   for (int round = 0; round < 20; ++round) {
     update();
     Eigen::AlignedBox2d image;

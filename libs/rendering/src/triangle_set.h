@@ -13,7 +13,7 @@ namespace roomgraph {
 
 /// Collects unlit coloured triangles into one object of a scene. Lines are drawn as ribbons, because the
 /// width of OpenGL's own lines depends on the driver.
-class Mesh {
+class TriangleSet {
  public:
   void triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                 const palette::TColor& color);

@@ -15,12 +15,12 @@
 namespace roomgraph {
 
 /// A camera over the scene and where it puts world points in the picture.
-class View {
+class SceneView {
  public:
   /// Camera for `options.view` that shows the map's content inside `inner` (px). Sets it in the scene's
   /// viewport.
-  View(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
-       const Box2& inner);
+  SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
+            const Box2& inner);
   /// Pixel (u right, v down) of a world point; nothing when it is behind the camera.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& world) const;
   bool orthographic() const { return camera_.isOrthogonal(); }

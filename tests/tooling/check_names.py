@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Part of roomgraph, object-level semantic SLAM.
+"""No type name is defined twice in libs/: the libraries are shared, so two definitions of one name in the same namespace
+are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces are free.
+
+Usage: check_names.py ROOT
+"""
+import re
+import sys
+
+import cpp_functions
+import source_files
+
+SCOPE = re.compile(r"\b(?P<kind>namespace|class|struct|union|enum(?:\s+class|\s+struct)?)\b"
+                   r"(?:\s*\[\[[^\]]*\]\])*\s*(?P<name>[A-Za-z_][\w:]*)?\s*(?:final\b)?[^;{}()=]*\{|[{}]")
+TEMPLATE = re.compile(r"\btemplate\s*<[^<>]*(?:<[^<>]*>[^<>]*)*>")  # its "class T" is no class
+
+
+def types_of(text):
+    """(namespace, name, line) of every type defined at namespace level, outside anonymous namespaces."""
+    scopes = []  # name of the namespace, None for everything that is none
+    text = TEMPLATE.sub(lambda m: "\n" * m.group(0).count("\n"), cpp_functions.blanked(text))
+    for match in SCOPE.finditer(text):
+        if match.group(0) == "}":
+            if scopes:
+                scopes.pop()
+        elif match.group(0) == "{":
+            scopes.append(None)
+        elif match.group("kind") == "namespace":
+            scopes.append(match.group("name") or "(anonymous)")
+        else:
+            name = match.group("name")
+            if name and "::" not in name and None not in scopes and "(anonymous)" not in scopes:
+                yield "::".join(scopes), name, text.count("\n", 0, match.start("name")) + 1
+            scopes.append(None)
+
+
+def check(root):
+    first, problems, checked = {}, [], 0
+    for path in source_files.files(root, {".h", ".cpp"}):
+        if path.parts[0] != "libs":
+            continue
+        checked += 1
+        for scope, name, line in types_of(source_files.read(root, path)):
+            place = f"{path}:{line}"
+            if (scope, name) in first:
+                problems.append(f"{place}: {scope}::{name} is defined at {first[scope, name]} already")
+            first.setdefault((scope, name), place)
+    return problems, checked
+
+
+if __name__ == "__main__":
+    source_files.finish("names", *check(sys.argv[1]))
