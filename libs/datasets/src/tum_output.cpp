@@ -3,7 +3,8 @@
 #include "tum_output.h"
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
+#include <string_view>
 
 #include "image_folder.h"
 #include "roomgraph/core/errors.h"
@@ -36,15 +37,37 @@ bool isRead(const fs::path& folder, const TumInputs& inputs) {
                      [&](const fs::path& file) { return isIn(real(file), place); });
 }
 
+bool isStamp(std::string_view text) {
+  constexpr std::size_t kDecimals = 6;
+  if (text.starts_with('-')) text.remove_prefix(1);
+  const auto digits = [](std::string_view part) {
+    return !part.empty() &&
+           std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isdigit(c); });
+  };
+  const auto point = text.find('.');
+  return point != text.npos && digits(text.substr(0, point)) && digits(text.substr(point + 1)) &&
+         text.size() - point - 1 == kDecimals;
+}
+
+// LABEL_STAMP_rgb.ENDING or LABEL_STAMP_depth.bin.
+bool isImageName(std::string_view name) {
+  constexpr std::string_view kDepth = "_depth.bin", kColor = "_rgb";
+  auto end = name.ends_with(kDepth) ? name.size() - kDepth.size() : name.rfind(kColor);
+  if (end == name.npos) return false;
+  if (!name.ends_with(kDepth) && end + kColor.size() < name.size() && name[end + kColor.size()] != '.')
+    return false;
+  const std::string_view stem = name.substr(0, end);
+  const auto bar = stem.rfind('_');
+  return bar != stem.npos && bar > 0 && isStamp(stem.substr(bar + 1));
+}
+
 // Nothing but images of an import, whatever its label was.
 bool wasImported(const fs::path& folder) {
-  static const std::regex kName(R"(.+_-?\d+\.\d{6}_(rgb(\.\w+)?|depth\.bin))");
   std::error_code error;
   if (fs::is_symlink(folder, error) || !fs::is_directory(folder, error)) return false;
   const fs::directory_iterator entries(folder, error);
   return !error && std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
-    return entry.is_regular_file() && !entry.is_symlink() &&
-           std::regex_match(entry.path().filename().string(), kName);
+    return entry.is_regular_file() && !entry.is_symlink() && isImageName(entry.path().filename().string());
   });
 }
 
