@@ -66,6 +66,23 @@ TEST_F(BadInput, TruncatedGzipIsUsedUpToTheDamage) {
   EXPECT_LT(posesWritten(), 10u);
 }
 
+// The reason names the class, of which a byte was damaged: JSON would refuse it.
+TEST_F(BadInput, AReasonThatIsNoTextIsStillReported) {
+  std::string first, rest;
+  for (const auto& record : recording.records({true, false, true}))
+    (first.empty() ? first : rest) += test::bytesOf(record);
+  std::string broken = test::bytesOf(recording.images(3));
+  const auto at = broken.find("CPose3D");
+  ASSERT_NE(at, std::string::npos);
+  broken[at + 2] = '\x94';
+  test::writeBytes(folder.file("x.rawlog"), first + broken + rest);
+  const CallResult result = run(folder.file("x.rawlog"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(posesWritten(), 10u);
+  EXPECT_TRUE(std::filesystem::exists(out / "summary.json"));
+  EXPECT_EQ(call(folder.path(), {"info", folder.file("x.rawlog").string()}).exit_code, 0);
+}
+
 TEST_F(BadInput, RawlogWithoutUsableSensors) {
   const auto comment = mrpt::obs::CObservationComment::Create();
   comment->timestamp = mrpt::Clock::fromDouble(5);
