@@ -159,6 +159,8 @@ void benchProposals(const BenchOptions& options) {
   for (auto& [boxes, ms] : run.cpu_ms) result.cpu_ms[boxes] = summarize(std::move(ms));
   std::cout << toTable(result);
   if (options.json.empty()) return;
+  requireOther(options.json,
+               {options.input, options.boxes, options.objects, options.trajectory, options.detections});
   writeFileAtomically(options.json, toJson(result));
 }
 

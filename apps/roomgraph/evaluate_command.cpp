@@ -31,9 +31,11 @@ TrajectoryFile readAndWarn(const std::string& file) {
 }
 
 template <class... Errors>
-void report(const std::string& json_file, const Errors&... errors) {
+void report(const std::string& json_file, const std::vector<std::filesystem::path>& inputs,
+            const Errors&... errors) {
   (std::cout << ... << toTable(errors));
   if (json_file.empty()) return;
+  requireOther(json_file, inputs);
   writeFileAtomically(json_file, toJson(errors...));
 }
 
@@ -90,7 +92,7 @@ void addTrajectory(CLI::App& parent) {
     a->options.align = !a->unaligned;
     const auto truth = readAndWarn(a->truth), estimate = readAndWarn(a->estimate);
     const auto errors = evaluateTrajectory(truth.trajectory, estimate.trajectory, a->options);
-    report(a->json, errors);
+    report(a->json, {a->truth, a->estimate}, errors);
     if (errors.pairs == 0)
       throw RunError("no stamp of " + a->estimate + " is within " +
                      std::to_string(a->options.max_difference_s) + " s of one in " + a->truth);
@@ -112,7 +114,7 @@ void addRelations(CLI::App& parent) {
   command->callback([a] {
     const auto relations = readRelations(a->relations);
     const auto errors = evaluateRelations(relations, readAndWarn(a->estimate).trajectory, a->options);
-    report(a->json, errors);
+    report(a->json, {a->relations, a->estimate}, errors);
     if (errors.used == 0)
       throw RunError(a->estimate + " has poses for none of the relations in " + a->relations);
   });
@@ -132,10 +134,11 @@ void runObjects(ObjectArguments& a) {
   if (!a.boxes.empty()) a.options.seen = readSeenObjects(a.boxes, a.rule);
   a.options.truth_from_map = truthFromMap(a.paths);
   const auto errors = evaluateObjects(truth, landmarks, a.options);
+  const std::vector<std::filesystem::path> inputs{a.truth, a.landmarks, a.boxes, a.associations, a.database};
   if (a.associations.empty()) {
-    report(a.json, errors);
+    report(a.json, inputs, errors);
   } else {
-    report(a.json, errors,
+    report(a.json, inputs, errors,
            evaluateAssociations(readTrueFrames(a.boxes), readAssociations(a.associations), a.association));
   }
 }
@@ -216,7 +219,7 @@ void addDetections(CLI::App& parent) {
   command->callback([a] {
     const auto errors =
         evaluateDetections(readTrueFrames(a->truth), readDetections(a->detections), a->options);
-    report(a->json, errors);
+    report(a->json, {a->truth, a->detections}, errors);
     if (errors.frames == 0) throw RunError(a->detections + " has no frame in common with " + a->truth);
   });
 }
@@ -243,7 +246,7 @@ void addMap(CLI::App& parent) {
   command->callback([a] {
     a->options.truth_from_map = truthFromMap(a->paths);
     const auto errors = evaluateMap(loadOccupancyRos(a->truth), loadOccupancyRos(a->map), a->options);
-    report(a->json, errors);
+    report(a->json, {a->truth, a->map}, errors);
     if (errors.known_in_both == 0) throw RunError(a->map + " knows no place that " + a->truth + " knows");
   });
 }

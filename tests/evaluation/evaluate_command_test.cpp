@@ -46,6 +46,9 @@ TEST(EvaluateCommand, TrajectoryTableAndJson) {
   const auto figures = nlohmann::json::parse(contentOf(folder.path() / "ate.json"));
   EXPECT_NEAR(figures.at("ate_rmse_m").get<double>(), 0, 1e-9);
   EXPECT_EQ(figures.at("pairs"), 3);
+  const std::string truth = contentOf(folder.path() / "truth.tum");
+  EXPECT_EQ(run(folder, "trajectory truth.tum moved.txt --json truth.tum").exit_code, 2);
+  EXPECT_EQ(contentOf(folder.path() / "truth.tum"), truth) << "an input is no output";
   const auto raw = run(folder, "trajectory truth.tum moved.txt --no-align --json ate.json");
   EXPECT_EQ(raw.exit_code, 0);
   EXPECT_NEAR(nlohmann::json::parse(contentOf(folder.path() / "ate.json")).at("ate_mean_m").get<double>(),
