@@ -29,7 +29,7 @@ constexpr std::uint8_t kNewFormat =
 constexpr std::uint8_t kEndFlag = 0x88;  // last byte of every object
 // What parsing may allocate: some small containers, and all that the record holds several times over.
 constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 8;
-constexpr std::size_t kSmallBytes = 2u << 20, kLongestRecordBytes = 64u << 20;
+constexpr std::size_t kScanBytes = 1u << 16, kImageBytes = 2u << 20, kLongestRecordBytes = 64u << 20;
 
 bool isNameCharacter(std::uint8_t c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
@@ -202,13 +202,13 @@ std::optional<RecordSource::Item> RecordSource::next() {
   }
 }
 
-// Looking for the end of a record takes time, and most are small: done for those of a class whose last one
-// was large, or none is known. Never after an attempt that failed: an image of MRPT's whose memory was
+// Looking for the end of a record takes time, most of all for images: left out for a class whose last record
+// was of their size. Never after an attempt that failed: an image of MRPT's whose memory was
 // refused is half made, and its pool would give it to the next record of that size.
 std::size_t RecordSource::allowanceFor(std::uint64_t offset, const std::string& name) {
   const auto last = lengths_.find(name);
-  const bool small = last != lengths_.end() && last->second < kSmallBytes;
-  return kSpareBytes + kBytesPerByte * (small ? kSmallBytes * 2 : lengthOf(offset, name));
+  const bool image = last != lengths_.end() && last->second >= kScanBytes && last->second < kImageBytes;
+  return kSpareBytes + kBytesPerByte * (image ? 2 * kImageBytes : lengthOf(offset, name));
 }
 
 void RecordSource::parse(Item& item, const std::string& name) {
