@@ -118,7 +118,7 @@ TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {
 
 TEST_F(RawlogCopyTest, WrongFilesAreRefused) {
   writeRawlog(in, {makeScan(1)});
-  EXPECT_THROW(RawlogCopy(in, in), RunError);
+  EXPECT_THROW(RawlogCopy(in, in), ConfigError);
   EXPECT_THROW(RawlogCopy(folder / "none.rawlog", out), InputError);
   EXPECT_THROW(RawlogCopy(in, folder / "no" / "such" / "folder.rawlog"), RunError);
   RawlogReader reader(in);

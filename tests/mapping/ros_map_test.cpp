@@ -72,6 +72,7 @@ TEST(RosMap, ErrorsNameTheCause) {
 
 TEST(RosMap, BrokenYamlIsOneLineThatSaysWhy) {
   const TemporaryFolder folder;
+  ::testing::internal::CaptureStderr();
   for (const std::string text : {"", "image: [", "image: x.pgm\n", "resolution: 1e999\n", "- a\n- b\n"}) try {
       loadOccupancyRos(folder.write("a.yaml", text));
       ADD_FAILURE() << "no error: " << text;
@@ -85,6 +86,7 @@ TEST(RosMap, BrokenYamlIsOneLineThatSaysWhy) {
                                                              "free_thresh: 0.196\n")),
                  InputError)
         << value;
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "no library speaks for itself";
 }
 
 }  // namespace

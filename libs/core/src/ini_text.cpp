@@ -8,15 +8,10 @@
 #include "quoted_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/text_file.h"
+#include "roomgraph/core/trim.h"
 
 namespace roomgraph {
 namespace {
-
-std::string trim(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
 
 std::string withoutComment(const std::string& line) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };

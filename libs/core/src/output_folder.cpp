@@ -15,6 +15,7 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
+#include "roomgraph/core/paths.h"
 
 namespace roomgraph {
 namespace {
@@ -40,13 +41,6 @@ constexpr const char* kComplete = "complete";  // names what is to change places
 
 void require(const std::error_code& error, const fs::path& path) {
   if (error) throw RunError("output folder " + path.string() + ": " + error.message());
-}
-
-bool isInside(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const auto inner = fs::weakly_canonical(file, error), outer = fs::weakly_canonical(folder, error);
-  return !file.empty() &&
-         std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
 }  // namespace

@@ -6,16 +6,12 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "roomgraph/core/trim.h"
+
 namespace roomgraph {
 namespace {
 
 constexpr const char* kBlanks = " \t\r\n";
-
-std::string trim(const std::string& text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 bool isBlank(char c) {
   return std::string_view(kBlanks).find(c) != std::string_view::npos;

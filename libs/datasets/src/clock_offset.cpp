@@ -3,18 +3,10 @@
 #include "clock_offset.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "median.h"
 
 namespace roomgraph {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 std::optional<ClockOffset> clockOffset(const std::vector<FilePlace>& reference,
                                        const std::vector<FilePlace>& sensor) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floor_search.h"
+#include "median.h"
 
 namespace roomgraph {
 namespace {
@@ -14,12 +15,6 @@ constexpr std::size_t kLeastSightings = 3;
 constexpr double kLeastShare = 0.25;                    // of the images that show the floor
 constexpr double kSpreadM = 0.02, kSpreadShare = 0.02;  // of the heights; median deviation
 constexpr double kSpreadRad = 0.02;                     // of the directions
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -21,8 +21,7 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 
-constexpr double kEndOfTime_s = 7258118400;  // 2200-01-01
-constexpr double kFarthest_m = 1e6;
+constexpr double kEndOfTime_s = 7258118400;               // 2200-01-01
 constexpr double kLargestAperture_rad = 2 * M_PI + 0.01;  // a full circle, rounded
 constexpr double kLargestCoordinate_px = 1e6;
 constexpr double kLargestDistortion = 1e4;
@@ -96,23 +95,6 @@ std::string problemOfDetections(const CObservationDetections& detections) {
 
 bool plausibleTime(double t) {
   return t >= 0 && t < kEndOfTime_s;
-}
-
-std::string problemOf(const Pose3& pose) {
-  constexpr double kRounding = 1e-6;
-  if (!pose.matrix().allFinite()) return "pose is not finite";
-  if (!(pose.translation().norm() < kFarthest_m)) return "pose is more than 1000 km away";
-  const Eigen::Matrix3d rotation = pose.linear();
-  return rotation.isUnitary(kRounding) && rotation.determinant() > 0 ? "" : "pose's rotation is none";
-}
-
-std::string problemOf(const Pose2& pose) {
-  // The cosine of an angle of billions of turns is noise.
-  constexpr double kLargestAngle_rad = 1e6;
-  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.yaw))
-    return "pose is not finite";
-  if (!(std::hypot(pose.x, pose.y) < kFarthest_m)) return "pose is more than 1000 km away";
-  return std::abs(pose.yaw) < kLargestAngle_rad ? "" : "pose's angle is too large";
 }
 
 std::string problemOf(const mrpt::obs::CObservation& observation) {

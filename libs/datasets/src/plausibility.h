@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "roomgraph/geometry/pose.h"
+#include "roomgraph/geometry/plausible_pose.h"
 
 namespace roomgraph {
 
@@ -16,12 +16,7 @@ namespace roomgraph {
 /// Between 1970 and 2200, s.
 bool plausibleTime(double t);
 
-/// Why these values cannot be true ("pose is not finite", "pose is more than 1000 km away"); empty when they
-/// can.
-std::string problemOf(const Pose3& pose);
-std::string problemOf(const Pose2& pose);
-
-/// The same for an observation of a class that is used: "sensor pose is not finite", "aperture of 9 rad is
+/// Why an observation of a class that is used cannot be true, as problemOf() of a pose does: "sensor pose is not finite", "aperture of 9 rad is
 /// impossible (…)", "score of a box is not in [0, 1]"; empty for other classes. Missing images and intrinsics are
 /// not looked for.
 std::string problemOf(const mrpt::obs::CObservation& observation);

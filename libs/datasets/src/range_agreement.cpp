@@ -2,9 +2,10 @@
 // Part of roomgraph, object-level semantic SLAM.
 #include "range_agreement.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "median.h"
 
 namespace roomgraph {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kLongestWait_s = 0.25;
 constexpr double kHorizontal = 0.05;  // slope of a ray
 constexpr double kNearest_m = 0.5;    // nearer returns depend on where exactly the sensors sit
-constexpr double kFarthest_m = 1e4;
+constexpr double kFarthestRange_m = 1e4;
 constexpr std::size_t kLeastRatios = 200;
 
 constexpr int kBins = 360;
@@ -29,14 +30,15 @@ void RangeAgreement::addImage(double t, const PointGrid& grid, const Pose3& robo
   for (const auto& point : scan_->pointsInRobot()) {
     const Eigen::Vector3d seen = point - center;
     const double distance = std::hypot(seen.x(), seen.y());
-    if (!(distance < kFarthest_m)) continue;  // also what is not finite
+    if (!(distance < kFarthestRange_m)) continue;  // also what is not finite
     double& bin = nearest[static_cast<std::size_t>(binOf(seen.x(), seen.y()))];
     if (bin == 0 || distance < bin) bin = distance;
   }
   for (const auto& point : grid.points) {
     const Eigen::Vector3d seen = robot_from_sensor.linear() * point;
     const double distance = std::hypot(seen.x(), seen.y());
-    if (!(distance > 0 && distance < kFarthest_m && std::abs(seen.z()) < kHorizontal * distance)) continue;
+    if (!(distance > 0 && distance < kFarthestRange_m && std::abs(seen.z()) < kHorizontal * distance))
+      continue;
     const double expected = nearest[static_cast<std::size_t>(binOf(seen.x(), seen.y()))];
     if (expected > kNearest_m) ratios_.push_back(distance / expected);
   }
@@ -44,10 +46,7 @@ void RangeAgreement::addImage(double t, const PointGrid& grid, const Pose3& robo
 
 std::optional<double> RangeAgreement::ratio() const {
   if (ratios_.size() < kLeastRatios) return std::nullopt;
-  std::vector<double> sorted = ratios_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return median(ratios_);
 }
 
 }  // namespace roomgraph

@@ -16,6 +16,7 @@
 #include "plausibility.h"
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/output_file.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/rawlog_writer.h"
 
@@ -64,20 +65,10 @@ void linkImages(const fs::path& input, const fs::path& output) {
                    error.message());
 }
 
-// Refused before the copy gets its file: it would be the input's.
-const fs::path& notTheInput(const fs::path& input, const fs::path& output) {
-  std::error_code error;
-  if (fs::equivalent(input, output, error))
-    throw RunError(output.string() + ": is the input; give the copy another name");
-  return output;
-}
-
 }  // namespace
 
 struct RawlogCopy::Impl {
-  Impl(const fs::path& in, const fs::path& out) : source(in), writer(notTheInput(in, out)) {
-    linkImages(in, out);
-  }
+  Impl(const fs::path& in, const fs::path& out) : source(in), writer(out) { linkImages(in, out); }
 
   // The next record that is to be copied, in `waiting`; false at the end of the input.
   bool fill() {
@@ -103,8 +94,10 @@ struct RawlogCopy::Impl {
   double waiting_t = 0;
 };
 
-RawlogCopy::RawlogCopy(const fs::path& input, const fs::path& output)
-    : impl_(std::make_unique<Impl>(input, output)) {}
+RawlogCopy::RawlogCopy(const fs::path& input, const fs::path& output) {
+  requireOther(output, {input});
+  impl_ = std::make_unique<Impl>(input, output);
+}
 
 RawlogCopy::~RawlogCopy() = default;
 

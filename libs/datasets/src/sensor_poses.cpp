@@ -13,18 +13,13 @@
 #include <vector>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/trim.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kFarthestM = 1000;
-
-std::string trim(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 std::vector<std::string> splitAtCommas(const std::string& text) {
   std::vector<std::string> items;

@@ -7,6 +7,7 @@
 
 #include "frame_conversion.h"
 #include "image_memory.h"
+#include "median.h"
 
 namespace roomgraph {
 namespace {
@@ -21,10 +22,6 @@ double quantile(std::vector<double> values, double share) {
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-double median(std::vector<double> values) {
-  return quantile(std::move(values), 0.5);
 }
 
 }  // namespace

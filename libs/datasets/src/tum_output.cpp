@@ -8,6 +8,7 @@
 
 #include "image_folder.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/paths.h"
 
 namespace roomgraph {
 namespace {
@@ -18,23 +19,11 @@ fs::path unfinished(const fs::path& file) {
   return file.string() + ".unfinished";
 }
 
-// Absolute and without links, as far as it exists.
-fs::path real(const fs::path& file) {
-  std::error_code error;
-  const fs::path out = fs::weakly_canonical(fs::absolute(file), error).lexically_normal();
-  return error ? fs::absolute(file).lexically_normal() : out.has_filename() ? out : out.parent_path();
-}
-
-bool isIn(const fs::path& inner, const fs::path& outer) {
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
 // Nothing may be written or removed there.
 bool isRead(const fs::path& folder, const TumInputs& inputs) {
-  const fs::path place = real(folder), input = real(inputs.folder);
-  return isIn(place, input) || isIn(input, place) ||
+  return isInside(folder, inputs.folder) || isInside(inputs.folder, folder) ||
          std::any_of(inputs.files.begin(), inputs.files.end(),
-                     [&](const fs::path& file) { return isIn(real(file), place); });
+                     [&](const fs::path& file) { return isInside(file, folder); });
 }
 
 bool isStamp(std::string_view text) {

@@ -11,6 +11,7 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/core/trim.h"
 
 namespace roomgraph {
 namespace {
@@ -20,11 +21,6 @@ const std::array<std::pair<NetworkFormat, const char*>, 5> kFormats{{{NetworkFor
                                                                      {NetworkFormat::kYolox, "yolox"},
                                                                      {NetworkFormat::kDarknet, "darknet"},
                                                                      {NetworkFormat::kAde20k, "ade20k"}}};
-
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 }  // namespace
 
@@ -45,8 +41,8 @@ NetworkSpec parseNetworkSpec(const std::string& text) {
   spec.file = text;
   const auto colon = text.rfind(':');
   if (colon == std::string::npos || text.find_first_of("/.", colon) != std::string::npos) return spec;
-  spec.file = trimmed(text.substr(0, colon));
-  const std::string wanted = trimmed(text.substr(colon + 1));
+  spec.file = trim(text.substr(0, colon));
+  const std::string wanted = trim(text.substr(colon + 1));
   for (const auto& [format, name] : kFormats)
     if (wanted == name) {
       spec.format = format;
@@ -79,7 +75,7 @@ std::vector<std::string> readLabels(const std::string& file) {
   std::ifstream in(file);
   std::vector<std::string> labels;
   for (std::string line; std::getline(in, line);)
-    if (const std::string label = trimmed(line); !label.empty()) labels.push_back(label);
+    if (const std::string label = trim(line); !label.empty()) labels.push_back(label);
   if (labels.empty()) throw InputError(file + ": holds no labels (one per line)");
   return labels;
 }

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/geometry/plausible_pose.h"
+
 namespace roomgraph {
 namespace {
 
-constexpr double kFarthest_m = 1e6, kLargestSize_m = 1000;
+constexpr double kLargestSize_m = 1000;
 constexpr double kRounding = 1e-6;
 
 std::string problemOf(const mrpt::maps::COccupancyGridMap2D& grid) {
@@ -39,8 +41,7 @@ std::string problemOf(const Landmark& landmark) {
 }
 
 bool isPose(const StampedPose& stamped) {
-  return std::isfinite(stamped.t) && stamped.pose.matrix().allFinite() &&
-         stamped.pose.translation().norm() < kFarthest_m && stamped.pose.linear().isUnitary(1e-3);
+  return std::isfinite(stamped.t) && roomgraph::problemOf(stamped.pose, 1e-3).empty();
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part of roomgraph, object-level semantic SLAM.
-#include <mrpt/containers/yaml.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
+#include <stdexcept>
+#include <vector>
 
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/text_file.h"
+#include "roomgraph/geometry/plausible_pose.h"
 #include "roomgraph/mapping/map_files.h"
 
 namespace roomgraph {
@@ -15,7 +18,6 @@ namespace {
 
 constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;  // map_server's usual values
 constexpr unsigned char kFree = 254, kOccupied = 0, kUnknown = 205;
-constexpr double kFarthest_m = 1e6;
 
 unsigned char grayOf(double p_free) {
   if (1 - p_free > kOccupiedThreshold) return kOccupied;
@@ -29,22 +31,34 @@ struct RosMap {
   bool negate = false;
 };
 
+// MRPT's reader is not used: it prints lines of its own about a broken file.
+template <class T>
+T valueOf(const YAML::Node& yaml, const char* key) {
+  if (!yaml[key]) throw std::runtime_error(std::string("'") + key + "' is missing");
+  try {
+    return yaml[key].as<T>();
+  } catch (const YAML::Exception& error) {
+    throw std::runtime_error(std::string("'") + key + "': " + error.what());
+  }
+}
+
 RosMap readYaml(const std::filesystem::path& file) {
   const std::string text = readTextFile(file);
   try {
-    const auto yaml = mrpt::containers::yaml::FromText(text);
+    const YAML::Node yaml = YAML::Load(text);
+    if (!yaml.IsMap()) throw std::runtime_error("holds no keys");
     RosMap map;
-    map.image = yaml["image"].as<std::string>();
+    map.image = valueOf<std::string>(yaml, "image");
     if (map.image.is_relative()) map.image = file.parent_path() / map.image;
-    map.resolution_m = yaml["resolution"].as<double>();
-    const auto origin = yaml["origin"].toStdVector<double>();
+    map.resolution_m = valueOf<double>(yaml, "resolution");
+    const auto origin = valueOf<std::vector<double>>(yaml, "origin");
     if (origin.size() < 2) throw std::runtime_error("'origin' is not [x, y, yaw]");
     if (origin.size() > 2 && origin[2] != 0) throw std::runtime_error("a rotated 'origin' is not supported");
     map.x_min = origin[0];
     map.y_min = origin[1];
-    map.occupied_threshold = yaml["occupied_thresh"].as<double>();
-    map.free_threshold = yaml["free_thresh"].as<double>();
-    map.negate = yaml.getOrDefault<int>("negate", 0) != 0;
+    map.occupied_threshold = valueOf<double>(yaml, "occupied_thresh");
+    map.free_threshold = valueOf<double>(yaml, "free_thresh");
+    map.negate = yaml["negate"] && valueOf<int>(yaml, "negate") != 0;
     if (!(map.resolution_m > 1e-4) || !(map.resolution_m < 100))
       throw std::runtime_error("'resolution' is not in (0.0001, 100) m");
     if (!(std::abs(map.x_min) < kFarthest_m) || !(std::abs(map.y_min) < kFarthest_m))

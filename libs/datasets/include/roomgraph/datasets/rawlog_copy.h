@@ -15,7 +15,8 @@ namespace roomgraph {
 /// elsewhere, a link NAME_Images to their folder is made beside it.
 class RawlogCopy {
  public:
-  /// Throws InputError (input missing, not a rawlog) or RunError (output cannot be written, or is the input).
+  /// Throws InputError (input missing, not a rawlog), ConfigError (the output is the input) or RunError (the
+  /// output cannot be written).
   RawlogCopy(const std::filesystem::path& input, const std::filesystem::path& output);
   /// Leaves no file when finish() was not called.
   ~RawlogCopy();

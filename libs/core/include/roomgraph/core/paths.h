@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Part of roomgraph, object-level semantic SLAM.
+#pragma once
+
+#include <filesystem>
+
+namespace roomgraph {
+
+/// Whether `file` is the folder or lies in it, links followed as far as they exist; an empty path lies
+/// nowhere.
+bool isInside(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+}  // namespace roomgraph
