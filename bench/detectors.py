@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Recall and precision of each network, and what is lost when it runs on every k-th frame only and its boxes are tracked.
 
     bench/detectors.py --data DATA [--every 3 5] [--meshes] [--only NETWORK ...] [--out OUT]

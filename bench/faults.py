@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Faults: what the program does with damaged input, full disks and signals.
 
     bench/faults.py poison   [--cases 1000]   NaN or 1e12 over one field of one record of a short recording, then `run`

@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Faults of files and processes: disks that are full, signals at any moment. Used by faults.py.
 
 A case is good when the folder holds the former results or the complete new ones, never some of each."""

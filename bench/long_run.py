@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """A run of many minutes: what the stages cost in each minute of it, so that whatever grows is seen.
 
     bench/long_run.py [WORLD.json] [--minutes 10] [--seed 1] [--set k=v ...] [--out out/long_run]

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Runs every benchmark and writes docs/results.md from what the program measured.
 
     bench/results.py --data DATA [--only NAME ...] [--out OUT]

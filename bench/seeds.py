@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Simulates a world with N seeds, runs and evaluates each, and prints median and spread of every figure.
 
     bench/seeds.py WORLD.json ... [--seeds 10] [--set k=v ...] [--variants name=k=v,k=v ...] [--out DIR]

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Recorded instance masks as detections that roomgraph replays: chairs with the track ids of their source.
 
     bench/yolo_masks.py $DATA/rgbd/fr3_office_10hz -o chairs.jsonl

@@ -10,9 +10,6 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/roomgraph-config-version.c
 install(FILES "${CMAKE_BINARY_DIR}/roomgraph-config.cmake" "${CMAKE_BINARY_DIR}/roomgraph-config-version.cmake"
         DESTINATION ${ROOMGRAPH_CMAKE_DIR})
 
-foreach(file config.ini objects.ini)
-  if(EXISTS "${PROJECT_SOURCE_DIR}/${file}")
-    install(FILES "${PROJECT_SOURCE_DIR}/${file}" DESTINATION ${CMAKE_INSTALL_DATADIR}/roomgraph)
-  endif()
-endforeach()
+install(FILES "${PROJECT_SOURCE_DIR}/config.ini" "${PROJECT_SOURCE_DIR}/objects.ini"
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/roomgraph)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})

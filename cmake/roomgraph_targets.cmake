@@ -8,6 +8,9 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
+# A library that changed inside does not make its users link again.
+set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
+
 find_program(ROOMGRAPH_CCACHE ccache)
 if(ROOMGRAPH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${ROOMGRAPH_CCACHE}")
@@ -48,14 +51,20 @@ function(roomgraph_add_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# roomgraph_add_test(NAME SOURCES ... LINK targets...): one GoogleTest executable, its cases listed in ctest.
+# roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...]): one GoogleTest executable, its cases
+# listed in ctest. It sees the private headers of the library whose tests stand in this folder, and of INTERNALS:
+# the parts behind the public interface are tested one by one.
 function(roomgraph_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
+  get_filename_component(tested "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+  foreach(library ${tested} ${ARG_INTERNALS})
+    target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/libs/${library}/src")
+  endforeach()
   target_link_libraries(${name} PRIVATE roomgraph_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE ROOMGRAPH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              ROOMGRAPH_BINARY_DIR="${CMAKE_BINARY_DIR}")

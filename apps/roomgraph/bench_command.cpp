@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph bench proposals`: cuboid proposals from true or detected boxes, scored against the true objects.
 #include <ctime>
 #include <iostream>
 #include <memory>

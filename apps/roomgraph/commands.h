@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// The sub-commands of the program and the CLI11 validators that they share.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph config-reference`: Markdown page of all configuration keys and object database keys.
 #include <iostream>
 
 #include "commands.h"

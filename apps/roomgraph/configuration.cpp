@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reading of --config and --set; default config.ini and lookup of objects.ini.
 #include "configuration.h"
 
 #include "roomgraph/core/errors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Configuration of a command from --config and --set, with the object database that belongs to it.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph evaluate`: trajectory, relations, objects, detections and map against truth, as table and JSON.
 #include <filesystem>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph import`: a folder in TUM RGB-D format into an MRPT rawlog, with camera and sensor pose.
 #include <iostream>
 #include <memory>
 
@@ -14,14 +14,14 @@
 namespace roomgraph {
 namespace {
 
-struct Arguments {
+struct ImportArguments {
   std::filesystem::path folder, rawlog;
   std::string camera, pose;
   TumImportOptions options;
 };
 
 // The recording has one sensor, so its label may be left out.
-Pose3 poseOf(const Arguments& arguments) {
+Pose3 poseOf(const ImportArguments& arguments) {
   const std::string context = "--pose " + arguments.pose;
   const auto& label = arguments.options.label;
   if (arguments.pose.find('=') == std::string::npos) return parsePose(arguments.pose, context);
@@ -31,7 +31,7 @@ Pose3 poseOf(const Arguments& arguments) {
   return poses.begin()->second;
 }
 
-TumImportOptions optionsOf(const Arguments& arguments) {
+TumImportOptions optionsOf(const ImportArguments& arguments) {
   TumImportOptions options = arguments.options;
   if (findCameraPreset(arguments.camera))
     options.preset = arguments.camera;
@@ -41,7 +41,7 @@ TumImportOptions optionsOf(const Arguments& arguments) {
   return options;
 }
 
-void importFolder(const Arguments& arguments) {
+void importFolder(const ImportArguments& arguments) {
   std::unique_ptr<Progress> line;
   catchInterrupts();
   const auto result = importTum(
@@ -69,7 +69,7 @@ void addImportCommand(CLI::App& app) {
   importer->require_subcommand(1);
   auto* tum =
       importer->add_subcommand("tum", "TUM or ICL-NUIM folder: associations.txt, or rgb.txt and depth.txt");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ImportArguments>();
   auto& options = arguments->options;
   tum->add_option("DIR", arguments->folder, "folder with the images and their lists")->required();
   tum->add_option("-o,--output", arguments->rawlog, "rawlog to write (gzip inside)")->required();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph info`: sensors, cameras, depth and scans of a rawlog as text or JSON.
 #include <mrpt/math/TPose3D.h>
 
 #include <cmath>
@@ -184,12 +184,12 @@ void writeJson(const RawlogReport& report, const std::filesystem::path& file) {
   writeFileAtomically(file, out.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
-struct Arguments {
+struct InfoArguments {
   std::filesystem::path rawlog, json;
   std::vector<std::string> poses;
 };
 
-void inspect(const Arguments& arguments) {
+void inspect(const InfoArguments& arguments) {
   if (!arguments.json.empty()) requireOther(arguments.json, {arguments.rawlog});
   SensorPoses poses;
   for (const auto& text : arguments.poses)
@@ -207,7 +207,7 @@ void inspect(const Arguments& arguments) {
 
 void addInfoCommand(CLI::App& app) {
   auto* info = app.add_subcommand("info", "Say what is inside a rawlog, and what is wrong with it");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InfoArguments>();
   info->add_option("RAWLOG", arguments->rawlog, "recording to look at")->required();
   info->add_option("--json", arguments->json, "also write the report to this file");
   info->add_option(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Signal handlers behind the interrupt flag; ignored signals stay ignored.
 #include "interrupts.h"
 
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Orderly end on SIGINT, SIGTERM and SIGHUP: the first signal only raises a flag.
 #pragma once
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Entry point: command-line parsing, exit codes, and one line on stderr per error.
 #include <fcntl.h>
 
 #include <iostream>

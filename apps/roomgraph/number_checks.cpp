@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// CLI11 validators for finite numbers with a lower bound.
 #include <cmath>
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph optimize`: least-squares solution of a 2D or 3D pose graph in g2o format.
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -13,7 +13,7 @@
 namespace roomgraph {
 namespace {
 
-struct Arguments {
+struct OptimizeArguments {
   std::filesystem::path graph, output;
   int max_iterations = 100;
   bool keep_start = false, quiet = false;
@@ -48,7 +48,7 @@ std::string decimal(double value) {
 }
 
 template <class Graph>
-void run(Graph& graph, const NodeTimes& times, const Arguments& arguments) {
+void run(Graph& graph, const NodeTimes& times, const OptimizeArguments& arguments) {
   const double before = chiSquared(graph);
   if (!std::isfinite(before))
     throw InputError(arguments.graph.string() + ": chi2 cannot be computed: its numbers are too large");
@@ -69,7 +69,7 @@ void run(Graph& graph, const NodeTimes& times, const Arguments& arguments) {
             << arguments.output.string() << ": written\n";
 }
 
-void optimizeFile(const Arguments& arguments) {
+void optimizeFile(const OptimizeArguments& arguments) {
   G2oContent content = loadG2o(arguments.graph);
   for (const auto& [tag, lines] : content.skipped)
     std::cerr << "roomgraph: warning: " << arguments.graph.string() << ": " << lines << " lines '" << tag
@@ -80,7 +80,7 @@ void optimizeFile(const Arguments& arguments) {
 }  // namespace
 
 void addOptimizeCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<OptimizeArguments>();
   auto* command = app.add_subcommand("optimize", "Optimise a 2D or 3D pose graph (g2o), print its chi^2");
   command->add_option("GRAPH", arguments->graph, "g2o file (VERTEX_SE2 or VERTEX_SE3:QUAT)")->required();
   command->add_option("-o,--output", arguments->output, "g2o file to write")->required();

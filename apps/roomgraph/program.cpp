@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Version and revision from the build system, command line from /proc/self/cmdline.
 #include "program.h"
 
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Version, source revision and command line of the running program.
 #pragma once
 
 #include <string>

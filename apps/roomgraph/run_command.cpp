@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph run`: replay of a rawlog through SemanticSlam, with progress, map, snapshot and debug output.
 #include <tbb/global_control.h>
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Formatting of the summaries of a run.
 #include "run_report.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Text summaries of a run: progress, objects per class, counts and timing.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Search for shipped files relative to the executable, then in the source directory.
 #include "shared_files.h"
 
 #include "roomgraph/core/errors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Lookup of the shipped configuration files, installed or in the source tree.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph simulate`: synthetic recording of a described world with its ground truth.
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -14,13 +14,13 @@
 namespace roomgraph {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::filesystem::path world, folder;
   std::uint64_t seed = 1;
   bool quiet = false;
 };
 
-void simulateWorld(const Arguments& arguments) {
+void simulateWorld(const SimulateArguments& arguments) {
   const World world = readWorld(arguments.world);
   catchInterrupts();
   std::unique_ptr<Progress> line;
@@ -44,7 +44,7 @@ void simulateWorld(const Arguments& arguments) {
 }  // namespace
 
 void addSimulateCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   auto* command = app.add_subcommand("simulate", "Make a recording of a described world, with its truth");
   command->add_option("WORLD", arguments->world, "world description (JSON)")->required();
   command->add_option("-o,--output", arguments->folder, "folder for the rawlog and the truth files")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph snapshot`: PNG of a saved map from above, in orbit or from the robot.
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -15,11 +15,11 @@
 namespace roomgraph {
 namespace {
 
-struct Arguments {
+struct SnapshotArguments {
   std::string map, output, view = "top", size = "1280x960", objects, title;
 };
 
-SnapshotOptions toOptions(const Arguments& arguments) {
+SnapshotOptions toOptions(const SnapshotArguments& arguments) {
   SnapshotOptions options;
   options.view = arguments.view == "orbit"   ? SnapshotView::kOrbit
                  : arguments.view == "robot" ? SnapshotView::kRobot
@@ -37,7 +37,7 @@ SnapshotOptions toOptions(const Arguments& arguments) {
 }
 
 /// The database that was asked for; else objects.ini beside the map; else the shipped one.
-ObjectDatabase colours(const Arguments& arguments) {
+ObjectDatabase colours(const SnapshotArguments& arguments) {
   if (!arguments.objects.empty()) return ObjectDatabase::fromFile(arguments.objects);
   const auto beside = std::filesystem::path(arguments.map).parent_path() / "objects.ini";
   return ObjectDatabase::fromFile(std::filesystem::is_regular_file(beside) ? beside
@@ -47,7 +47,7 @@ ObjectDatabase colours(const Arguments& arguments) {
 }  // namespace
 
 void addSnapshotCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SnapshotArguments>();
   auto* command = app.add_subcommand("snapshot", "Picture of a map (off-screen, no display needed)");
   command->add_option("map", arguments->map, "Map written by run (map.rgmap)")->required();
   command->add_option("-o,--output", arguments->output, "PNG to write")->required();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Greedy assignment within a gate, registered when the plug-in is loaded.
 #include "greedy_nearest_associator.h"
 
 #include <mrpt/core/initializer.h>

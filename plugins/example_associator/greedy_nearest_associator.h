@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Example plug-in: greedy nearest-neighbour associator.
 #pragma once
 
 #include "roomgraph/association/associator.h"

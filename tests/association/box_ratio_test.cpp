@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MeasurementModel::boxRatio against hand-computed side densities and sampled silhouettes.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "roomgraph/association/soft_associator.h"
 #include "sightings.h"
+#include "soft_associator.h"
 
 namespace roomgraph::testing {
 namespace {

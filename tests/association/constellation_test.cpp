@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Constellation matching over random transforms, noise, ambiguity and missing objects.
 #include "roomgraph/association/constellation.h"
 
 #include <gtest/gtest.h>

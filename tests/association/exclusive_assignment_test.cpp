@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/exclusive_assignment.h"
+// Exclusive assignment against enumeration of all joint assignments.
+#include "exclusive_assignment.h"
 
 #include <gtest/gtest.h>
 

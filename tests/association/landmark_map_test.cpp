@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// LandmarkMap: fusion, existence, merging and splitting against values worked out by hand.
 #include "roomgraph/association/landmark_map.h"
 
 #include <gtest/gtest.h>

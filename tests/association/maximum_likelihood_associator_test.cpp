@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/maximum_likelihood_associator.h"
+// Maximum-likelihood associator against brute-force Bayes' rule, with gates and class.
+#include "maximum_likelihood_associator.h"
 
 #include <gtest/gtest.h>
 

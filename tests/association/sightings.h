@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Landmarks and sightings for the association tests.
 #pragma once
 
 #include <string>

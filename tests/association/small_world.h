@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated row of identical chairs with drift, clutter and broken tracks.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
 // Associators, landmark map and re-association together on small simulated worlds.
 #include "small_world.h"
 
@@ -9,10 +8,10 @@
 #include <cmath>
 #include <set>
 
+#include "maximum_likelihood_associator.h"
+#include "nearest_neighbor_associator.h"
 #include "roomgraph/association/association_model.h"
-#include "roomgraph/association/maximum_likelihood_associator.h"
-#include "roomgraph/association/nearest_neighbor_associator.h"
-#include "roomgraph/association/soft_associator.h"
+#include "soft_associator.h"
 
 namespace roomgraph::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/soft_associator.h"
+// SoftAssociator: recursion against the product of densities, exclusion, tracks, features, labels.
+#include "soft_associator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// FactorGraph on simulated loops: chi-squared, NEES, robustness, determinism and misuse.
 #include "roomgraph/backend/factor_graph.h"
 
 #include <gmock/gmock.h>

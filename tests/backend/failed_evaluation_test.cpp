@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Silent failure of graphs that cannot be evaluated.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// g2o output against the poses, edges and information matrices put in.
 #include <gtest/gtest.h>
 
 #include <algorithm>

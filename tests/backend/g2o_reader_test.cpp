@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// g2o reader: round trips, chi-squared by definition, malformed files, published optima.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

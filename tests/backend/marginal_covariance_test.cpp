@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Marginal covariances against the dense inverse, and NEES over simulated loops.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Marginal prior: sliding window against the batch solution, and inverse marginal covariance.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

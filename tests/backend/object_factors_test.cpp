@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Box, point and size factors: exact measurements give back pose, size and points.
 #include <gtest/gtest.h>
 
 #include <thread>

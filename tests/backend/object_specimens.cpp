@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Exact and hand-computed states of point, box, size and marginal prior residuals.
 #include "object_specimens.h"
 
 #include "object_views.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Specimens of the residuals of points, boxes, sizes and marginal priors.
 #pragma once
 
 #include "residual_specimens.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Camera, random shapes and viewpoints for the tests of object factors.
 #pragma once
 
 #include "random_poses.h"

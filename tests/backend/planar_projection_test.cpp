@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Planar projection of a graph: same error as in 3D, landmarks and times in g2o files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Templated box projection against projectShape and sampled surfaces.
 #include "projected_box.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Exact and hand-computed states of the residuals of poses and landmarks.
 #include "residual_specimens.h"
 
 #include "object_specimens.h"

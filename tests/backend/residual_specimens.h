@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Specimens of cost functions: states with known residuals, for every factor type.
 #pragma once
 
 #include <ceres/ceres.h>

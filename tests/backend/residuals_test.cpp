@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Every residual at its measurement, against values by hand and numerical derivatives.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated drive around a circle with noisy movements, sightings and one loop closure.
 #pragma once
 
 #include <cmath>

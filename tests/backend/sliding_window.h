@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Fixed-lag smoother over FactorGraph::marginalize for the tests.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Processor time of window and whole-graph optimisation (disabled by default).
 #include <gtest/gtest.h>
 
 #include <ctime>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// AllocationLimit against containers, every form of new, threads and exceptions.
 #include "roomgraph/core/allocation_limit.h"
 
 #include <gtest/gtest.h>

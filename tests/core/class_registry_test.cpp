@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Class registry: creation by name, listing, unknown names and missing plug-ins.
 #include "roomgraph/core/class_registry.h"
 
 #include <gmock/gmock.h>

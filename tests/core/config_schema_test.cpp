@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Configuration schema: unknown sections and keys, suggestions, Markdown reference.
 #include "roomgraph/core/config_schema.h"
 
 #include <gmock/gmock.h>

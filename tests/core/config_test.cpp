@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Config: values, ranges, overrides, quoting round trips and file names.
 #include "roomgraph/core/config.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Example interface with two implementations for registry and configuration tests.
 #pragma once
 
 #include <string>

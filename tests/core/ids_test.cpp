@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Typed ids: validity, type safety, ordering, printing and hashing.
 #include "roomgraph/core/ids.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// INI parser: sections, comments, quotes, duplicates, and errors with their place.
 #include "roomgraph/core/ini_text.h"
 
 #include <gmock/gmock.h>

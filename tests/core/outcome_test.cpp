@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Outcome: value or reason, and move-only values.
 #include "roomgraph/core/outcome.h"
 
 #include <gtest/gtest.h>

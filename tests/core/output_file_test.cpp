@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Output files: full disk, atomic replacement, concurrent writers, inputs as outputs.
 #include "roomgraph/core/output_file.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// OutputFolder: publication, recovery after a kill, locking, inputs and signal handlers.
 #include "roomgraph/core/output_folder.h"
 
 #include <gmock/gmock.h>

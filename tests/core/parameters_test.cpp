@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsing and formatting of parameter values: ranges, choices, lists, quoting round trips.
 #include "roomgraph/core/parameters.h"
 
 #include <gmock/gmock.h>

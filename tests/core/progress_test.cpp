@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Progress line: silence without a stream and few lines in a file.
 #include "roomgraph/core/progress.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Spelling suggestions and joining of lists.
 #include "roomgraph/core/suggest.h"
 
 #include <gtest/gtest.h>

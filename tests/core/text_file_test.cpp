@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Text files, and JSON errors with line and column.
 #include "roomgraph/core/text_file.h"
 
 #include <gmock/gmock.h>

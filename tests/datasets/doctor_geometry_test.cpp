@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Report about a recording: depth unit and sensor pose against floor and lidar, on real data too.
 #include <gmock/gmock.h>
 #include <mrpt/io/CFileGZInputStream.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RGB-D record to Frame: colour order, depth along rays, registration, distortion, external images.
 #include <gmock/gmock.h>
 
 #include <opencv2/core.hpp>

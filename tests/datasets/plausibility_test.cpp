@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Implausible records left out alike by RawlogReader and inspectRawlog.
 #include <gmock/gmock.h>
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RawlogCopy: unchanged bytes, order of inserted detections, replaced detections, external images.
 #include "roomgraph/datasets/rawlog_copy.h"
 
 #include <gtest/gtest.h>

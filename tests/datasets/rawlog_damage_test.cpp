@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RawlogReader on damaged files: every cut, wrong sizes, broken records and JPEG images.
 #include <gmock/gmock.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rawlogs, records and temporary folders for the data set tests.
 #pragma once
 
 #include <mrpt/core/Clock.h>

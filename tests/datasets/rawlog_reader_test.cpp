@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RawlogReader: both formats and storages, odometry from actions, skipped and unusable records.
 #include "roomgraph/datasets/rawlog_reader.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Report about a rawlog: statistics and findings on synthetic and real recordings.
 #include "roomgraph/datasets/rawlog_report.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Recorded detections as comments or objects, in reader, report and peek.
 #include <gmock/gmock.h>
 
 #include "rawlog_maker.h"

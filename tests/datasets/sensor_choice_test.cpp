@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice among several sensors by label, and sensor poses given as text.
 #include <gmock/gmock.h>
 
 #include "errors_of.h"

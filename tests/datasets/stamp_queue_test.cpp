@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// StampQueue: isolated wrong stamps against gaps, pauses and separate clocks.
 #include "stamp_queue.h"
 
 #include <gmock/gmock.h>

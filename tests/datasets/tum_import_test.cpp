@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// TUM import: pairing, cameras, mirrored ICL-NUIM poses, and files put into place together.
 #include "roomgraph/datasets/tum_import.h"
 
 #include <gmock/gmock.h>

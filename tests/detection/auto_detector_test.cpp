@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/auto_detector.h"
+// AutoDetector: idle, replaying, and running a network.
+#include "auto_detector.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/core/Clock.h>

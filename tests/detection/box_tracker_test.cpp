@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// BoxTracker on synthetic images: shift, scale, occlusion, camera motion, cut boxes.
 #include "roomgraph/detection/box_tracker.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/decoders.h"
+// Network decoders against hand-made outputs; non-maximum suppression.
+#include "decoders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detection records: bit-exact replay, thresholds, masks, and FNV-1a test vectors.
 #include "roomgraph/detection/detection_record.h"
 
 #include <gmock/gmock.h>
@@ -9,9 +9,9 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 
+#include "recorded_detector.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/detection/recorded_detector.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {

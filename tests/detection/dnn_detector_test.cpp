@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/dnn_detector.h"
+// DnnDetector: errors about model files, and published networks on real images.
+#include "dnn_detector.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/input_mapping.h"
+// Letterbox and stretch mapping of images and boxes.
+#include "input_mapping.h"
 
 #include <gtest/gtest.h>
 

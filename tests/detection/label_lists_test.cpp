@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/label_lists.h"
+// Label lists: lengths, order of published networks, and labels files.
+#include "label_lists.h"
 
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 #include <set>
 
+#include "dnn_detector.h"
 #include "errors_of.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/detection/dnn_detector.h"
 #include "roomgraph/observations/object_database.h"
 #include "tiny_network.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/recorded_detector.h"
+// RecordedDetector: matching by time and camera, JSON and text files, masks.
+#include "recorded_detector.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/core/Clock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Writer of a minimal Darknet network for the detection tests.
 #pragma once
 
 #include <cstdint>

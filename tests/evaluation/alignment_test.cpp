@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rigid alignment: exact, optimal under noise, planar and degenerate paths.
 #include "roomgraph/evaluation/alignment.h"
 
 #include <gtest/gtest.h>

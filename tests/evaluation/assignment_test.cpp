@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/evaluation/assignment.h"
+// Gated assignment against exhaustive search.
+#include "assignment.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Association accuracy, identity switches and calibration against values worked out by hand.
 #include "roomgraph/evaluation/association_error.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-// The sub-command as a user runs it: exit codes, JSON, one clear line on bad input.
+// `roomgraph evaluate` as a user runs it: exit codes, JSON, one clear line on bad input.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 

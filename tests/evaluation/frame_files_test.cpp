@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Readers of boxes, detections and associations per frame.
 #include "roomgraph/evaluation/frame_files.h"
 
 #include <gmock/gmock.h>

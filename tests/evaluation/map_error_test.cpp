@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Map errors against drawn maps and all-pairs distances.
 #include "roomgraph/evaluation/map_error.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Object errors against values worked out by hand: matching, symmetry, distractors, visibility.
 #include "roomgraph/evaluation/object_error.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Readers of objects and of visibility, on made and real truth files.
 #include "roomgraph/evaluation/object_files.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Proposal and ground errors, and normalised errors of consistent samples.
 #include "roomgraph/evaluation/proposal_error.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Relation errors against values worked out by hand.
 #include "roomgraph/evaluation/relations.h"
 
 #include <gmock/gmock.h>

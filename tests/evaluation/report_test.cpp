@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Names of the JSON figures, and null for undefined ones.
 #include "roomgraph/evaluation/report.h"
 
 #include <gmock/gmock.h>

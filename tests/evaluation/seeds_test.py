@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """bench/seeds.py with a program of known answers in place of roomgraph."""
 import argparse
 import contextlib

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Trajectory errors and statistics against values worked out by hand.
 #include "roomgraph/evaluation/trajectory_error.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Trajectory reader: TUM and planar format, sorting, malformed lines.
 #include "roomgraph/evaluation/trajectory_file.h"
 
 #include <gmock/gmock.h>

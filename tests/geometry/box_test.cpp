@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Box2 against hand values and counted pixels.
 #include "roomgraph/geometry/box.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// PinholeCamera: projection, validity and scaling.
 #include "roomgraph/geometry/camera.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ground plane, local ground frame and ray intersection of random cameras.
 #include "roomgraph/geometry/ground.h"
 
 #include <gtest/gtest.h>

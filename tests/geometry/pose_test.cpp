@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// SE(3) and SO(3) maps against series, planar poses, interpolation.
 #include "roomgraph/geometry/pose.h"
 
 #include <gtest/gtest.h>

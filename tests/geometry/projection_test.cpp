@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Projected shapes and circles against sampled outlines.
 #include "roomgraph/geometry/projection.h"
 
 #include <gtest/gtest.h>

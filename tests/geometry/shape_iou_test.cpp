@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// 3D IoU against closed forms and Monte Carlo sampling.
 #include <gtest/gtest.h>
 
 #include <numbers>

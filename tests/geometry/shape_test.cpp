@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Shape names, footprints and distances from the volume.
 #include "roomgraph/geometry/shape.h"
 
 #include <gtest/gtest.h>

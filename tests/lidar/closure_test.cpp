@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Shortest paths over closures, and confirmation by agreeing closures.
 #include <gtest/gtest.h>
 
-#include "roomgraph/lidar/closure_confirmation.h"
-#include "roomgraph/lidar/closure_graph.h"
+#include "closure_confirmation.h"
+#include "closure_graph.h"
 
 namespace roomgraph {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/correlative_search.h"
+// Branch-and-bound search against brute force.
+#include "correlative_search.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Removal of lidar returns in sectors around people.
 #include "roomgraph/lidar/dynamic_return_filter.h"
 
 #include <gtest/gtest.h>

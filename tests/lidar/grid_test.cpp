@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Probability grid, refinement and score pyramid: derivatives, covariance, corridor, maxima.
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "roomgraph/lidar/grid_refinement.h"
-#include "roomgraph/lidar/score_pyramid.h"
+#include "grid_refinement.h"
+#include "score_pyramid.h"
 #include "synthetic_scans.h"
 
 namespace roomgraph {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// SubmapLoopCloser in simulated rooms: true returns, similar rooms, verification.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "roomgraph/lidar/submap_loop_closer.h"
+#include "submap_loop_closer.h"
 #include "synthetic_scans.h"
 
 namespace roomgraph {

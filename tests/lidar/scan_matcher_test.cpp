@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// SubmapScanMatcher in simulated rooms: movement, wheel slip, corridor, loss.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/lidar/register_classes.h"
-#include "roomgraph/lidar/submap_scan_matcher.h"
+#include "submap_scan_matcher.h"
 #include "synthetic_scans.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// landmarks.json: round trip, header, truth files and malformed entries.
 #include <gmock/gmock.h>
 
 #include <cmath>

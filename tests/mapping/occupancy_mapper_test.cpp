@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// OccupancyMapper against the walls of a ray-cast room.
 #include "roomgraph/mapping/occupancy_mapper.h"
 
 #include <gtest/gtest.h>

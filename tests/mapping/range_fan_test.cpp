@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Range fans from rendered depth images and from scans.
 #include "roomgraph/mapping/range_fan.h"
 
 #include <gtest/gtest.h>

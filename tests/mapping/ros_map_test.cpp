@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// ROS map files: pixel layout, round trip and malformed YAML.
 #include <gmock/gmock.h>
 
 #include "roomgraph/core/errors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detections as comments: bit-exact round trip and damaged texts.
 #include "roomgraph/observations/detection_comment.h"
 
 #include <gtest/gtest.h>

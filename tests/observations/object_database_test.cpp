@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Object database: shipped file, lookup by label, strict parsing.
 #include "roomgraph/observations/object_database.h"
 
 #include <gmock/gmock.h>

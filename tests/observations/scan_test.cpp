@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Scan conversion: beam directions against MRPT's point map, dropouts, round trip.
 #include "roomgraph/observations/scan.h"
 
 #include <gtest/gtest.h>

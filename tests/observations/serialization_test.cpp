@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Serialisation round trips of every class, older versions and truncated data.
 #include <gmock/gmock.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/io/CMemoryStream.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Trajectory: interpolation, extrapolation and segments.
 #include "roomgraph/observations/trajectory.h"
 
 #include <gtest/gtest.h>

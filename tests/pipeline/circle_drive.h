@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Circular drive with drifting motion sources and exact closures.
 #pragma once
 
 #include "random_poses.h"

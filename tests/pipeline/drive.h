@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated lap through the asymmetric room: scans, wheels, frames and stages.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Exact boxes, proposals, movement and closures from the true world of a test.
 #include "fake_stages.h"
 
 #include "roomgraph/geometry/projection.h"

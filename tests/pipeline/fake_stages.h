@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detector, proposal generator and odometry that know the truth, chosen by class name.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Graph of a run: motion sources, closures, windows, ground factors and landmarks.
 #include "roomgraph/pipeline/graph_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// KeyPoses: interpolation between key poses, ends, and nearest in time.
 #include "roomgraph/pipeline/key_poses.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MapAnchor: constellation confirmed by scan returns, and union of landmarks.
 #include "roomgraph/pipeline/map_anchor.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Motion sources: covariance models, segments and order of preference.
 #include "roomgraph/pipeline/motion.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Object factors: residual-free sightings, means, visits and sides; split of landmarks by time.
 #include "roomgraph/pipeline/object_factors.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// ObjectMapper: sightings follow a landmark that is split in two.
 #include "roomgraph/pipeline/object_mapper.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// SemanticSlam with true object stages: mapping, levelling, loop closing and earlier maps.
 #include <gtest/gtest.h>
 
 #include "drive.h"

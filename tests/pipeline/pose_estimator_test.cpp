@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// PoseEstimator: sliding window with prior against the whole graph.
 #include "roomgraph/pipeline/pose_estimator.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// StageTimes: wall-clock and processor time, totals.
 #include "roomgraph/pipeline/stage_times.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/pipeline/visibility.h"
+// Evidence of lidar beams for and against a landmark.
+#include "visibility.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Proposal covariance: shape, growth, and Monte Carlo over tilt and box noise.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <random>
 
-#include "roomgraph/proposals/proposal_covariance.h"
+#include "proposal_covariance.h"
 #include "scene.h"
 
 namespace roomgraph {

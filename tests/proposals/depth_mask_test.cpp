@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/depth_mask.h"
+// Depth mask on rendered scenes with wall and occluder; initialisation score.
+#include "depth_mask.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "roomgraph/proposals/initial_score.h"
+#include "initial_score.h"
 #include "scene.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Vertical planes, intervals and doors against sampling and rendered scenes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "roomgraph/proposals/door_from_image.h"
-#include "roomgraph/proposals/door_on_plane.h"
-#include "roomgraph/proposals/plane_fit.h"
-#include "roomgraph/proposals/proposal_covariance.h"
+#include "door_from_image.h"
+#include "door_on_plane.h"
+#include "plane_fit.h"
+#include "proposal_covariance.h"
 #include "scene.h"
 
 namespace roomgraph {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Leg line, vanishing points, cuboid corners and edge agreement on rendered scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 #include <random>
 
-#include "roomgraph/proposals/cuboid_corners.h"
-#include "roomgraph/proposals/edge_agreement.h"
-#include "roomgraph/proposals/fit_shape.h"
-#include "roomgraph/proposals/leg_line.h"
+#include "cuboid_corners.h"
+#include "edge_agreement.h"
+#include "fit_shape.h"
+#include "leg_line.h"
 #include "scene.h"
 
 namespace roomgraph {

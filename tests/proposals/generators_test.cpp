@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/generators.h"
+// Cylinder, cuboid and door hypotheses on rendered scenes, with and without depth.
+#include "generators.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "roomgraph/proposals/fit_shape.h"
-#include "roomgraph/proposals/rectangle_fit.h"
+#include "fit_shape.h"
+#include "rectangle_fit.h"
 #include "scene.h"
 
 namespace roomgraph {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/ground_plane.h"
+// Ground plane on rendered scenes: furniture, tilt, failures, covariance by Monte Carlo.
+#include "ground_plane.h"
 
 #include <gmock/gmock.h>
 

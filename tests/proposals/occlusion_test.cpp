@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Proposals of partly hidden, cut and rotated objects on rendered scenes.
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "roomgraph/proposals/generators.h"
+#include "generators.h"
 #include "scene.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ray-cast scenes of solids with depth, labels and shading for the proposal tests.
 #pragma once
 
 #include <cmath>

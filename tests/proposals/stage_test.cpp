@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// GeometricProposalGenerator as a stage: order, determinism, missing depth, traces.
 #include <gmock/gmock.h>
 
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "geometric_proposal_generator.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
-#include "roomgraph/proposals/geometric_proposal_generator.h"
 #include "roomgraph/proposals/register_classes.h"
 #include "scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Command-line and configuration errors: exit code, one clear line, suggestions.
 #include "program.h"
 #include "temporary_folder.h"
 

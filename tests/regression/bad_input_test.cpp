@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Unusable and damaged inputs on the command line: exit codes, messages, what is still used.
 #include "program.h"
 #include "temporary_folder.h"
 #include "tiny_recording.h"

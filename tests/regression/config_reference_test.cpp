@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// docs/config.md against the declared parameters, and the shipped configuration.
 #include "program.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/pipeline/stages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Commands on a disk that fills up: former results or new ones, never parts of both.
 // A limit on the size of files stands for a disk that is full: writing fails in the middle of a file, with an
 // error of its own. bench/faults.py does the same on real full disks, for which one must be root.
 #include <signal.h>

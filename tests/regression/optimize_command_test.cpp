@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// `roomgraph optimize`: chi-squared of a small graph and of a run's graph, failures.
 #include "program.h"
 #include "temporary_folder.h"
 #include "tiny_recording.h"

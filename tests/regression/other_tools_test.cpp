@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Files of roomgraph read by MRPT's own programs (rawlog-edit, graph-slam).
 #include <cstdio>
 
 #include "program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// The built program started from a test, with its output and exit code.
 #pragma once
 
 #include <fcntl.h>

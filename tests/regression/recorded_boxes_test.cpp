@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Runs on a recording that contains detections: objects, warnings, graph in the plane.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

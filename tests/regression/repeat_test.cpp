@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Repeatability of runs: same bits for any number of threads, own config, and interruption by signals.
 #include <signal.h>
 #include <string.h>
 

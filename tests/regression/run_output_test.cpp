@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Result files of `roomgraph run`: content against truth, repeatability, subsets of sensors.
 #include <nlohmann/json.hpp>
 
 #include "program.h"

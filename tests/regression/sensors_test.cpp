@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice of sensors and sensor poses on the command line.
 #include <nlohmann/json.hpp>
 
 #include "program.h"

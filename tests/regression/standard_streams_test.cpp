@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Lost, closed and redirected standard streams of the program.
 #include <cstdlib>
 
 #include "program.h"

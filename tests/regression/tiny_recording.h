@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Synthetic recording of a few seconds with lidar, RGB-D camera and wheel odometry.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Debug pictures by colour at expected pixels; wireframes, grid and horizon.
 #include "roomgraph/rendering/debug_picture.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Label placement: no overlaps, inside the picture.
 #include "labels.h"
 
 #include <gtest/gtest.h>

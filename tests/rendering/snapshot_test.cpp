@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Snapshots of a sample map in every view; saved OpenGL scene.
 #include "roomgraph/rendering/snapshot.h"
 
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include "overlay.h"
 #include "palette.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/rendering/scene.h"
 #include "sample_map.h"
+#include "scene.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Seeded random damage to binary and text files.
 #pragma once
 
 #include <cstring>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Records with one number replaced by NaN or 1e12 at every byte, read and in whole runs.
 #include <gmock/gmock.h>
 
 #include <cstring>
 #include <limits>
 
 #include "memory_limit.h"
-#include "roomgraph/pipeline/record_sorter.h"
+#include "record_sorter.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 #include "temporary_folder.h"
 #include "three_frames.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Shortest recordings with every kind of record, and checks that records are finite.
 #pragma once
 
 #include <cmath>

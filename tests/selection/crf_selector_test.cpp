@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/crf_selector.h"
+// CrfSelector in a synthetic room: tracks over missed, crossing and mislabelled detections.
+#include "crf_selector.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <map>
 #include <set>
 
+#include "best_score_selector.h"
 #include "made_up_room.h"
+#include "potentials.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
-#include "roomgraph/selection/best_score_selector.h"
-#include "roomgraph/selection/potentials.h"
 #include "roomgraph/selection/register_classes.h"
-#include "roomgraph/selection/unary_selector.h"
+#include "unary_selector.h"
 
 namespace roomgraph::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/crf.h"
+// Chain CRF against enumeration of all choices.
+#include "crf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Synthetic room of chairs and sofas with detections, proposals and features per view.
 #pragma once
 
 #include <string>

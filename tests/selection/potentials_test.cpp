@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/potentials.h"
+// Carried areas against sampled surfaces, pairwise potential and shared features.
+#include "potentials.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-// Time of one frame's selection, codes and window included: benchmark for Google Benchmark, not a test.
+// Time of one frame's selection, with codes and window, measured by Google Benchmark; not a test.
 #include <benchmark/benchmark.h>
 
+#include "best_score_selector.h"
+#include "crf_selector.h"
 #include "made_up_room.h"
-#include "roomgraph/selection/best_score_selector.h"
-#include "roomgraph/selection/crf_selector.h"
-#include "roomgraph/selection/unary_selector.h"
+#include "unary_selector.h"
 
 namespace roomgraph::testing {
 namespace {

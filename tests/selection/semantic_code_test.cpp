@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/semantic_code.h"
+// Semantic codes: reading order, matching against all subsequences, identity links.
+#include "semantic_code.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/unary_selector.h"
-#include "roomgraph/selection/potentials.h"
+// Unary potential by hand values, and UnarySelector's choices and confidences.
+#include "unary_selector.h"
+#include "potentials.h"
 
 #include <gtest/gtest.h>
 

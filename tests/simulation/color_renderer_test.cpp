@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/color_renderer.h"
+// Off-screen renderer against the exact depth image; ambient occlusion in corners.
+#include "color_renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
 #include "example_world.h"
-#include "roomgraph/simulation/id_raster.h"
+#include "id_raster.h"
 
 namespace roomgraph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// World of one room for the simulation tests, as JSON text.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/id_raster.h"
+// Exact depth and boxes against geometry by hand; occlusion and truncation.
+#include "id_raster.h"
 
 #include <gtest/gtest.h>
 

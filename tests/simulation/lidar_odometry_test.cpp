@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated lidar, odometry and detections against geometry and noise models.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "example_world.h"
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Depth noise model: growth with range, disparity steps, limits and projector shadow.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <set>
 
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Mesh files in place of built furniture: fit, orientation, material, broken files.
 #include <gmock/gmock.h>
 
 #include "errors_of.h"
 #include "example_world.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/simulation/scene.h"
+#include "scene.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {

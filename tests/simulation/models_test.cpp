@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/models.h"
+// Mesh solids by volume and normals, furniture sizes, person model and walk.
+#include "models.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "roomgraph/simulation/mesh_builder.h"
-#include "roomgraph/simulation/person_model.h"
+#include "mesh_builder.h"
+#include "person_model.h"
 
 namespace roomgraph {
 namespace {

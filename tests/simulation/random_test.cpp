@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/random.h"
+// Random streams: independence, repeatability and normal variance.
+#include "random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/scene.h"
+// Scene: world frame, object poses and moving parts.
+#include "scene.h"
 
 #include <gtest/gtest.h>
 

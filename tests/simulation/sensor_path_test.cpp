@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/sensor_path.h"
+// SensorPath: speed limits, waypoints, closed and hand-held paths.
+#include "sensor_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// The shipped worlds can be built and contain what they are meant to.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/simulation/scene.h"
 #include "roomgraph/simulation/world_file.h"
+#include "scene.h"
 
 namespace roomgraph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated recordings read back against their truth; same bytes for the same seed.
 #include "roomgraph/simulation/simulate.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "example_world.h"
 #include "roomgraph/datasets/rawlog_reader.h"
-#include "roomgraph/simulation/scene.h"
+#include "scene.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// World files: values read, and errors by file and entry.
 #include "roomgraph/simulation/world_file.h"
 
 #include <gmock/gmock.h>

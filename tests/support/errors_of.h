@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Message of an expected exception, for tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Address-space limit and peak memory of the test process.
 #pragma once
 
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Portable random numbers, vectors and poses for tests.
 #pragma once
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Small semantic map of an asymmetric room for tests.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ray-cast lidar scans of simple rooms with Gaussian noise.
 #pragma once
 
 #include <cmath>

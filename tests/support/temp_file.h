@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Temporary folder of a test, with files written into it.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Temporary folder of a test, with reading and counting of its files.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rendered RGB-D frames of a box room with random textures.
 #pragma once
 
 #include <cmath>

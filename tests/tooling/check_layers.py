@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """A library includes and links only strictly lower levels; heavy dependencies stay out of public headers, windows in gui/.
 
 Usage: check_layers.py ROOT

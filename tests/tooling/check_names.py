@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """No type name is defined twice in libs/: the libraries are shared, so two definitions of one name in the same namespace
 are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces are free.
 

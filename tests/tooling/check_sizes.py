@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """No file over 400 lines, no function over 60.
 
 Usage: check_sizes.py ROOT

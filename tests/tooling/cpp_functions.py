@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """Finds the functions of a C++ file by matching braces; no compiler needed.
 
 Every brace block at namespace or class level that is neither a scope (namespace, class, enum …) nor an initialiser is

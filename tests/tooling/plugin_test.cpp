@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-// A plug-in outside libs/ is loaded as a shared library and its stage is made by name.
+// Loading of a plug-in outside libs/ as a shared library, and creation of its stage by name.
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 

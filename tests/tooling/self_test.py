@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """The checks themselves: each must find what it is there for, and only that."""
 import pathlib
 import tempfile
@@ -9,11 +8,13 @@ import unittest
 
 import check_layers
 import check_names
+import check_references
 import check_sizes
 import check_text
 import cpp_functions
 
-HEAD = "// SPDX-License-Identifier: BSD-3-Clause\n"
+LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
+HEAD = LICENCE + "// Example source for the checks.\n"
 
 
 class TreeTest(unittest.TestCase):
@@ -190,6 +191,82 @@ class Text(TreeTest):
     def test_licence(self):
         self.assertIn("no licence line", self.problems("tests/core/a.cpp", "int a;\n")[0])
         self.assertEqual(self.problems("tests/core/a.cpp", HEAD), [])
+
+    def test_every_file_says_what_it_holds(self):
+        for second in ("", "#pragma once\n", "// Too few words.\n",
+                       "// Part of roomgraph, object-level semantic SLAM.\n"):
+            self.assertIn("a.h:2: the second line does not say", self.problems("libs/core/src/a.h", LICENCE + second)[0])
+        self.assertIn("first line is not the licence", self.problems("libs/core/src/a.h", "\n" + LICENCE)[0])
+        self.assertEqual(self.problems("libs/core/src/a.h", HEAD), [])
+
+    def test_a_caption_is_for_two_files_at_most(self):
+        self.write("libs/core/src/a.h", HEAD)
+        self.assertEqual(self.problems("libs/core/src/a.cpp", HEAD), [])
+        found = self.problems("libs/core/src/b.cpp", HEAD)
+        self.assertEqual(len(found), 1)
+        self.assertIn("libs/core/src/b.cpp:2: 'Example source for the checks.' is said of libs/core/src/a.cpp already", found[0])
+
+
+METHOD = """\
+# The method
+
+## 1. From an image
+### 1.2 Ground plane
+### 1.A Cylinder
+## 4. Association
+See Eq. 5 of sec. 4 and `sec. n`.
+
+**Eq. 3** (paper)
+
+**Eq. 4** (paper)
+
+**Eq. 5** (paper)
+"""
+
+
+class References(TreeTest):
+    def problems(self, path, text, method=METHOD):
+        self.write("docs/method.md", method)
+        self.write(path, text)
+        return check_references.check(self.root)[0]
+
+    def test_citations_that_resolve(self):
+        self.assertEqual(self.problems("libs/core/src/a.cpp", "// method.md sec. 1.2 to 1.A, and sec. 4; Eq. 3 to 5 (Eq.\n"
+                                       "/// 4), paper sec. IV.A, Eqs. 3, 4 and 5, Eq. 3.\n"), [])
+
+    def test_citations_that_do_not(self):
+        for bad in ("sec. 2", "sec. 1.B", "sec. 1.2 to 1.D", "Eq. 6", "Eq. 3 to 7", "Eq. (9)", "sec.\n/// 7", "Eq. 3, 6"):
+            self.assertEqual(len(self.problems("libs/core/src/a.h", f"int a;  // {bad}\n")), 1, bad)
+        self.assertEqual(self.problems("libs/core/src/a.h", "int a;\nint b;  ///< paper Eq. 10\n"),
+                         ["libs/core/src/a.h:2: docs/method.md has no Eq. 10"])
+
+    def test_citations_in_every_kind_of_file(self):
+        for path in ("a.py", "config.ini", "docs/a.md", "tests/core/a.cpp", "apps/a.h"):
+            self.assertEqual(len(self.problems(path, "sec. 7\n")), 1, path)
+            (self.root / path).unlink()
+        self.assertEqual(len(self.problems("docs/method.md", METHOD + "sec. 7\n", METHOD)), 1)
+
+    def test_other_works(self):
+        self.assertEqual(self.problems("libs/core/src/a.h", "// Hess et al. 2016, Eq. 14\n// (Umeyama\n// 1991, Eq. 40-42)\n"
+                                       "// (Rublee et al., Eq. 1-3)\n// Hess et al. 2016, sec. 7\n"), [])
+        for ours in ("(Hess et al. 2016); sec. 7", "Hess et al. (2016), Eq. 9", "Hess et al. 2016; sec. 8"):
+            self.assertEqual(len(self.problems("libs/core/src/a.h", f"// {ours}\n")), 1, ours)
+
+    def test_links(self):
+        self.write("docs/picture.png", "")
+        self.write("docs/other.md", "# Placing sensors\n## A `b_c` (d): e\n## Twice\n## Twice\n```\n# no heading\n```\n")
+        good = "[a](other.md) ![p](picture.png) [b](other.md#placing-sensors) [c](other.md#a-b_c-d-e) [d](../docs) [e](#mine)\n" \
+               "[f](https://example.org/x.md#y) [g](mailto:a@b.c) [h](other.md#twice-1) `[i](none.md)`\n# Mine\n" \
+               "```\n[j](none.md)\n```\n"
+        self.assertEqual(self.problems("docs/a.md", good), [])
+        self.assertEqual(self.problems("docs/a.md", "\n[a](none.md)\n"), ["docs/a.md:2: no file none.md"])
+        self.assertEqual(self.problems("docs/a.md", "[a\nb](other.md#none)\n"), ["docs/a.md:1: other.md has no heading #none"])
+        for bad in ("[a](#none)", "[a](other.md#no-heading)", "[a](other.md#twice-2)", "[a](docs/other.md)"):
+            self.assertEqual(len(self.problems("docs/a.md", bad + "\n")), 1, bad)
+
+    def test_a_missing_page_is_a_problem(self):
+        self.write("libs/core/src/a.h", "// nothing\n")
+        self.assertEqual(check_references.check(self.root), (["docs/method.md is missing"], 1))
 
 
 class Vacuous(TreeTest):

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-# Part of roomgraph, object-level semantic SLAM.
 """What all source checks share: which files there are, and how a check reports."""
 import pathlib
 import sys
 
-FOLDERS = ("libs", "apps", "gui", "plugins", "tests", "bench", "cmake", "docs")
+FOLDERS = ("libs", "apps", "gui", "plugins", "tests", "bench", "cmake", "docs", "rawlogs", "worlds")
 SKIPPED = {"build", "out", ".git", ".cache", "__pycache__"}
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Local bundle adjustment on exact keyframes, and consistency of the local map.
 #include "bundle_adjustment.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Feature grid against brute force, feature extraction and matching on rendered images.
 #include "feature_extractor.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/tracking/feature_odometry.h"
+// FeatureOdometry on a rendered room: accuracy, relocalisation, segments, dynamic regions.
+#include "feature_odometry.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Visual loop closing in a rendered room, and verification of proposed closures.
 #include <gtest/gtest.h>
 
+#include "feature_odometry.h"
 #include "place_recognition.h"
 #include "roomgraph/core/config.h"
-#include "roomgraph/tracking/feature_odometry.h"
 #include "textured_room.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Pose refinement and RANSAC: exact pose, outliers, and covariance by Monte Carlo.
 #include "pose_solver.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// FeatureOdometry on a recorded hand-held sequence against its ground truth.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +11,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "roomgraph/tracking/feature_odometry.h"
+#include "feature_odometry.h"
 
 namespace roomgraph {
 namespace {

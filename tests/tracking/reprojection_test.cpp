@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reprojection residual and Jacobian against hand values and central differences.
 #include "reprojection.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parameters and product of the factors of the association posterior, with tempering.
 #include "roomgraph/association/association_model.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MRPT class registration of the Associator interface.
 #include "roomgraph/association/associator.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Likelihood ratio of a detection's box under a landmark's projected model and under its own proposal.
 #include <cmath>
 #include <numbers>
 

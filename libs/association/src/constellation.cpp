@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Pair-wise transform hypotheses, voting with one-to-one pairs, Umeyama refinement and ambiguity test.
 #include "roomgraph/association/constellation.h"
 
 #include <algorithm>

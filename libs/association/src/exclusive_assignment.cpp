@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/exclusive_assignment.h"
+// Dynamic programming over subsets per connected component of the assignment graph.
+#include "exclusive_assignment.h"
 
 #include <algorithm>
 #include <cmath>

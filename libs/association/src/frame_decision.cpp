@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Frame decision from exclusive and non-exclusive alternatives by solveExclusive().
 #include "roomgraph/association/frame_decision.h"
 
 #include <algorithm>
 #include <map>
 
-#include "roomgraph/association/exclusive_assignment.h"
+#include "exclusive_assignment.h"
 
 namespace roomgraph {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/greedy_assignment.h"
+// Greedy assignment: candidates sorted by probability, each landmark taken once.
+#include "greedy_assignment.h"
 
 #include <algorithm>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Robust batch estimate of a landmark from its sightings: Student-t position, voted yaw, weighted size.
 #include <algorithm>
 #include <cmath>
 #include <complex>

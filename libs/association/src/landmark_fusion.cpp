@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Kalman update in Joseph form, yaw and label votes, size mean, and two-means split of sightings.
 #include "roomgraph/association/landmark_fusion.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr double kMostDoubt = 1e4;     // factor on the covariance of such a sig
 constexpr double kLabelPrior = 0.5;    // pseudo-votes per class
 constexpr double kMaxSizeWeight = 50;  // sizes may follow an object seen better later
 constexpr std::size_t kMaxRecent = 40;
-constexpr std::size_t kLeastSightings = 3;
+constexpr std::size_t kLeastOnOneSide = 3;
 constexpr double kLeastShare = 0.25, kMaxSpread = 0.25;  // of the weight; of the distance
 
 // One step of two-means from given centres; the weight-less sides keep theirs.
@@ -165,13 +165,13 @@ std::optional<Split> findSplit(const std::vector<PlaceSketch>& sightings, double
   std::vector<PlaceSketch> precise;
   for (const auto& s : sightings)
     if (s.sigma_m < least_distance_m / 2 && s.weight > 0) precise.push_back(s);
-  if (precise.size() < 2 * kLeastSightings) return std::nullopt;
+  if (precise.size() < 2 * kLeastOnOneSide) return std::nullopt;
   const Split modes = twoMeans(precise);
   const double distance = (modes.first - modes.second).norm();
   const auto count = static_cast<std::size_t>(std::count(modes.is_second.begin(), modes.is_second.end(), 1));
   if (distance < least_distance_m || meanDistance(precise, modes) > kMaxSpread * distance)
     return std::nullopt;
-  if (std::min(count, precise.size() - count) < kLeastSightings) return std::nullopt;
+  if (std::min(count, precise.size() - count) < kLeastOnOneSide) return std::nullopt;
   if (std::min(modes.second_share, 1 - modes.second_share) < kLeastShare) return std::nullopt;
   Split out = modes;
   if (out.second_share > 0.5) {

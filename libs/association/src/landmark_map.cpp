@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Bernoulli existence filter, fusion, merging, splitting and confirmation of landmarks.
 #include "roomgraph/association/landmark_map.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Initial landmark of a sighting, weights by score and visibility, duplicate test by overlap and distance.
 #include "roomgraph/association/landmark_rules.h"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/maximum_likelihood_associator.h"
+// Gated Gaussian likelihoods per measurement, normalised and assigned greedily.
+#include "maximum_likelihood_associator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "roomgraph/association/greedy_assignment.h"
+#include "greedy_assignment.h"
 
 namespace roomgraph {
 

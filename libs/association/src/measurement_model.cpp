@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Student-t place density, viewing-ray density for failed depth, gate and alternatives of a measurement.
 #include "roomgraph/association/measurement_model.h"
 
 #include <algorithm>

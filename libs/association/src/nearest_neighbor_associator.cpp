@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/nearest_neighbor_associator.h"
+// Centre distances within the gate, nearest pair assigned first.
+#include "nearest_neighbor_associator.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/association/greedy_assignment.h"
+#include "greedy_assignment.h"
 
 namespace roomgraph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rounds of smoothing, exclusive decisions, re-estimation, merging and splitting until no decision changes.
 #include "roomgraph/association/reassociation.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "roomgraph/association/frame_decision.h"
 #include "roomgraph/association/landmark_fusion.h"
-#include "roomgraph/association/track_memory.h"
+#include "track_memory.h"
 
 namespace roomgraph {
 namespace {

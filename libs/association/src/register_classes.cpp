@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the associator classes registered with MRPT.
 #include "roomgraph/association/register_classes.h"
 
-#include "roomgraph/association/maximum_likelihood_associator.h"
-#include "roomgraph/association/nearest_neighbor_associator.h"
-#include "roomgraph/association/soft_associator.h"
+#include "maximum_likelihood_associator.h"
+#include "nearest_neighbor_associator.h"
+#include "soft_associator.h"
 
 namespace roomgraph::association {
 

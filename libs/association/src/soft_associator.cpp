@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/soft_associator.h"
+// Per-frame posterior from measurement model, track prior and feature ownership.
+#include "soft_associator.h"
 
 namespace roomgraph {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/association/track_memory.h"
+// Forgetting of track posteriors and lookup of feature owners.
+#include "track_memory.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rotations, then translations, as sparse linear least squares with one pose held.
 #include "chordal.h"
 
 #include <Eigen/SVD>

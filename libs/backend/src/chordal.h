@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Chordal relaxation: initial poses of a pose graph from relative movements alone.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ceres cost functions of the factors, with the sizes of their parameter blocks.
 #pragma once
 
 #include <ceres/ceres.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// FactorGraph as a Ceres problem: parameter blocks, manifolds, loss functions, residual blocks.
 #include "roomgraph/backend/factor_graph.h"
 
 #include <algorithm>

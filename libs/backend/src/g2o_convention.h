@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Conversion between the error of g2o's EDGE_SE3:QUAT and that of the factors.
 #pragma once
 
 #include "roomgraph/backend/factors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// g2o writer: vertices and edges, with times and landmark shapes as comments.
 #include "roomgraph/backend/g2o_file.h"
 
 #include <array>

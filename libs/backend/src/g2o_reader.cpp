@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// g2o parser: vertices, edges, landmarks and times, checked for consistency, into a 2D or 3D graph.
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// State behind FactorGraph: parameter blocks by id, factors, and linearisation along tangents.
 #pragma once
 
 #include <ceres/ceres.h>

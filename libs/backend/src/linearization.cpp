@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sparse Jacobian and residuals of a FactorGraph at its current estimate.
 #include "graph_state.h"
 #include "solve.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Marginal covariances of poses and landmarks from the decomposed information matrix.
 #include <Eigen/SparseCholesky>
 #include <numbers>
 #include <unordered_map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Residual and analytic Jacobian of a marginal prior, with rotation vectors of quaternions.
 #include "marginal_prior_cost.h"
 
 #include <cmath>

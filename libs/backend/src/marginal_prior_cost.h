@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ceres cost function of a marginal prior: dense linear residual on tangents.
 #pragma once
 
 #include <ceres/ceres.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Marginalisation by square-root Schur complement: a prior on the kept variables.
 #include <Eigen/QR>
 #include <algorithm>
 #include <set>

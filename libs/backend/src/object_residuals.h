@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Residuals of points in images, and of landmark box, size and volume, for automatic differentiation.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ceres problem of a 2D pose graph, with chordal initialisation.
 #include "roomgraph/backend/planar_graph.h"
 
 #include <array>

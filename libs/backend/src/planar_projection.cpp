@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Projection of a 3D factor graph onto the floor plane as a 2D pose graph.
 #include "g2o_convention.h"
 #include "graph_state.h"
 #include "roomgraph/backend/planar_graph.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Residual of a 2D edge in the error definition of g2o's EDGE_SE2.
 #pragma once
 
 #include <ceres/ceres.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Image bounds of an object model, templated for automatic differentiation.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace roomgraph {
 
-// The image bounds of a model (paper Eq. 12) as a template, so that automatic differentiation sees through
+// The image bounds of a model (paper Eq. 13) as a template, so that automatic differentiation sees through
 // them: the same definition as geometry's projectShape, which is for plain numbers; a test compares the two.
 
 template <class T>

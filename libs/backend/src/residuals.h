@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Residuals of relative poses, ground plane and landmark position, for automatic differentiation.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ceres calls with its log silenced, iteration callback, and report of a solve.
 #include "solve.h"
 
 #include <glog/logging.h>

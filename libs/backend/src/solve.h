@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Solver options, silent solve and silent evaluation of a Ceres problem.
 #pragma once
 
 #include <ceres/ceres.h>

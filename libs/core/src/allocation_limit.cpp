@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Replacements of operator new and mrpt::aligned_malloc that count against a thread-local limit.
 #include "roomgraph/core/allocation_limit.h"
 
 #include <mrpt/core/aligned_allocator.h>

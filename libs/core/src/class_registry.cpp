@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Lookup in MRPT's class registry by interface, and dlopen of plug-ins with a check for stages.
 #include "roomgraph/core/class_registry.h"
 
 #include <dlfcn.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parameter visitors that read INI entries and write current values; completion of relative file names.
 #include "roomgraph/core/config.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Schema collected from parameter declarations by a visitor; Markdown tables.
 #include "roomgraph/core/config_schema.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Removal of MRPT's call stack and JSON tags from messages; line and column of a JSON error.
 #include "roomgraph/core/error_text.h"
 
 #include <algorithm>

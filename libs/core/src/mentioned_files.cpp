@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Candidate file names from every configuration value and list item.
 #include "roomgraph/core/mentioned_files.h"
 
 #include <optional>

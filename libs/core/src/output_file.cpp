@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Atomic file replacement by a locked temporary file and rename; messages from errno.
 #include "roomgraph/core/output_file.h"
 
 #include <fcntl.h>

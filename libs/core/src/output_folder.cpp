@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Locking, publication and recovery of an output folder from its unfinished sub-folder.
 #include "roomgraph/core/output_folder.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsing, range checks and formatting of parameter values.
 #include "roomgraph/core/parameters.h"
 
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Containment of canonical paths.
 #include "roomgraph/core/paths.h"
 
 #include <algorithm>

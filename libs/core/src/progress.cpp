@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Formatting and rate limit of the progress line.
 #include "roomgraph/core/progress.h"
 
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Quotes, escapes and splitting of comma-separated lists in INI values.
 #include "quoted_text.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Quoting of texts and list items in INI values.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Levenshtein distance and the closest candidate within a third of the word's length.
 #include "roomgraph/core/suggest.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Text file read at once; missing files and folders reported as InputError.
 #include "roomgraph/core/text_file.h"
 
 #include <cerrno>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Class and version check of movement distributions in the bytes of an action record.
 #include "action_check.h"
 
 #include <mrpt/poses/CPosePDF.h>

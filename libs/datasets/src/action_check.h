@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Check that the movements in a serialised action record can be parsed by MRPT.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Table of camera presets (TUM, ICL-NUIM, Kinect, 7-Scenes) with its sources, and lookup by name.
 #include "roomgraph/datasets/camera_presets.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Median clock offset at the beginning and the end of a recording.
 #include "clock_offset.h"
 
 #include <algorithm>

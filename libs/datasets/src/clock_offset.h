@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Clock offset between two sensors from their order in the file.
 #pragma once
 
 #include <optional>

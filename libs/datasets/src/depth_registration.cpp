@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Undistorted pixel rays and forward projection of depth pixels with nearest-surface test.
 #include "depth_registration.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Registration of a depth image to the colour camera; ranges along rays to depths.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Problems of a recording: time stamps, scan aperture, odometry and use of sensors.
 #include <algorithm>
 #include <array>
 #include <cmath>

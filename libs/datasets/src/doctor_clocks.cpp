@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks for unsynchronised sensor clocks and disjoint time spans.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks of intrinsics, depth unit and sensor pose against floor and lidar.
 #include <cmath>
 
 #include "findings.h"

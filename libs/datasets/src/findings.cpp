@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Formatting of findings and their order by severity.
 #include "findings.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Collector of findings about a recording, and the checks that fill it.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Floor plane by sampled surface normals, test for points below, and refinement on inliers.
 #include "floor_search.h"
 
 #include <Eigen/Eigenvalues>

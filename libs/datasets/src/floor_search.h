@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detection of the floor plane in a coarse grid of depth points.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Robust agreement of floor sightings by medians and their deviations.
 #include "floor_statistics.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace roomgraph {
 namespace {
 
 constexpr std::size_t kLeastSightings = 3;
-constexpr double kLeastShare = 0.25;                    // of the images that show the floor
+constexpr double kLeastShareOfImages = 0.25;                    // of the images that show the floor
 constexpr double kSpreadM = 0.02, kSpreadShare = 0.02;  // of the heights; median deviation
 constexpr double kSpreadRad = 0.02;                     // of the directions
 
@@ -50,7 +50,7 @@ std::optional<FloorStatistics::Sighting> FloorStatistics::agreed(const std::vect
 
 std::optional<FloorSummary> FloorStatistics::report() const {
   for (const auto* sightings : {&by_pose_, &by_image_}) {
-    if (sightings->size() < kLeastSightings || static_cast<double>(sightings->size()) < kLeastShare * images_)
+    if (sightings->size() < kLeastSightings || static_cast<double>(sightings->size()) < kLeastShareOfImages * images_)
       continue;
     const auto seen = agreed(*sightings);
     if (!seen) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sensor height and tilt above the floor, agreed over many depth images.
 #pragma once
 
 #include <optional>

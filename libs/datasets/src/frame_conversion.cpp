@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Intrinsics, undistortion, colour conversion and depth registration of an RGB-D record.
 #include "frame_conversion.h"
 
 #include <mrpt/core/Clock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Conversion of an MRPT RGB-D record into a Frame: undistorted, registered, in metres.
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>

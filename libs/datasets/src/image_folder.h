@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Folder of a rawlog's external images by MRPT's naming convention.
 #pragma once
 
 #include <filesystem>

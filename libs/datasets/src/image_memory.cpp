@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// OpenCV allocator with a size limit, and loading of images under an AllocationLimit.
 #include "image_memory.h"
 
 #include <new>

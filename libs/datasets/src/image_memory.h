@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Bounded memory for decoding of embedded and external images.
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>

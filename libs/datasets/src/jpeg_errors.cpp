@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Replacement of libjpeg's fatal error handler by one that throws while a record is parsed.
 #include <dlfcn.h>
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Median of a list of numbers.
 #pragma once
 
 #include <algorithm>

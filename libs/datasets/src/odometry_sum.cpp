@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Increments of 2D and 3D movements, wheel odometry preferred, with plausibility limits.
 #include "odometry_sum.h"
 
 #include <mrpt/obs/CActionRobotMovement2D.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Odometry pose summed up from the increments of action records.
 #pragma once
 
 #include <mrpt/obs/CActionCollection.h>

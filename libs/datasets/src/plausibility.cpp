@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Limits on scans, camera intrinsics, images, masks and detections.
 #include "plausibility.h"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

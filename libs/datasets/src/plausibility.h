@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Plausibility of time stamps and observations: finite numbers of sensible size.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Subsampled back-projection of a range image, with cached pixel rays.
 #include "point_grid.h"
 
 #include <algorithm>

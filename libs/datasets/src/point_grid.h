@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Coarse grid of 3D points from a depth image.
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Lidar returns binned by bearing and compared with horizontal rays of the depth image.
 #include "range_agreement.h"
 
 #include <array>

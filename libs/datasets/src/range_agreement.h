@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ratio of depth-camera ranges to lidar ranges: a check of the depth unit.
 #pragma once
 
 #include <optional>

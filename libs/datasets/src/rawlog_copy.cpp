@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Byte-wise copy of records merged with detections in time order; link to external images.
 #include "roomgraph/datasets/rawlog_copy.h"
 
 #include <mrpt/core/Clock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Bounded scan of a rawlog's first records without decoding images.
 #include "roomgraph/datasets/rawlog_peek.h"
 
 #include <mrpt/obs/CObservation3DRangeScan.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice of sensors, conversion and plausibility checks of records in file order.
 #include "roomgraph/datasets/rawlog_reader.h"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

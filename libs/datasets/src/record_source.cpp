@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Search for record boundaries, memory allowance per record, and parsing by MRPT.
 #include "record_source.h"
 
 #include <mrpt/obs/CAction.h>

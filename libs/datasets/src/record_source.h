@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Serialised objects of a rawlog, one by one, with recovery after broken records.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>

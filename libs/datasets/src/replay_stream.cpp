@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Buffered zlib reading with rewind, and detection of truncated data.
 #include "replay_stream.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 // Small, because zlib drops what it has of a call when it meets broken data.
 constexpr std::size_t kChunkBytes = 32 * 1024;
 // A damaged length field must not make the program read the rest of the file into memory.
-constexpr std::size_t kLongestRecordBytes = 128u << 20;
+constexpr std::size_t kLongestUnreadBytes = 128u << 20;
 constexpr std::size_t kForgetBytes = 4u << 20;
 
 }  // namespace
@@ -51,7 +51,7 @@ void ReplayStream::mark() {
 }
 
 bool ReplayStream::fetch() {
-  if (ended_ || bytes_.size() > kLongestRecordBytes) return false;
+  if (ended_ || bytes_.size() > kLongestUnreadBytes) return false;
   const AllocationLimit unlimited(
       std::numeric_limits<std::size_t>::max());  // the limit is for what is parsed
   const std::size_t before = bytes_.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Forward stream of a plain or gzipped file that can be rewound to a mark.
 #pragma once
 
 #include <mrpt/serialization/CArchive.h>

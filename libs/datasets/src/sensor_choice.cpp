@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sensor labels of a rawlog, checked against those asked for.
 #include "sensor_choice.h"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

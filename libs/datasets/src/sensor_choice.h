@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice of one sensor per kind, by label or first appearance; overriding of sensor poses.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>

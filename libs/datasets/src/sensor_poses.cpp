@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parser of "LABEL=x,y,z,yaw,pitch,roll" lists in metres and degrees.
 #include "roomgraph/datasets/sensor_poses.h"
 
 #include <mrpt/math/TPose3D.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Intervals and gaps, depth quantiles, and scan rotation by beam shift.
 #include "sensor_statistics.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Statistics of one sensor: stamps, depth images, scans and their rotation against odometry.
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

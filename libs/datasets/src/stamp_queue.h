@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Queue of records that detects isolated wrong time stamps.
 #pragma once
 
 #include <cmath>

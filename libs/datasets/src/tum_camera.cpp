@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Intrinsics merged from preset, camera file and single options.
 #include "tum_camera.h"
 
 #include <array>

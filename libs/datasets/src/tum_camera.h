@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Camera of a TUM or ICL-NUIM folder: intrinsics and depth scale.
 #pragma once
 
 #include "roomgraph/datasets/tum_import.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Lookup and conversion of a ground-truth trajectory file.
 #include "tum_ground_truth.h"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ground truth of a TUM or ICL-NUIM folder, mirrored and re-timed where needed.
 #pragma once
 
 #include <filesystem>

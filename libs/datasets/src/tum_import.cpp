@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RGB-D records written from image pairs, with checks of images, stamps and camera.
 #include "roomgraph/datasets/tum_import.h"
 
 #include <mrpt/core/Clock.h>

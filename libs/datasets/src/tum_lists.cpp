@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsing of associations.txt, rgb.txt and depth.txt; greedy pairing by time difference.
 #include "tum_lists.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Image lists of a TUM folder, and pairing of colour with depth by time.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks against overwriting of inputs, and atomic exchange of rawlog, images and ground truth.
 #include "tum_output.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Output files of a TUM import, put into place together.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/auto_detector.h"
+// Delegation to the DNN or the recorded detector.
+#include "auto_detector.h"
 
 namespace roomgraph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Median scale and shift of point pairs; reprojection of a static box.
 #include "box_motion.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Motion of a box between frames from point pairs or from camera movement and depth.
 #pragma once
 
 #include <opencv2/core/types.hpp>

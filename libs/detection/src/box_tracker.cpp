@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Pyramidal Lucas-Kanade tracking with forward-backward check and depth-based fallback.
 #include "roomgraph/detection/box_tracker.h"
 
 #include <algorithm>

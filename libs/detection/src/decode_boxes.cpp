@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Decoding of NanoDet, YOLOX and Darknet outputs into boxes.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "roomgraph/detection/decoders.h"
+#include "decoders.h"
 
 namespace roomgraph {
 namespace {

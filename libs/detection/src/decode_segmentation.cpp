@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Boxes and masks from semantic segmentation logits by connected components.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "roomgraph/detection/decoders.h"
+#include "decoders.h"
 
 namespace roomgraph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Conversion between Detection and CObservationDetections; FNV-1a hash of a file.
 #include "roomgraph/detection/detection_record.h"
 
 #include <mrpt/core/Clock.h>

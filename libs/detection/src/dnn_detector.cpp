@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/dnn_detector.h"
+// Networks run on a frame: label mapping, suppression, clipping and masks.
+#include "dnn_detector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
       "labels_file", labels_file_,
       {.doc = "one label per line; empty: labels.txt beside each network, or without that the labels of COCO "
               "or ADE20K by the number of classes",
-        .file = true});
+       .file = true});
   v.add("segmentation_labels", segmentation_labels_,
         {.doc = "labels taken from a segmentation network; box detectors are better at the others"});
   v.add("input_size_px", input_size_px_,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/input_mapping.h"
+// Stretch and letterbox resizing, and box coordinates under them.
+#include "input_mapping.h"
 
 #include <algorithm>
 #include <cmath>

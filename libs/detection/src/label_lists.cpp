@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/label_lists.h"
+// The COCO-80 and ADE20K-150 class names.
+#include "label_lists.h"
 
 #include <array>
 
-#include "roomgraph/detection/decoders.h"
+#include "decoders.h"
 
 namespace roomgraph {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Loading, format recognition, preprocessing and inference of a network.
 #include "network.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
+#include "label_lists.h"
 #include "network_files.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
-#include "roomgraph/detection/label_lists.h"
 
 namespace roomgraph {
 namespace {

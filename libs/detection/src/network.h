@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// One loaded network: format, labels, input size, inference.
 #pragma once
 
 #include <opencv2/dnn.hpp>
 #include <string>
 #include <vector>
 
-#include "roomgraph/detection/decoders.h"
-#include "roomgraph/detection/input_mapping.h"
+#include "decoders.h"
+#include "input_mapping.h"
 
 namespace roomgraph {
 

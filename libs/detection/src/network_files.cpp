@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsing of network specifications, label files and Darknet .cfg files.
 #include "network_files.h"
 
 #include <algorithm>

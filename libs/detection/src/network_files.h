@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Network formats and files: label lists, Darknet configuration, input size.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

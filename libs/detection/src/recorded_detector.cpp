@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/detection/recorded_detector.h"
+// Recorded boxes matched to frames by time and camera; warnings about thresholds.
+#include "recorded_detector.h"
 
 #include <mrpt/core/Clock.h>
 

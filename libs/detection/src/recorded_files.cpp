@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reader of recorded boxes in JSON lines or text lines, with masks.
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -7,9 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "decoders.h"
+#include "recorded_detector.h"
 #include "roomgraph/core/text_file.h"
-#include "roomgraph/detection/decoders.h"
-#include "roomgraph/detection/recorded_detector.h"
 
 namespace roomgraph {
 namespace {

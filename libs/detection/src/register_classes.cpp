@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the detector classes, registered when the library is loaded.
 #include "roomgraph/detection/register_classes.h"
 
 #include <mrpt/core/initializer.h>
 
-#include "roomgraph/detection/auto_detector.h"
+#include "auto_detector.h"
 
 namespace roomgraph::detection {
 

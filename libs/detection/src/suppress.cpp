@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Non-maximum suppression within a class, and of the same box in two classes.
 #include <algorithm>
 #include <map>
 #include <opencv2/dnn.hpp>
 
-#include "roomgraph/detection/decoders.h"
+#include "decoders.h"
 
 namespace roomgraph {
 

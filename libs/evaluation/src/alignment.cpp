@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Umeyama alignment by SVD, with orientations for degenerate paths, and its planar form.
 #include "roomgraph/evaluation/alignment.h"
 
 #include <Eigen/SVD>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/evaluation/assignment.h"
+// Hungarian method with potentials and shortest augmenting paths.
+#include "assignment.h"
 
 #include <algorithm>
 #include <limits>

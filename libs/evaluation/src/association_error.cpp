@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Attribution of measurements to true objects by IoU, majority landmarks, reliability bins.
 #include "roomgraph/evaluation/association_error.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Greedy matching by score and IoU with ignore regions, and the precision envelope.
 #include "roomgraph/evaluation/detection_error.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Test for forgiven confusions of class `other`.
 #include "roomgraph/evaluation/forgiven_kinds.h"
 
 namespace roomgraph {

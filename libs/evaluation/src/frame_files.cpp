@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsers of boxes.jsonl, detections.jsonl and associations.jsonl.
 #include "roomgraph/evaluation/frame_files.h"
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// JSON lines parsed one by one; boxes of four numbers.
 #include "json_lines.h"
 
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Iteration over a file of JSON lines with errors by file and line.
 #pragma once
 
 #include <filesystem>

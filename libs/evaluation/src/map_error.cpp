@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Cell states compared at cell centres, and wall distances by nearest neighbour.
 #include "roomgraph/evaluation/map_error.h"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ Walls compareWalls(const std::vector<Cell>& cells, const NearestPoint& other, do
   return out;
 }
 
-double share(double part, double whole) {
+double ratio(double part, double whole) {
   return whole > 0 ? part / whole : 0;
 }
 
@@ -103,11 +103,11 @@ void setAgreement(const std::vector<Cell>& map, const std::vector<Cell>& truth, 
   const int only_map_free = count(map, State::kFree, State::kOccupied);
   const int only_truth_free = count(map, State::kOccupied, State::kFree);
   out.known_in_both = both_free + both_occupied + only_map_free + only_truth_free;
-  out.agreement = share(both_free + both_occupied, out.known_in_both);
-  out.free_precision = share(both_free, both_free + only_map_free);
-  out.free_agreement = share(both_free, both_free + only_truth_free);
+  out.agreement = ratio(both_free + both_occupied, out.known_in_both);
+  out.free_precision = ratio(both_free, both_free + only_map_free);
+  out.free_agreement = ratio(both_free, both_free + only_truth_free);
   out.unknown_share =
-      share(count(truth, State::kFree, State::kUnknown) + count(truth, State::kOccupied, State::kUnknown),
+      ratio(count(truth, State::kFree, State::kUnknown) + count(truth, State::kOccupied, State::kUnknown),
             static_cast<double>(truth.size()));
 }
 
@@ -130,9 +130,9 @@ MapErrors evaluateMap(const mrpt::maps::COccupancyGridMap2D& truth,
   out.correct_occupied = walls.near;
   out.expected_occupied = true_walls.checked;
   out.found_occupied = true_walls.near;
-  out.precision = share(walls.near, walls.checked);
-  out.recall = share(true_walls.near, true_walls.checked);
-  out.f1 = share(2 * out.precision * out.recall, out.precision + out.recall);
+  out.precision = ratio(walls.near, walls.checked);
+  out.recall = ratio(true_walls.near, true_walls.checked);
+  out.f1 = ratio(2 * out.precision * out.recall, out.precision + out.recall);
   out.to_truth_m = walls.distance_m;
   out.to_map_m = true_walls.distance_m;
   setAgreement(map_cells, true_cells, out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// k-d tree (nanoflann) over planar points.
 #include "nearest_point.h"
 
 #include <cmath>
@@ -7,28 +7,23 @@
 #include <nanoflann.hpp>
 
 namespace roomgraph {
-namespace {
-
-struct Points {
-  std::vector<Eigen::Vector2d> list;
-  // The names nanoflann asks for.
-  std::size_t kdtree_get_point_count() const { return list.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return list[i][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Bounds>
-  bool kdtree_get_bbox(Bounds&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 2>;
-
-}  // namespace
 
 struct NearestPoint::Index {
+  struct Points {
+    std::vector<Eigen::Vector2d> list;
+    // The names nanoflann asks for.
+    std::size_t kdtree_get_point_count() const { return list.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return list[i][static_cast<Eigen::Index>(axis)]; }
+    template <class Bounds>
+    bool kdtree_get_bbox(Bounds&) const {
+      return false;
+    }
+  };
+
   explicit Index(std::vector<Eigen::Vector2d> list) : points{std::move(list)}, tree(2, points) {}
+
   Points points;
-  Tree tree;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 2> tree;
 };
 
 NearestPoint::NearestPoint(std::vector<Eigen::Vector2d> points)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Nearest-neighbour distance in a planar point set.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parser of finite numbers separated by white space or commas.
 #include "number_table.h"
 
 #include <charconv>

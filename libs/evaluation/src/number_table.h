@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Text tables of numbers with file and line.
 #pragma once
 
 #include <filesystem>

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Optimal matching per class, verdict on every landmark, and the figures from them.
 #include "roomgraph/evaluation/object_error.h"
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "roomgraph/evaluation/assignment.h"
+#include "assignment.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr const char* kPerson = "person";
-constexpr const char* kOther = "other";
+constexpr const char* kOtherClass = "other";
 using Objects = std::vector<EvaluatedObject>;
 
 double groundDistance(const EvaluatedObject& a, const EvaluatedObject& b) {
@@ -63,7 +63,7 @@ class Comparison {
 
   ObjectErrors run() {
     for (const auto& [name, rule] : options_.classes)
-      if (name != kPerson && name != kOther) matchClass(name, rule);
+      if (name != kPerson && name != kOtherClass) matchClass(name, rule);
     for (std::size_t i = 0; i < landmarks_.size(); ++i) {
       auto& verdict = out_.verdicts[i];
       if (verdict.verdict == Verdict::kFalseAlarm) explain(landmarks_[i], verdict);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsers of objects.json and landmarks.json; visibility rule over boxes.jsonl.
 #include "roomgraph/evaluation/object_files.h"
 
 #include <map>

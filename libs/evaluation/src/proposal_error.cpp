@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Centre, yaw and 3D IoU errors, normalised estimation error (NEES), and their summaries per class.
 #include "roomgraph/evaluation/proposal_error.h"
 
 #include <Eigen/LU>

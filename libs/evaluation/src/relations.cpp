@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reader of relation files and errors of the interpolated estimate.
 #include "roomgraph/evaluation/relations.h"
 
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Text tables of trajectory, relation and object errors.
 #include "roomgraph/evaluation/report.h"
 
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-// What is compared image by image: detections and associations.
+// Tables and JSON of what is compared per image: detections and associations.
 #include "roomgraph/evaluation/report.h"
 #include "text_format.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// JSON of trajectory, relation, object and association errors.
 #include "roomgraph/evaluation/report.h"
 #include "text_format.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Table and JSON of the errors of an occupancy map.
 #include "roomgraph/evaluation/report.h"
 #include "text_format.h"
 

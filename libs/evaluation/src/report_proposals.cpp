@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rows and JSON keys of the proposal benchmark.
 #include "roomgraph/evaluation/report_proposals.h"
 
 #include "text_format.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Moments and order statistics of errors.
 #include "roomgraph/evaluation/statistics.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Formatting of table cells and JSON values that may be undefined.
 #pragma once
 
 #include <cstdio>

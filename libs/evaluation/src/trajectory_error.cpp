@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Pose pairs by time stamp, relative errors over a fixed interval, and coverage.
 #include "roomgraph/evaluation/trajectory_error.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reader of poses with quaternion or yaw; sorting and removal of repeated stamps.
 #include "roomgraph/evaluation/trajectory_file.h"
 
 #include <algorithm>

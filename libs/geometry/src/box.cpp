@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Intersection, clipping and IoU of image rectangles.
 #include "roomgraph/geometry/box.h"
 
 #include <algorithm>

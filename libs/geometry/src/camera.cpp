@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Intrinsic matrix and intrinsics of a resized image.
 #include "roomgraph/geometry/camera.h"
 
 #include <cmath>

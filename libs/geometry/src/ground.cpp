@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Local ground frame below the camera, and ray-plane intersection.
 #include "roomgraph/geometry/ground.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks of 3D and 2D poses for finite values, range and orthonormality.
 #include "roomgraph/geometry/plausible_pose.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Exponential and logarithm of SE(3) with left Jacobian, planar poses, interpolation.
 #include "roomgraph/geometry/pose.h"
 
 #include <mrpt/math/wrap2pi.h>

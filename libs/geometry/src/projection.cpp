@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Silhouette bounds by near-plane clipping of prisms and by the dual conic of circles.
 #include "roomgraph/geometry/projection.h"
 
 #include <algorithm>

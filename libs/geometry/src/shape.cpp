@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Names of shapes, footprint polygon, and distance of a point from the volume.
 #include "roomgraph/geometry/shape.h"
 
 #include <algorithm>

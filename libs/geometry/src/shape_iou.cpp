@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// 3D IoU of upright shapes by clipping of their footprint polygons.
 #include <algorithm>
 #include <cmath>
 

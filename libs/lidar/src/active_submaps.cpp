@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/active_submaps.h"
+// Insertion of scans into two overlapping submaps and their completion.
+#include "active_submaps.h"
 
 #include <cmath>
 

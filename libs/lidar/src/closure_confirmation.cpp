@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/closure_confirmation.h"
+// Consistency of two closures over the path between them, and the group that confirms a closure.
+#include "closure_confirmation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/closure_graph.h"
+// Dijkstra's shortest paths with composed movements.
+#include "closure_graph.h"
 
 #include <queue>
 #include <utility>

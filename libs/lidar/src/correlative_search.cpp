@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/correlative_search.h"
+// Depth-first branch and bound over shifts and angles on a score pyramid.
+#include "correlative_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Test of lidar returns against angular sectors with range limits.
 #include "roomgraph/lidar/dynamic_return_filter.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/grid_refinement.h"
+// Levenberg-Marquardt on an interpolated grid, surface curvature and weights of weak directions.
+#include "grid_refinement.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

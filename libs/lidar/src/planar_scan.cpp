@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/planar_scan.h"
+// Projection of a scan to 2D points and grid-based subsampling.
+#include "planar_scan.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/probability_grid.h"
+// Insertion of scans with Bresenham rays, growth, and Catmull-Rom interpolation.
+#include "probability_grid.h"
 
 #include <algorithm>
 #include <cmath>

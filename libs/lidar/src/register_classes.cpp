@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the lidar classes, registered when the library is loaded.
 #include "roomgraph/lidar/register_classes.h"
 
 #include <mrpt/core/initializer.h>
 #include <mrpt/rtti/CObject.h>
 
-#include "roomgraph/lidar/submap_loop_closer.h"
-#include "roomgraph/lidar/submap_scan_matcher.h"
+#include "submap_loop_closer.h"
+#include "submap_scan_matcher.h"
 
 namespace roomgraph::lidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/score_pyramid.h"
+// Maxima of squares of doubling size, level by level.
+#include "score_pyramid.h"
 
 #include <algorithm>
 

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/submap_loop_closer.h"
+// Candidate submaps by drift, branch-and-bound match, ambiguity test and confirmation.
+#include "submap_loop_closer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "roomgraph/lidar/grid_refinement.h"
+#include "grid_refinement.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(SubmapLoopCloser, ScanLoopCloser, roomgraph)
 
 namespace {
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-constexpr int kPyramidLevels = 7;
+constexpr int kClosureLevels = 7;
 constexpr double kTurnLength = 0.3;     // m of way that a turn by 1 rad counts for
 constexpr double kVerifyHorizon_s = 3;  // a kept scan this near in time is at the proposed place
 constexpr double kClosureLength = 0.3;  // m of way that a closure counts for
@@ -207,7 +206,7 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
 SearchWindow SubmapLoopCloser::windowFor(double drift_m) const {
   SearchWindow window;
   window.linear_m = std::min(max_window_m_, window_m_ + drift_per_m_ * drift_m);
-  window.angular_rad = kRadPerDeg * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * drift_m);
+  window.angular_rad = kDegree * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * drift_m);
   window.min_score = min_search_score_;
   return window;
 }
@@ -215,7 +214,7 @@ SearchWindow SubmapLoopCloser::windowFor(double drift_m) const {
 std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b) {
   StoredSubmap& stored = submaps_[candidate.submap];
   const ProbabilityGrid& grid = stored.submap->grid;
-  if (stored.pyramid.levels() == 0) stored.pyramid = ScorePyramid(grid, kPyramidLevels);
+  if (stored.pyramid.levels() == 0) stored.pyramid = ScorePyramid(grid, kClosureLevels);
   const Points2& points = scans_[static_cast<std::size_t>(b)].points;
   const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
   const Pose2 expected = odom_from_a * candidate.a_from_b;
@@ -231,7 +230,7 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
-  model.floor_sigma_rad = floor_sigma_deg_ * kRadPerDeg;
+  model.floor_sigma_rad = floor_sigma_deg_ * kDegree;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-odom_from_a.yaw).toRotationMatrix();
   return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/submap_scan_matcher.h"
+// Prediction, correlative search, grid refinement and loss handling of the scan matcher.
+#include "submap_scan_matcher.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "roomgraph/lidar/correlative_search.h"
+#include "correlative_search.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 
 namespace {
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-constexpr int kPyramidLevels = 4;
+constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 }  // namespace
@@ -118,19 +118,19 @@ Pose2 SubmapScanMatcher::steadyPose(double t) const {
 bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
   if (lost_scans_ > 0 || t - *last_t_ > kMaxExtrapolation) return false;
   const Pose2 jump = steadyPose(t).inverse() * predicted;
-  return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_deg_ * kRadPerDeg;
+  return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_deg_ * kDegree;
 }
 
 GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& points, const Pose2& predicted,
                                           bool has_prior) {
-  if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kPyramidLevels);
+  if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kMatcherLevels);
   pyramid_stale_ = false;
   SearchWindow window;
   // After a loss the prediction is as old as the loss: look wider for each scan missed.
   const double widening = 1 + lost_scans_;
   window.linear_m = widening * (has_prior ? window_m_ : free_window_m_);
   window.angular_rad =
-      std::min(std::numbers::pi, widening * kRadPerDeg * (has_prior ? window_deg_ : free_window_deg_));
+      std::min(std::numbers::pi, widening * kDegree * (has_prior ? window_deg_ : free_window_deg_));
   const double trust = has_prior ? 1 : 0.2;
   window.penalty_per_m2 = trust * search_penalty_per_m2_;
   window.penalty_per_rad2 = trust * search_penalty_per_rad2_;
@@ -149,7 +149,7 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
-  model.floor_sigma_rad = floor_sigma_deg_ * kRadPerDeg;
+  model.floor_sigma_rad = floor_sigma_deg_ * kDegree;
   const Eigen::Matrix3d in_odom = poseCovariance(refinement, model);
   // Movement is expressed in the frame of the robot at the scan before.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();

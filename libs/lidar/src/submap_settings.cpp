@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/lidar/submap_settings.h"
+// Declaration of the submap parameters, and the objects made from them.
+#include "submap_settings.h"
 
-#include <numbers>
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
@@ -33,7 +33,7 @@ std::unique_ptr<ActiveSubmaps> SubmapSettings::emptySubmaps() const {
 }
 
 MotionFilter SubmapSettings::filter() const {
-  return {keep_distance_m, keep_angle_deg * std::numbers::pi / 180, keep_time_s};
+  return {keep_distance_m, keep_angle_deg * kDegree, keep_time_s};
 }
 
 Points2 SubmapSettings::points(const PlanarScan& scan) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// landmarks.json: writer, and reader with checks of every field.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks of grid size, landmarks and trajectory of a loaded map.
 #include "map_check.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Consistency check of a map read from a file.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice of beams to insert, size of the grid, and insertion of beams along the trajectory.
 #include "roomgraph/mapping/occupancy_mapper.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Beams from scans with free space limits, and virtual scans from depth images.
 #include "roomgraph/mapping/range_fan.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Voxel traversal (Amanatides and Woo 1987) with log-odds updates.
 #include "ray_grid.h"
 
 #include <algorithm>

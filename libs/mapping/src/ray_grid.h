@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Insertion of beams into MRPT's log-odds grid, each cell once per scan.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// ROS map_server files: PGM image and YAML, written and read.
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Serialisation and description of detection records.
 #include "roomgraph/observations/CObservationDetections.h"
 
 #include <mrpt/serialization/CArchive.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Serialisation of the semantic map.
 #include "roomgraph/observations/CSemanticMap.h"
 
 #include <mrpt/serialization/CArchive.h>

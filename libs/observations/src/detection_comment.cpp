@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// JSON encoding of detections in CObservationComment and its validation.
 #include "roomgraph/observations/detection_comment.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Conversion between masks and run lengths.
 #include "roomgraph/observations/mask_runs.h"
 
 #include <algorithm>

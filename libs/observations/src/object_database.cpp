@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parameters of object classes, reading of objects.ini and lookup by label.
 #include "roomgraph/observations/object_database.h"
 
 #include <algorithm>

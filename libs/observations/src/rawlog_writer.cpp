@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Serialisation of records into a gzip stream with checks for write errors.
 #include "roomgraph/observations/rawlog_writer.h"
 
 #include <mrpt/io/CMemoryStream.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the serialisable classes, registered when the library is loaded.
 #include "roomgraph/observations/register_classes.h"
 
 #include <mrpt/core/initializer.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Conversion of scans from and to MRPT, and returns as points.
 #include "roomgraph/observations/scan.h"
 
 #include <mrpt/core/Clock.h>

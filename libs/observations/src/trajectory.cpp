@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interpolation and bounded extrapolation within segments of a trajectory.
 #include "roomgraph/observations/trajectory.h"
 
 #include <algorithm>

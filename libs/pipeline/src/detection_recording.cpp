@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Insertion of one step's detections into the rawlog copy.
 #include "roomgraph/pipeline/detection_recording.h"
 
 #include "roomgraph/detection/detection_record.h"

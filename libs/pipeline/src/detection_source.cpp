@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Check for idle detector and absent recorded boxes.
 #include "roomgraph/pipeline/detection_source.h"
 
 #include "roomgraph/datasets/rawlog_peek.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
 namespace roomgraph {

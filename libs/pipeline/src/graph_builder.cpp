@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Motion edges, anchors, closures and object factors between key poses.
 #include "roomgraph/pipeline/graph_builder.h"
 
 #include <algorithm>

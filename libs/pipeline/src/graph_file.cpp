@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Choice of the planar or spatial graph, with the times of its nodes.
 #include "graph_file.h"
 
 #include "roomgraph/backend/g2o_file.h"

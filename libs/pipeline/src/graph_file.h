@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Writing of a run's factor graph as a g2o file.
 #pragma once
 
 #include <filesystem>

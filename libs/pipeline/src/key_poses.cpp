@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Nearest key pose, and poses blended from both neighbours with the motion in between.
 #include "roomgraph/pipeline/key_poses.h"
 
 #include <algorithm>

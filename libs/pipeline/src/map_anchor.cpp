@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Constellation match checked by scan returns on walls; union of two landmark sets.
 #include "roomgraph/pipeline/map_anchor.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Covariance of a movement from noise model and summed steps.
 #include "roomgraph/pipeline/motion.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Grouping of sightings by key pose, side and visit; their means and weights.
 #include "roomgraph/pipeline/object_factors.h"
 
 #include <algorithm>

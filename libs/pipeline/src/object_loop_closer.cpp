@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Split of landmarks by time, constellation match and verification by sensors.
 #include "roomgraph/pipeline/object_loop_closer.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Measurements in world, negative evidence from misses and beams, merging and splitting of landmarks.
 #include "roomgraph/pipeline/object_mapper.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "roomgraph/association/reassociation.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/geometry/place_covariance.h"
-#include "roomgraph/pipeline/visibility.h"
+#include "visibility.h"
 
 namespace roomgraph {
 namespace {

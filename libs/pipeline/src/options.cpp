@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Declarations of the parameters of every pipeline section, with defaults and ranges.
 #include "roomgraph/pipeline/options.h"
 
 namespace roomgraph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Window marginalisation, schedule of full optimisations, and reconnection across gaps.
 #include "roomgraph/pipeline/pose_estimator.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reader options from the stages, and --pose as an override of [pipeline] sensor_poses.
 #include "roomgraph/pipeline/read_options.h"
 
 namespace roomgraph {

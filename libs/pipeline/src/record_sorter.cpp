@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/pipeline/record_sorter.h"
+// Insertion by time and kind of record, release after the look-ahead.
+#include "record_sorter.h"
 
 #include <algorithm>
 #include <tuple>

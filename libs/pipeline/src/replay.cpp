@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Replay loop over sorted records, and the share of the span done.
 #include "roomgraph/pipeline/replay.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "roomgraph/pipeline/record_sorter.h"
+#include "record_sorter.h"
 
 namespace roomgraph {
 namespace {

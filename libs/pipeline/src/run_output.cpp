@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// JSON lines per frame, trajectories, timings and summary of a run.
 #include "roomgraph/pipeline/run_output.h"
 
 #include <sys/resource.h>

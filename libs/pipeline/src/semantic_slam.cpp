@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Order of the stages per record, levelling, map anchoring, and final refinement.
 #include "roomgraph/pipeline/semantic_slam.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Measurement of stage calls and their totals.
 #include "roomgraph/pipeline/stage_times.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Plug-ins and stages made by class name, effective configuration and configuration schema.
 #include "roomgraph/pipeline/stages.h"
 
 #include <map>

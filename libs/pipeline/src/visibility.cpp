@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/pipeline/visibility.h"
+// Visibility test by projection and depth; beams that end in or pass through a footprint.
+#include "visibility.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/box_edges.h"
+// Edge detection on the reduced box, and segments supported by the depth mask.
+#include "box_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kSide = 140;  // px the box is reduced to
-constexpr double kRim = 3;  // px around the box, and 3 % of its size: its sides are edges of the object
+constexpr double kBoxRim = 3;  // px around the box, and 3 % of its size: its sides are edges of the object
 
 cv::Mat grayPart(const Frame& frame, const cv::Rect& roi) {
   const cv::Mat& source = frame.gray.empty() ? frame.color : frame.gray;
@@ -60,7 +60,7 @@ double totalLength(const std::vector<Segment2>& segments) {
 BoxEdges findEdges(const Frame& frame, const Box2& box) {
   BoxEdges out;
   const cv::Mat& source = frame.gray.empty() ? frame.color : frame.gray;
-  const double du = kRim + 0.03 * box.width(), dv = kRim + 0.03 * box.height();
+  const double du = kBoxRim + 0.03 * box.width(), dv = kBoxRim + 0.03 * box.height();
   const Box2 rimmed =
       clipped({box.u_min - du, box.v_min - dv, box.u_max + du, box.v_max + dv}, source.cols, source.rows);
   if (source.empty() || box.width() < 8 || box.height() < 8 || rimmed.width() < 8 || rimmed.height() < 8)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Evidence about a detection: cut and hidden box sides, mask, ground contact, bearing.
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/proposals/generators.h"
+#include "generators.h"
 
 namespace roomgraph {
 

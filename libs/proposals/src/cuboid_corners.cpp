@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/cuboid_corners.h"
+// Corner construction with sampled yaw, vanishing lines and back-projection to the ground.
+#include "cuboid_corners.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +11,7 @@ namespace {
 constexpr int kYaws = 12;                           // over a quarter turn
 constexpr int kCorners = 9;                         // positions of the first corner along the box's top
 constexpr double kPrune = 2.5;                      // standard deviations of the usual size
-constexpr double kShortest = 0.05, kFarthest = 20;  // m
+constexpr double kShortest = 0.05, kFarthestCorner = 20;  // m
 
 using Line = Eigen::Vector3d;  // homogeneous
 Eigen::Vector3d homogeneous(double u, double v) {
@@ -54,7 +54,7 @@ std::optional<Eigen::Vector2d> onGround(const Eigen::Vector2d& pixel, const BoxE
   const auto hit = intersect(e.camera.ray(pixel.x(), pixel.y()), e.ground);
   if (!hit) return std::nullopt;
   const Eigen::Vector3d p = e.camera_from_ground.inverse() * *hit;
-  if (p.norm() > kFarthest) return std::nullopt;
+  if (p.norm() > kFarthestCorner) return std::nullopt;
   return Eigen::Vector2d(p.head<2>());
 }
 

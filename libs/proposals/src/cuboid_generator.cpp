@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Cuboid hypotheses from depth points, ground contact or nominal size.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "roomgraph/proposals/cuboid_corners.h"
-#include "roomgraph/proposals/fit_shape.h"
-#include "roomgraph/proposals/generators.h"
-#include "roomgraph/proposals/rectangle_fit.h"
+#include "cuboid_corners.h"
+#include "fit_shape.h"
+#include "generators.h"
+#include "rectangle_fit.h"
 
 namespace roomgraph {
 namespace {
@@ -105,7 +105,7 @@ std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
   return {placed};
 }
 
-std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
+std::vector<PlacedShape> cuboidGuesses(const BoxEvidence& e) {
   if (!e.mask.points.empty()) return guessesFromDepth(e);
   auto guesses = cuboidsFromCorners(e);
   for (const auto& more : {guessesFromContact(e), guessFromSize(e)})
@@ -116,7 +116,7 @@ std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
 }  // namespace
 
 std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  auto guesses = initialGuesses(evidence);
+  auto guesses = cuboidGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
   const bool blind = evidence.mask.points.empty();
   const GeneratorLimits starts{limits.max_count + 1, 0, nullptr};

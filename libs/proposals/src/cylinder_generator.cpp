@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Cylinder hypotheses from depth points, the leg of the chair, or nominal size.
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/proposals/fit_shape.h"
-#include "roomgraph/proposals/generators.h"
-#include "roomgraph/proposals/leg_line.h"
+#include "fit_shape.h"
+#include "generators.h"
+#include "leg_line.h"
 
 namespace roomgraph {
 namespace {
 
 // The box's bottom side touches the near rim of the base; chair feet rarely point straight at the camera.
 constexpr double kRim = 0.9;
-constexpr double kFarthest = 20;  // m
+constexpr double kFarthestAxis = 20;  // m
 
 PlacedShape placeAt(double bearing, double range, const BoxEvidence& e, const char* source) {
   PlacedShape placed;
@@ -45,7 +45,7 @@ double bearingOfObject(const BoxEvidence& e) {
 // Where a pixel of the box's bottom line meets the ground, ground frame.
 std::optional<Eigen::Vector2d> onGround(double u, double v, const BoxEvidence& e) {
   const auto point = intersect(e.camera.ray(u, v), e.ground);
-  if (!point || point->norm() > kFarthest) return std::nullopt;
+  if (!point || point->norm() > kFarthestAxis) return std::nullopt;
   return Eigen::Vector2d((e.camera_from_ground.inverse() * *point).head<2>());
 }
 
@@ -74,7 +74,7 @@ std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
   return keepBest(out, 0.15, 10, {2, 0.3, nullptr});
 }
 
-std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
+std::vector<PlacedShape> cylinderGuesses(const BoxEvidence& e) {
   std::vector<PlacedShape> out;
   const double bearing = bearingOfObject(e), radius = e.model->nominal().radius();
   if (!e.mask.points.empty()) out.push_back(placeAt(bearing, rangeFromPoints(e, bearing), e, "depth"));
@@ -93,7 +93,7 @@ std::vector<PlacedShape> initialGuesses(const BoxEvidence& e) {
 
 std::vector<PlacedShape> cylinderHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
   std::vector<PlacedShape> fitted;
-  for (const PlacedShape& guess : initialGuesses(evidence)) fitted.push_back(fitShape(guess, evidence));
+  for (const PlacedShape& guess : cylinderGuesses(evidence)) fitted.push_back(fitShape(guess, evidence));
   return keepBest(fitted, 0.05, 10, limits);
 }
 

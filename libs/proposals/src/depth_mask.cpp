@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/depth_mask.h"
+// Voxel clustering of depth points, and choice of the cluster that explains the box.
+#include "depth_mask.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <nanoflann.hpp>
 #include <tuple>
 
-#include "roomgraph/proposals/generators.h"
-#include "roomgraph/proposals/plane_fit.h"
+#include "generators.h"
+#include "plane_fit.h"
 
 namespace roomgraph {
 namespace {

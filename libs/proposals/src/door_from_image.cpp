@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/door_from_image.h"
+// Ranges of door sides, directions of level segments, and doors from both.
+#include "door_from_image.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/proposals/door_on_plane.h"
+#include "door_on_plane.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kFarthest = 20;                          // m
+constexpr double kFarthestDoor = 20;                          // m
 constexpr double kLeastTilt = 0.003;                      // rad, of a ground plane that was seen
 constexpr double kLeastSlope = 0.02;                      // of a ray against the horizon
 constexpr double kSegment_px = 1.5;                       // of a segment's ends in the reduced image
@@ -26,7 +26,7 @@ Eigen::Vector3d rayInGround(const BoxEvidence& e, double u, double v) {
 std::optional<Measured> rangeOf(double height, double slope, double angle_sigma, double height_sigma) {
   if (height <= 0.1 || slope < kLeastSlope) return std::nullopt;
   const double range = height / slope;
-  if (range > kFarthest) return std::nullopt;
+  if (range > kFarthestDoor) return std::nullopt;
   return Measured{range, std::hypot(range * (slope + 1 / slope) * angle_sigma, height_sigma / slope)};
 }
 

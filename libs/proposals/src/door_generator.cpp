@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Door hypotheses from a vertical plane in the depth or from the image.
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/proposals/door_from_image.h"
-#include "roomgraph/proposals/door_on_plane.h"
-#include "roomgraph/proposals/fit_shape.h"
-#include "roomgraph/proposals/generators.h"
-#include "roomgraph/proposals/vertical_plane.h"
+#include "door_from_image.h"
+#include "door_on_plane.h"
+#include "fit_shape.h"
+#include "generators.h"
+#include "vertical_plane.h"
 
 namespace roomgraph {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/door_on_plane.h"
+// Least-squares interval with cut ends, projection of columns onto the plane, and covariance.
+#include "door_on_plane.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/edge_agreement.h"
+// Visible edges of a cuboid against the distance transform; angles of segments to vanishing points.
+#include "edge_agreement.h"
 
 #include <algorithm>
 #include <cmath>

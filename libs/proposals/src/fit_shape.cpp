@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/fit_shape.h"
+// Levenberg-Marquardt shape fit with robust residuals, and front-back decision by the back rest.
+#include "fit_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/NonLinearOptimization>
 
-#include "roomgraph/proposals/edge_agreement.h"
-#include "roomgraph/proposals/plane_fit.h"
+#include "edge_agreement.h"
+#include "plane_fit.h"
 
 namespace roomgraph {
 namespace {

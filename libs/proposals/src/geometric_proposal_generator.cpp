@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/geometric_proposal_generator.h"
+// Evidence, hypotheses, scores and covariances of one frame; alternatives when depth misleads.
+#include "geometric_proposal_generator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "roomgraph/proposals/initial_score.h"
-#include "roomgraph/proposals/proposal_covariance.h"
+#include "initial_score.h"
+#include "proposal_covariance.h"
 
 namespace roomgraph {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/ground_plane.h"
+// RANSAC over floor samples with surface normals and a test for points below the plane.
+#include "ground_plane.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "roomgraph/proposals/plane_fit.h"
+#include "plane_fit.h"
 
 namespace roomgraph {
 namespace {

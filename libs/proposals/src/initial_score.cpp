@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/initial_score.h"
+// Weighted sum of the area, edge and depth parts of the initialisation score.
+#include "initial_score.h"
 
 #include <algorithm>
 #include <cmath>

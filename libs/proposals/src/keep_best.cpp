@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Non-maximum suppression of hypotheses by quality, with reasons for rejection.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "roomgraph/proposals/generators.h"
+#include "generators.h"
 
 namespace roomgraph {
 namespace {

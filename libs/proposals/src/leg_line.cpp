@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/leg_line.h"
+// Steep segments extended to the bottom of the box and their agreement.
+#include "leg_line.h"
 
 #include <algorithm>
 #include <cmath>

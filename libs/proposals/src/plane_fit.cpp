@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/plane_fit.h"
+// Tukey-weighted least squares of a plane, and the depth noise model.
+#include "plane_fit.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

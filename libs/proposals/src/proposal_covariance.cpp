@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/proposal_covariance.h"
+// Error model of proposals along and across the view, with and without depth.
+#include "proposal_covariance.h"
 
 #include <algorithm>
 #include <cmath>

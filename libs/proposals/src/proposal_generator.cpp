@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MRPT class registration of the ProposalGenerator interface.
 #include "roomgraph/proposals/proposal_generator.h"
 
 namespace roomgraph {

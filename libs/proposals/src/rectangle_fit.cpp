@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/rectangle_fit.h"
+// Closeness criterion over sampled yaw, and its local maxima.
+#include "rectangle_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "roomgraph/proposals/generators.h"
+#include "generators.h"
 
 namespace roomgraph {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the proposal generator classes, registered when the library is loaded.
 #include "roomgraph/proposals/register_classes.h"
 
 #include <mrpt/core/initializer.h>
 
-#include "roomgraph/proposals/geometric_proposal_generator.h"
+#include "geometric_proposal_generator.h"
 
 namespace roomgraph::proposals {
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/proposals/vertical_plane.h"
+// RANSAC over point pairs and weighted total least squares.
+#include "vertical_plane.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "roomgraph/proposals/plane_fit.h"
+#include "plane_fit.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr int kTries = 120;
-constexpr std::size_t kLeastPoints = 30;
+constexpr std::size_t kLeastInPlane = 30;
 constexpr double kLeastShare = 0.35;
-constexpr double kCorrelation = 25;  // neighbouring pixels share their error: a point counts for a part
+constexpr double kPointsPerSample = 25;  // neighbouring pixels share their error: a point counts for a part
 // What a camera's calibration and a door's panels leave, however many points there are.
-constexpr double kAngleFloor = 0.01, kOffsetFloor = 0.012;
+constexpr double kWallAngleFloor = 0.01, kWallOffsetFloor = 0.012;
 
 // Standard deviation of a point across the plane, m.
 double noiseAcross(const VerticalPlane& plane, const Eigen::Vector2d& p) {
@@ -52,8 +52,8 @@ VerticalPlane refined(const VerticalPlane& initial, const std::vector<Eigen::Vec
   VerticalPlane out = planeThrough(mean, mean + direction);
   out.middle = out.along().dot(mean);
   const double spread = std::max(direction.dot(scatter * direction), 1e-6);
-  out.sigma_m = std::sqrt(kCorrelation / total + kOffsetFloor * kOffsetFloor);
-  out.sigma_rad = std::sqrt(kCorrelation / spread + kAngleFloor * kAngleFloor);
+  out.sigma_m = std::sqrt(kPointsPerSample / total + kWallOffsetFloor * kWallOffsetFloor);
+  out.sigma_rad = std::sqrt(kPointsPerSample / spread + kWallAngleFloor * kWallAngleFloor);
   return out;
 }
 
@@ -73,7 +73,7 @@ VerticalPlane planeThrough(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 std::optional<VerticalPlane> fitVerticalPlane(const std::vector<Eigen::Vector2d>& points) {
-  if (points.size() < kLeastPoints) return std::nullopt;
+  if (points.size() < kLeastInPlane) return std::nullopt;
   std::mt19937 random(777);
   VerticalPlane best;
   std::ptrdiff_t most = 0;

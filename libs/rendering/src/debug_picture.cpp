@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Drawing of ground grid, boxes, masks, rejected hypotheses, decisions and status line.
 #include "roomgraph/rendering/debug_picture.h"
 
 #include <algorithm>

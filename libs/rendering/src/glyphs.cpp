@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Triangles of the outline font rasterised with oversampling and blended into the image.
 #include "glyphs.h"
 
 #include <mrpt/opengl/CText3D.h>

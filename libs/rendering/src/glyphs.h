@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Anti-aliased text from MRPT's outline font.
 #pragma once
 
 #include <Eigen/Core>

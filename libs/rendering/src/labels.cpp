@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Greedy label placement by covered area over candidate positions.
 #include "labels.h"
 
 #include <Eigen/Core>

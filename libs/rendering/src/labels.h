@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Placement of labels beside objects without overlap.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Layout and drawing of labels, title, legend and scale.
 #include "overlay.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string readable(std::string name) {
   return name;
 }
 
-cv::Scalar scalar(const palette::TColor& color) {
+cv::Scalar toScalar(const palette::TColor& color) {
   return {color.B * 1.0, color.G * 1.0, color.R * 1.0};
 }
 
@@ -36,7 +36,7 @@ void fill(cv::Mat& image, const Box2& box, const palette::TColor& color) {
                                 {fixed(box.u_max), fixed(box.v_min)},
                                 {fixed(box.u_max), fixed(box.v_max)},
                                 {fixed(box.u_min), fixed(box.v_max)}};
-  cv::fillConvexPoly(image, corners, 4, scalar(color), cv::LINE_AA, 4);
+  cv::fillConvexPoly(image, corners, 4, toScalar(color), cv::LINE_AA, 4);
 }
 
 Box2 imageBox(const Landmark& landmark, const SceneView& view) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Title, legend, scale and labels drawn over the picture of a map.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

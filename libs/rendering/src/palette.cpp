@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Mixing and parsing of colours, and lookup by class.
 #include "palette.h"
 
 #include <cmath>

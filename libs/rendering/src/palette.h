@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Colours of the pictures, and of object classes.
 #pragma once
 
 #include <mrpt/img/TColor.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/rendering/scene.h"
+// Assembly of the scene, extent of its content, and grid spacing.
+#include "scene.h"
 
 #include <algorithm>
 #include <cmath>

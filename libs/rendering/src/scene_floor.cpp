@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Floor texture, grid lines and walls of the scene from the occupancy grid.
 #include <mrpt/opengl/CTexturedPlane.h>
 
 #include <cmath>

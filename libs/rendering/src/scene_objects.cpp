@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Landmarks as translucent boxes with front arrows.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kTopAlpha = 190, kSideAlpha = 150;
-constexpr double kLift = 0.03;  ///< above floor and path
+constexpr double kObjectLift = 0.03;  ///< above floor and path
 
 std::vector<Eigen::Vector3d> lifted(std::vector<Eigen::Vector3d> corners, double height) {
   for (auto& corner : corners) corner.z() += height;
@@ -61,7 +61,7 @@ void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database,
   for (const auto& landmark : map.landmarks) {
     const auto color = palette::ofClass(database, landmark.class_name);
     const auto edge = palette::mix(color, {0, 0, 0}, 0.25);
-    const auto base = lifted(footprintInWorld(landmark), kLift);
+    const auto base = lifted(footprintInWorld(landmark), kObjectLift);
     const double height = std::max(landmark.shape.height, 0.02);
     TriangleSet mesh;
     mesh.outline(base, width, edge);

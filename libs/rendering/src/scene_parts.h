@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parts that make up the scene of a map, and the measures they share.
 #pragma once
 
 #include <mrpt/opengl/COpenGLScene.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Path of the robot as a ribbon coloured by time.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kLift = 0.02;  ///< above the floor and its grid
+constexpr double kPathLift = 0.02;  ///< above the floor and its grid
 
 /// Poses at least `spacing` apart; a robot moves on the floor, a handheld camera where it was.
 std::vector<StampedPose> thinned(const CSemanticMap& map, double spacing) {
@@ -36,20 +36,20 @@ void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   const double span = std::max(map.world_from_robot.back().t - begin, 1e-9);
   TriangleSet mesh;
   // Later parts lie a little higher: where the path covers itself, the newest shows.
-  const auto lift_at = [&](double t) { return kLift + 0.008 * (t - begin) / span; };
+  const auto lift_at = [&](double t) { return kPathLift + 0.008 * (t - begin) / span; };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto color = palette::mix(palette::kPathStart, palette::kPathEnd, (poses[i].t - begin) / span);
     const Eigen::Vector3d to = place(poses[i].pose, lift_at(poses[i].t));
     mesh.ribbon(place(poses[i - 1].pose, lift_at(poses[i - 1].t)), to, width, color);
     mesh.disc(to, width / 2, color, 8);
   }
-  const Eigen::Vector3d start = place(map.world_from_robot.front().pose, kLift + 0.01);
+  const Eigen::Vector3d start = place(map.world_from_robot.front().pose, kPathLift + 0.01);
   mesh.disc(start, 2.8 * width, palette::kPathEnd, 24);
   mesh.disc(start + Eigen::Vector3d(0, 0, 0.004), 1.9 * width, palette::kFree, 24);
 
   const StampedPose& last = map.world_from_robot.back();
   const double size = std::max(4.5 * width, 0.12);
-  const Eigen::Vector3d tip = place(last.pose, kLift + 0.01);
+  const Eigen::Vector3d tip = place(last.pose, kPathLift + 0.01);
   // A camera's own x axis points to its right, but trajectories are of the robot's body: x forward.
   const double yaw = planarPart(last.pose).yaw;
   const auto arrow = [&](double scale, double lift) {

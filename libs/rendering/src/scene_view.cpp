@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Fit of the camera to the map's content, and projection into pixels.
 #include "scene_view.h"
 
 #include <mrpt/opengl/COpenGLViewport.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Camera of a picture of the map: projection and framing of the content.
 #pragma once
 
 #include <mrpt/opengl/CCamera.h>

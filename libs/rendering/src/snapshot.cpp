@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rendering by EGL at double size, overlay, and PNG encoding.
 #include "roomgraph/rendering/snapshot.h"
 
 #include <mrpt/opengl/CFBORender.h>
@@ -10,7 +10,7 @@
 #include "overlay.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
-#include "roomgraph/rendering/scene.h"
+#include "scene.h"
 
 namespace roomgraph {
 namespace {

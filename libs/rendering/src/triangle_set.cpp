@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Triangulation of polygons, ribbons, outlines and discs.
 #include "triangle_set.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Coloured triangles, ribbons and discs gathered into one OpenGL object.
 #pragma once
 
 #include <mrpt/opengl/CSetOfTriangles.h>

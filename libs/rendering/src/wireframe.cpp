@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Near-plane clipping and projection of edges, grid lines and horizon.
 #include "wireframe.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Image segments of model wireframes, ground grid and horizon.
 #pragma once
 
 #include <vector>

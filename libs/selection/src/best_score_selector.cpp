@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/best_score_selector.h"
+// Best score per detection, with its features.
+#include "best_score_selector.h"
 
-#include "roomgraph/selection/potentials.h"
+#include "potentials.h"
 
 namespace roomgraph {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/crf.h"
+// Min-sum and sum-product on a chain with the constraint "at least once".
+#include "crf.h"
 
 #include <algorithm>
 #include <cmath>

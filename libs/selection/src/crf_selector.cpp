@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/crf_selector.h"
+// Chains of the newest frame's objects minimised, with marginals as confidence.
+#include "crf_selector.h"
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Prediction of boxes between views, and the chain problem of an object.
 #include "object_chain.h"
 
 #include <algorithm>

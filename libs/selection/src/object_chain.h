@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sightings of one object over the window and their pairwise energies.
 #pragma once
 
 #include <deque>
 
-#include "roomgraph/selection/crf.h"
-#include "roomgraph/selection/potentials.h"
-#include "roomgraph/selection/semantic_code.h"
+#include "crf.h"
+#include "potentials.h"
+#include "semantic_code.h"
 
 namespace roomgraph {
 
@@ -15,7 +15,7 @@ struct Sighting {
   int frame = 0;  ///< count of the frame, set when it enters the window
   Box2 box;       ///< of the detection, px
   Viewpoint view;
-  std::vector<ShapeInWorld> shapes;     ///< of the proposals 1..P
+  std::vector<ShapeInWorld> shapes;    ///< of the proposals 1..P
   std::vector<double> unary;           ///< per state (crf.h): 0, then the proposals' energies
   std::vector<std::int64_t> features;  ///< inside the box, ascending
   Eigen::MatrixXd pairwise;            ///< energy with the states of the sighting before; empty: first

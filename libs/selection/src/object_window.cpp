@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Forgetting, matching by semantic codes and extension of object chains.
 #include "object_window.h"
 
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sliding window of tracked objects, advanced frame by frame.
 #pragma once
 
 #include "object_chain.h"

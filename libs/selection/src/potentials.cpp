@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/potentials.h"
+// Agreement of projected shape and box, overlap of carried areas, share of common features.
+#include "potentials.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the selector classes registered with MRPT.
 #include "roomgraph/selection/register_classes.h"
 
-#include "roomgraph/selection/best_score_selector.h"
-#include "roomgraph/selection/crf_selector.h"
-#include "roomgraph/selection/unary_selector.h"
+#include "best_score_selector.h"
+#include "crf_selector.h"
+#include "unary_selector.h"
 
 namespace roomgraph::selection {
 

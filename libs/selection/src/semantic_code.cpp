@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/semantic_code.h"
+// Reading order of boxes, longest common subsequence, and identity links between frames.
+#include "semantic_code.h"
 
 #include <algorithm>
 #include <numeric>

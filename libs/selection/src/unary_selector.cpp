@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/selection/unary_selector.h"
+// Least unary energy per detection, with Boltzmann confidence.
+#include "unary_selector.h"
 
 #include <cmath>
 
-#include "roomgraph/selection/potentials.h"
+#include "potentials.h"
 
 namespace roomgraph {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Screen-space ambient occlusion from a depth image.
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "roomgraph/simulation/color_renderer.h"
+#include "color_renderer.h"
 
 namespace roomgraph {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Meshes of desk, shelf, cabinet and block.
 #include <algorithm>
 #include <cmath>
 
 #include "furniture_builders.h"
-#include "roomgraph/simulation/random.h"
+#include "random.h"
 
 namespace roomgraph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Meshes of swivel chair, sofa and wooden chair.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

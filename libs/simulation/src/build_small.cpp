@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Meshes of plant, monitor, cardboard box, bin and whiteboard.
 #include <cmath>
 #include <numbers>
 
 #include "furniture_builders.h"
-#include "roomgraph/simulation/random.h"
+#include "random.h"
 
 namespace roomgraph {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/color_renderer.h"
+// MRPT scene graph of textured triangles, rendered at double size.
+#include "color_renderer.h"
 
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "roomgraph/core/errors.h"
-#include "roomgraph/simulation/texture.h"
+#include "texture.h"
 
 namespace roomgraph {
 namespace {

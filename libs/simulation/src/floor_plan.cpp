@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/floor_plan.h"
+// Walls with openings, base boards and posters; free space of rooms and doorways.
+#include "floor_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using V = Eigen::Vector3d;
 
 struct Opening {
@@ -96,11 +95,11 @@ void poster(MeshBuilder& mesh, const Room& room, const Poster& poster) {
 Pose3 wallFrame(const Room& room, Side side, double at_m) {
   switch (side) {
     case Side::kNorth:
-      return poseFromYpr(at_m, room.max_m.y(), 0, -kPi / 2, 0, 0);
+      return poseFromYpr(at_m, room.max_m.y(), 0, -std::numbers::pi / 2, 0, 0);
     case Side::kEast:
-      return poseFromYpr(room.max_m.x(), at_m, 0, kPi, 0, 0);
+      return poseFromYpr(room.max_m.x(), at_m, 0, std::numbers::pi, 0, 0);
     case Side::kSouth:
-      return poseFromYpr(at_m, room.min_m.y(), 0, kPi / 2, 0, 0);
+      return poseFromYpr(at_m, room.min_m.y(), 0, std::numbers::pi / 2, 0, 0);
     case Side::kWest:
       break;
   }
@@ -134,7 +133,7 @@ bool discIsFree(const std::vector<PlanBox>& areas, const Eigen::Vector2d& center
   };
   if (!free(center)) return false;
   for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2 * kPi * i / kDirections;
+    const double angle = 2 * std::numbers::pi * i / kDirections;
     if (!free(center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)))) return false;
   }
   return true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Builders of furniture meshes by kind.
 #pragma once
 
-#include "roomgraph/simulation/mesh_builder.h"
+#include "mesh_builder.h"
 
 namespace roomgraph {
 

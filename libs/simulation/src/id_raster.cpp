@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/id_raster.h"
+// Depth-buffered scan conversion of triangles, and silhouettes beyond the image border.
+#include "id_raster.h"
 
 #include <tbb/parallel_for.h>
 
@@ -11,7 +11,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kNear_m = 0.05;
+constexpr double kNearPlane_m = 0.05;
 constexpr int kMargin = 2;  ///< silhouettes are followed this many image sizes beyond the borders
 
 struct ScreenTriangle {
@@ -27,11 +27,11 @@ void project(const std::array<Eigen::Vector3d, 3>& points, const PinholeCamera& 
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto &a = points[i], &b = points[(i + 1) % 3];
-    if (a.z() >= kNear_m) corners[count++] = a;
-    if ((a.z() >= kNear_m) != (b.z() >= kNear_m)) {
-      const double part = (kNear_m - a.z()) / (b.z() - a.z());
+    if (a.z() >= kNearPlane_m) corners[count++] = a;
+    if ((a.z() >= kNearPlane_m) != (b.z() >= kNearPlane_m)) {
+      const double part = (kNearPlane_m - a.z()) / (b.z() - a.z());
       corners[count] = a + part * (b - a);
-      corners[count++].z() = kNear_m;
+      corners[count++].z() = kNearPlane_m;
     }
   }
   for (std::size_t i = 2; i < count; ++i) {
@@ -90,7 +90,7 @@ std::vector<ScreenTriangle> screenTriangles(const Scene& scene, const std::vecto
     for (const auto& triangle : part.mesh.triangles) {
       std::array<Eigen::Vector3d, 3> points;
       for (std::size_t k = 0; k < 3; ++k) points[k] = to_camera * triangle.position[k].cast<double>();
-      if (points[0].z() > kNear_m || points[1].z() > kNear_m || points[2].z() > kNear_m)
+      if (points[0].z() > kNearPlane_m || points[1].z() > kNearPlane_m || points[2].z() > kNearPlane_m)
         project(points, camera, part.object, out);
     }
   }

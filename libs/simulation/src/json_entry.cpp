@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Checks of numbers, texts, colours and paths in JSON entries; unknown keys.
 #include "json_entry.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Typed access to the keys of a JSON object, with errors that name the place.
 #pragma once
 
 #include <Eigen/Core>

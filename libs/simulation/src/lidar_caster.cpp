@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated lidar: exact ray casting on a horizontal cut of the scene, and measurement noise.
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 
 /// Cuts the part's triangles with the plane z = height.
 void cut(const ScenePart& part, const Pose3& world_from_part, double height, std::vector<Segment>& out) {
@@ -42,18 +41,18 @@ std::vector<double> LidarCaster::cast(const Pose2& world_from_lidar, int beams, 
     if (scene_.parts()[i].person >= 0) cut(scene_.parts()[i], poses[i], height_m_, moving);
   std::vector<double> out(static_cast<std::size_t>(beams), std::numeric_limits<double>::infinity());
   const Pose2 to_lidar = world_from_lidar.inverse();
-  const double step = 2 * kPi / (beams - 1);
+  const double step = 2 * std::numbers::pi / (beams - 1);
   const auto add = [&](const Segment& segment) {
     const Eigen::Vector2d a = to_lidar * segment.a, b = to_lidar * segment.b, d = b - a;
     // Only the beams between the directions of the two ends can meet it.
     const double start = std::atan2(a.y(), a.x());
     const double span = wrapAngle(std::atan2(b.y(), b.x()) - start);
     const double low = std::min(start, start + span), high = std::max(start, start + span);
-    for (const double turn : {-2 * kPi, 0.0, 2 * kPi}) {
-      const int first = std::max(0, static_cast<int>(std::ceil((low + turn + kPi) / step - 1e-9)));
-      const int last = std::min(beams - 1, static_cast<int>(std::floor((high + turn + kPi) / step + 1e-9)));
+    for (const double turn : {-2 * std::numbers::pi, 0.0, 2 * std::numbers::pi}) {
+      const int first = std::max(0, static_cast<int>(std::ceil((low + turn + std::numbers::pi) / step - 1e-9)));
+      const int last = std::min(beams - 1, static_cast<int>(std::floor((high + turn + std::numbers::pi) / step + 1e-9)));
       for (int i = first; i <= last; ++i) {
-        const double angle = -kPi + i * step;
+        const double angle = -std::numbers::pi + i * step;
         const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
         const double across = ray.x() * d.y() - ray.y() * d.x();
         if (std::abs(across) < 1e-15) continue;
@@ -70,7 +69,7 @@ std::vector<double> LidarCaster::cast(const Pose2& world_from_lidar, int beams, 
 mrpt::obs::CObservation2DRangeScan measureScan(const std::vector<double>& distances, const LidarSpec& spec,
                                                Random random) {
   mrpt::obs::CObservation2DRangeScan out;
-  out.aperture = static_cast<float>(2 * kPi);
+  out.aperture = static_cast<float>(2 * std::numbers::pi);
   out.rightToLeft = true;
   out.maxRange = static_cast<float>(spec.max_m);
   out.stdError = static_cast<float>(spec.sigma_m);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// True occupancy map from the outlines at lidar height, as PGM and YAML.
 #include <cmath>
 #include <queue>
 

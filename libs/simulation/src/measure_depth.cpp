@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Noise model of a structured-light depth camera and of a colour camera.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulated object detector: box jitter, misses, wrong labels and false alarms.
 #include <algorithm>
 #include <map>
 
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Wheel odometry with scale error, drift, noise and slips.
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "roomgraph/simulation/sensors.h"
+#include "sensors.h"
 
 namespace roomgraph {
 

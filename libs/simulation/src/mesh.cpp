@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Material list, mesh transforms and Andrew's monotone chain.
 #include "roomgraph/simulation/mesh.h"
 
 #include <algorithm>

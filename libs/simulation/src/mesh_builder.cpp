@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/mesh_builder.h"
+// Tessellation of the solids with normals and texture coordinates.
+#include "mesh_builder.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,6 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSides = 14;
 
 /// Texture coordinates in metres: projected along the axis that the face looks at most, so patterns keep
@@ -92,13 +91,13 @@ void MeshBuilder::superSphere(const Eigen::Vector3d& center, const Eigen::Vector
   std::vector<std::vector<Vertex>> rows;
   for (int half = 0; half < 2; ++half) {
     for (int r = 0; r <= kSteps; ++r) {
-      const double latitude = kPi / 2 * (static_cast<double>(r) / kSteps - (half == 0 ? 1 : 0));
+      const double latitude = std::numbers::pi / 2 * (static_cast<double>(r) / kSteps - (half == 0 ? 1 : 0));
       std::vector<Vertex> row;
       for (int quadrant = 0; quadrant < 4; ++quadrant) {
         const Eigen::Vector3d corner((quadrant == 0 || quadrant == 3 ? 1 : -1) * core.x(),
                                      (quadrant < 2 ? 1 : -1) * core.y(), (half == 0 ? -1 : 1) * core.z());
         for (int c = 0; c <= kSteps; ++c) {
-          const double longitude = kPi / 2 * (quadrant + static_cast<double>(c) / kSteps);
+          const double longitude = std::numbers::pi / 2 * (quadrant + static_cast<double>(c) / kSteps);
           const Eigen::Vector3d d(std::cos(latitude) * std::cos(longitude),
                                   std::cos(latitude) * std::sin(longitude), std::sin(latitude));
           row.push_back({center + corner + radii.cwiseProduct(d), d.cwiseQuotient(radii).normalized()});
@@ -151,7 +150,7 @@ void MeshBuilder::lathe(const Eigen::Vector3d& base, const std::vector<Eigen::Ve
     std::vector<std::vector<Vertex>> rows(2);
     for (std::size_t r = 0; r < 2; ++r) {
       for (int c = 0; c < kSides; ++c) {
-        const double angle = 2 * kPi * c / kSides;
+        const double angle = 2 * std::numbers::pi * c / kSides;
         const Eigen::Vector3d radial(std::cos(angle), std::sin(angle), 0);
         rows[r].push_back({base + profile[i + r].x() * radial + Eigen::Vector3d(0, 0, profile[i + r].y()),
                            slope.x() * radial + Eigen::Vector3d(0, 0, slope.y())});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Triangles and textures taken from an assimp model, axes converted.
 #include "mesh_file.h"
 
 #include <mrpt/opengl/CAssimpModel.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Mesh files with materials, read through MRPT's assimp model.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/models.h"
+// Table of furniture models, fit of meshes to a size, and door geometry.
+#include "models.h"
 
 #include <functional>
 #include <map>

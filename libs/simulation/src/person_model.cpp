@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/person_model.h"
+// Body parts, gait kinematics and position along the path.
+#include "person_model.h"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +11,6 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Proportions of an adult of 1.75 m.
 constexpr double kHeight = 1.75, kHip = 0.90, kThigh = 0.43, kShank = 0.40, kShoulder = 0.52,
                  kUpperArm = 0.29;
@@ -159,9 +158,9 @@ PersonState PersonWalk::at(double seconds) const {
   out.walks = t < leg && seconds > person_.start_s;
   const double along = std::min(t, leg) * person_.speed_m_s, s = back ? total - along : along;
   const Eigen::Vector2d at = (point(s - kCorner_m / 2) + point(s + kCorner_m / 2)) / 2;
-  const double turned = t < leg ? 0 : kPi * (t - leg) / kTurn_s;
-  out.pose = {at.x(), at.y(), wrapAngle(heading(s) + (back ? kPi : 0) + turned)};
-  out.phase = 2 * kPi * along / kStride_m;
+  const double turned = t < leg ? 0 : std::numbers::pi * (t - leg) / kTurn_s;
+  out.pose = {at.x(), at.y(), wrapAngle(heading(s) + (back ? std::numbers::pi : 0) + turned)};
+  out.phase = 2 * std::numbers::pi * along / kStride_m;
   return out;
 }
 

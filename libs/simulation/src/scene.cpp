@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/scene.h"
+// Scene built from a world: building, furniture, doors, people and path.
+#include "scene.h"
 
 #include <filesystem>
 
+#include "floor_plan.h"
 #include "mesh_file.h"
-#include "roomgraph/simulation/floor_plan.h"
-#include "roomgraph/simulation/models.h"
+#include "models.h"
 
 namespace roomgraph {
 namespace {

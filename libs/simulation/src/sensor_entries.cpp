@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsing and range checks of camera, lidar, odometry and detector entries.
 #include "sensor_entries.h"
 
-#include <numbers>
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Eigen::Vector3d place(JsonEntry& entry, const Eigen::Vector3d& fallback) {
   if (!entry.has("at_m")) return fallback;

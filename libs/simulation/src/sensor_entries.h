@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sensor entries of a world file.
 #pragma once
 
 #include "json_entry.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/sensor_path.h"
+// Catmull-Rom spline, smoothing, and timing under speed and acceleration limits.
+#include "sensor_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Schedule of the simulated sensors, records of the rawlog and truth files.
 #include "roomgraph/simulation/simulate.h"
 
 #include <mrpt/img/CImage.h>
@@ -7,11 +7,11 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <tbb/task_group.h>
 
+#include "color_renderer.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/rawlog_writer.h"
-#include "roomgraph/simulation/color_renderer.h"
-#include "roomgraph/simulation/scene.h"
+#include "scene.h"
 #include "truth_files.h"
 
 namespace roomgraph {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/simulation/texture.h"
+// Painters of the texture patterns: noise, wood, tiles, posters, screens.
+#include "texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "random.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
-#include "roomgraph/simulation/random.h"
 
 namespace roomgraph {
 namespace {

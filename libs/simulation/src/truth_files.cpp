@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Truth poses, boxes, objects and calibration as text and JSON.
 #include "truth_files.h"
 
 #include <cstdarg>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Writers of the ground-truth files of a simulation.
 #pragma once
 
 #include <filesystem>
 
+#include "id_raster.h"
 #include "roomgraph/core/output_file.h"
-#include "roomgraph/simulation/id_raster.h"
-#include "roomgraph/simulation/scene.h"
-#include "roomgraph/simulation/sensors.h"
+#include "scene.h"
+#include "sensors.h"
 
 namespace roomgraph {
 

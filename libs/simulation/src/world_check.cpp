@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Overlaps of rooms and furniture, doorways, posters, and collisions of paths.
 #include "world_check.h"
 
 #include <cmath>
 #include <sstream>
 
+#include "floor_plan.h"
+#include "models.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/geometry/shape.h"
-#include "roomgraph/simulation/floor_plan.h"
-#include "roomgraph/simulation/models.h"
-#include "roomgraph/simulation/sensor_path.h"
+#include "sensor_path.h"
 
 namespace roomgraph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Consistency check of a world description.
 #pragma once
 
 #include "roomgraph/simulation/world.h"

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parser of world files: rooms, doorways, furniture, people, robot and hand-held paths.
 #include "roomgraph/simulation/world_file.h"
 
-#include <numbers>
-
 #include "json_entry.h"
+#include "models.h"
 #include "roomgraph/core/text_file.h"
-#include "roomgraph/simulation/models.h"
-#include "roomgraph/simulation/texture.h"
+#include "roomgraph/geometry/degree.h"
 #include "sensor_entries.h"
+#include "texture.h"
 #include "world_check.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFar = 1000;  // m
 
 /// The mesh file that an entry names, relative to the world file; empty when it names none.

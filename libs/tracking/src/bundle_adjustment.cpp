@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Local bundle adjustment with Ceres: choice of the window, Huber loss, outlier removal.
 #include "bundle_adjustment.h"
 
 #include <ceres/ceres.h>
@@ -12,9 +12,9 @@
 namespace roomgraph::tracking {
 namespace {
 
-constexpr double kChi2Pixel = 5.991;   // 95 %, 2 degrees of freedom
+constexpr double kAdjustmentChi2 = 5.991;   // 95 %, 2 degrees of freedom
 constexpr double kMaxDepthSigmas = 3;  // a depth further off is not used
-constexpr double kHuber = 2.0;         // sigma
+constexpr double kAdjustmentHuber = 2.0;         // sigma
 constexpr int kMinShared = 10;         // points that make two keyframes neighbours
 
 /// camera_from_odom as rotation vector and translation.
@@ -146,7 +146,7 @@ class LocalProblem {
         const Keyframe& keyframe = map_.keyframe(s.keyframe);
         const Eigen::Vector3d r =
             whitened(keyframe, keyframe.observation(s.feature, parameters_), map_.point(id).position);
-        if (r.head<2>().squaredNorm() > kChi2Pixel) map_.removeSighting(id, s.keyframe);
+        if (r.head<2>().squaredNorm() > kAdjustmentChi2) map_.removeSighting(id, s.keyframe);
       }
     }
   }
@@ -156,7 +156,7 @@ class LocalProblem {
   const TrackingParameters& parameters_;
   std::map<int, PoseBlock> poses_;
   std::vector<std::int64_t> ids_;
-  ceres::HuberLoss loss_{kHuber};
+  ceres::HuberLoss loss_{kAdjustmentHuber};
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Windowed bundle adjustment around a keyframe.
 #pragma once
 
 #include "local_map.h"

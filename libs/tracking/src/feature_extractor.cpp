@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// FAST corners spread over pyramid levels, intensity-centroid orientation, depth on smooth surfaces.
 #include "feature_extractor.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// ORB features of an image with depth.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -11,7 +11,7 @@
 #include "feature_grid.h"
 #include "roomgraph/geometry/box.h"
 #include "roomgraph/observations/frame.h"
-#include "roomgraph/tracking/tracking_parameters.h"
+#include "tracking_parameters.h"
 
 namespace roomgraph::tracking {
 

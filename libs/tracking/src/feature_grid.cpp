@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Bucketed keypoints and radius queries.
 #include "feature_grid.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Grid index of keypoints for search around a pixel.
 #pragma once
 
 #include <opencv2/core/types.hpp>

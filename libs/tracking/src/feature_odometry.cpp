@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/tracking/feature_odometry.h"
+// FeatureOdometry delegating to its Tracker.
+#include "feature_odometry.h"
 
 #include "tracker.h"
 

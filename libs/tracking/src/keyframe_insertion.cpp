@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// New points, fusion with neighbouring keyframes, and culling of unstable points.
 #include "keyframe_insertion.h"
 
 #include <algorithm>

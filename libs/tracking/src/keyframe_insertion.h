@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Insertion of a keyframe into the local map.
 #pragma once
 
 #include "local_map.h"

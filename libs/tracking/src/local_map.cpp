@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Creation of points, bookkeeping of sightings, covisible keyframes.
 #include "local_map.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Local map of visual odometry: keyframes, map points, covisibility.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Projection search with pyramid level prediction, and mutual best matches with ratio test.
 #include "matcher.h"
 
 #include <algorithm>

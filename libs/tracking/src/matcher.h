@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Feature matching by projection and by descriptor.
 #pragma once
 
 #include <cstdint>

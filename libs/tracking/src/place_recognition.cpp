@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Small blurry images, recognition of a keyframe, and loop candidates.
 #include "place_recognition.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Place recognition by thumbnails, descriptor matching and PnP.
 #pragma once
 
 #include <optional>

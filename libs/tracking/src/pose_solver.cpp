@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Robust Levenberg-Marquardt on pixel and depth residuals, inlier classification, PnP.
 #include "pose_solver.h"
 
 #include <Eigen/Cholesky>

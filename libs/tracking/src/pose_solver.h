@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Camera pose from known points: refinement and RANSAC PnP.
 #pragma once
 
 #include <vector>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// List of the visual odometry classes, registered when the library is loaded.
 #include "roomgraph/tracking/register_classes.h"
 
 #include <mrpt/core/initializer.h>
 
-#include "roomgraph/tracking/feature_odometry.h"
+#include "feature_odometry.h"
 
 namespace roomgraph::tracking {
 

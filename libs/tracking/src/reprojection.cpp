@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Observation noise by pyramid level and depth, and the analytic reprojection Jacobian.
 #include "reprojection.h"
 
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reprojection residual with depth, its Jacobian and noise model.
 #pragma once
 
 #include <Eigen/Core>
 
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
-#include "roomgraph/tracking/tracking_parameters.h"
+#include "tracking_parameters.h"
 
 namespace roomgraph::tracking {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MRPT class registration of the RgbdOdometry interface.
 #include "roomgraph/tracking/rgbd_odometry.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(RgbdOdometry, Stage, roomgraph)

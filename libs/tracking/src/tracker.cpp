@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Main loop of the tracker: start, loss, keyframes, loop closing, step covariance.
 #include "tracker.h"
 
 #include <algorithm>

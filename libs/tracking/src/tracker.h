@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Tracker of the feature odometry: state, map and records of tracked frames.
 #pragma once
 
 #include <string>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-// How the tracker finds the pose of a frame: from the last frame's points, from keyframes, from the local
-// map.
+// Pose of a frame from the last frame's points, a keyframe, relocalisation or the local map.
 #include <algorithm>
 #include <iterator>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
-#include "roomgraph/tracking/tracking_parameters.h"
+// Declaration of the feature odometry's parameters with units and ranges.
+#include "tracking_parameters.h"
 
 namespace roomgraph {
 namespace {

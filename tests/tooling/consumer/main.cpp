@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Program outside the project that uses the installed libraries.
 #include <iostream>
 
 #include "roomgraph/evaluation/trajectory_error.h"

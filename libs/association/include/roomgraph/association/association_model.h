@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Weights of association alternatives (paper Eq. 10): likelihood, track prior and feature shares combined.
 #pragma once
 
 #include "roomgraph/association/frame_decision.h"

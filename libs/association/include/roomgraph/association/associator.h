@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interface of data association: measurements of one frame to landmarks, with posterior.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Loop closure by objects: rigid 2D transform that aligns most landmarks of two sets, class by class.
 #pragma once
 
 #include <optional>

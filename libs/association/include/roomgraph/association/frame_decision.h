@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Most probable joint assignment of one frame, with posteriors of all measurements.
 #pragma once
 
 #include <vector>

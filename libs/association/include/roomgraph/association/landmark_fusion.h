@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Recursive update rules of a landmark: Kalman position, yaw and label votes, mean size, bimodality test.
 #pragma once
 
 #include <deque>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// LandmarkMap: recursive estimate of all landmarks with existence, birth, merging and splitting.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Birth of landmarks, weights of sightings, and the criterion for duplicates.
 #pragma once
 
 #include <algorithm>

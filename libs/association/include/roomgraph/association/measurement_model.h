@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Likelihood of a measurement given a landmark or a new object: place, class and box.
 #pragma once
 
 #include <utility>

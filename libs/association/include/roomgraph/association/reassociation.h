@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Batch re-association of a whole run: forward-backward E-step alternating with landmark estimation.
 #pragma once
 
 #include <utility>

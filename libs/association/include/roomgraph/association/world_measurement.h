@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Object measurement transformed into world, with covariance; overlap of two footprints.
 #pragma once
 
 #include "roomgraph/geometry/camera.h"

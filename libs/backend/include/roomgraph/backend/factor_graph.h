@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// FactorGraph: poses, landmarks and points with their factors, solved by robust non-linear least squares.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Factor types of the graph: odometry, ground, landmark, box, size and point measurements, marginal prior.
 #pragma once
 
 #include <Eigen/Core>
@@ -106,7 +106,7 @@ struct CameraPointFactor {
   double robust_width = 2.5;  ///< in standard deviations; 0: plain least squares
 };
 
-/// A point of a landmark lies inside its model (factor 4, paper Eq. 13): distance outside the volume, its
+/// A point of a landmark lies inside its model (factor 4, paper Eq. 14): distance outside the volume, its
 /// horizontal and vertical parts apart, nothing inside.
 struct PointLandmarkFactor {
   PointId point;

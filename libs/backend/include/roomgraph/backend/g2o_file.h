@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reading and writing of pose graphs with landmarks in g2o text format.
 #pragma once
 
 #include <filesystem>

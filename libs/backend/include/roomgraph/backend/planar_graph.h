@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// 2D pose graph with landmarks in g2o's convention: chi-squared, initialisation, optimisation.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// AllocationLimit: bound on the memory that a thread may allocate, against damaged counts in input.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Creation of registered stages by class name, and loading of plug-ins.
 #pragma once
 
 #include <memory>

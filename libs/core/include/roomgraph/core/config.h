@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Parsed INI configuration with overrides, read into Configurable objects.
 #pragma once
 
 #include <filesystem>

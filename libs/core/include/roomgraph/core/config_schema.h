@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// All known configuration sections and keys: check for unknown ones, reference page.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// One-line messages from exceptions of MRPT and of JSON parsing.
 #pragma once
 
 #include <exception>

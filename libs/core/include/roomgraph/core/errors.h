@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Exception types of the program and their exit codes.
 #pragma once
 
 #include <stdexcept>

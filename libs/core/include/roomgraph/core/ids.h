@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Strongly typed integer ids of frames, nodes, landmarks and tracks.
 #pragma once
 
 #include <compare>

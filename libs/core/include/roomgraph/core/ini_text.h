@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// INI entries with file and line, parsed strictly.
 #pragma once
 
 #include <filesystem>

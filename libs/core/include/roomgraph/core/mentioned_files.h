@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Files that configuration values may name.
 #pragma once
 
 #include <filesystem>

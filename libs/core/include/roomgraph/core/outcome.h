@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Outcome<T>: a value, or the reason of an expected failure.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Output files checked for write errors and replaced atomically; outputs that are inputs refused.
 #pragma once
 
 #include <filesystem>

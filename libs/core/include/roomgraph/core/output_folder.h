@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// OutputFolder: a set of result files published together under a lock.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Declaration of parameters by visitors; conversion of values from and to text.
 #pragma once
 
 #include <limits>

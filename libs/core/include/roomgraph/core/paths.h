@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Whether a path lies inside a folder, symbolic links resolved.
 #pragma once
 
 #include <filesystem>

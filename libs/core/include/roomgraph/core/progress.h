@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Progress line on a terminal or in a log: share done, rate, time left.
 #pragma once
 
 #include <chrono>

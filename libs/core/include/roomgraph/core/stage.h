@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Stage: common base of the exchangeable pipeline steps chosen by class name.
 #pragma once
 
 #include <mrpt/rtti/CObject.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Spelling suggestions by edit distance, and joining of lists for messages.
 #pragma once
 
 #include <string>

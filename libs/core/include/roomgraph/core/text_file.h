@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reading of whole text files and parsing of JSON, with errors that name the place.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Published calibrations of well-known RGB-D cameras and data sets.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Copy of a rawlog with detection records inserted at their times.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Look at the beginning of a rawlog: whether it holds RGB-D frames and detections.
 #pragma once
 
 #include <filesystem>

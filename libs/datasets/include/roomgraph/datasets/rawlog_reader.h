@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RawlogReader: stream of frames, scans, odometry and detections from a rawlog.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Report about a rawlog: sensors, cameras, scans, time stamps and findings with hints.
 #pragma once
 
 #include <cstdint>

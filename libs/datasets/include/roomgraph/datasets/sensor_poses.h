@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sensor poses on the robot by label, parsed from and formatted as text.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Import of a TUM or ICL-NUIM folder as a rawlog of RGB-D records.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Tracking of detected boxes through frames on which the detector does not run.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

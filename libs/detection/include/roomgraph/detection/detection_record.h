@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detections as rawlog records and back; hash of weights files.
 #pragma once
 
 #include <string>

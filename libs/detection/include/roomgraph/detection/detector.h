@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interface of object detection in a frame, and the identity of a detector.
 #pragma once
 
 #include <string>

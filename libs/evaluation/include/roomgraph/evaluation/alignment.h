@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rigid alignment of an estimated trajectory with the true one.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Accuracy, identity switches and calibration of data association against truth.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Shape and yaw symmetry of a class, for the comparison of objects.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Precision, recall and average precision of detections against true boxes.
 #pragma once
 
 #include <map>

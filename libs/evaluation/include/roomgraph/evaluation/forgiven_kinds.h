@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Kinds of true objects that may be taken for a class without penalty.
 #pragma once
 
 #include <map>

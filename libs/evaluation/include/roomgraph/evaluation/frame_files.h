@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// True boxes, detections and associations per frame, read from JSON lines.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Agreement of an occupancy map with the true one, and distance of its walls.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

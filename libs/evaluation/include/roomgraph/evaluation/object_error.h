@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Landmarks against true objects: precision, recall, and errors of position, yaw, size and 3D IoU.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// True objects and landmarks read from JSON; objects seen well enough to count.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Errors of cuboid proposals and of ground planes against truth.
 #pragma once
 
 #include <map>

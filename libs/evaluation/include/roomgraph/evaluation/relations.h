@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Relative-pose metric over verified relations (Kuemmerle et al. 2009).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Evaluation results as text tables and as JSON.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Results of the proposal benchmark as table and JSON.
 #pragma once
 
 #include <map>

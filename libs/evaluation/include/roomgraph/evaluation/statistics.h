@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Summary statistics of a set of errors: RMSE, mean, median, 95th percentile, maximum.
 #pragma once
 
 #include <vector>

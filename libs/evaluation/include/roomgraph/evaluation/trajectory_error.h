@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Absolute trajectory error and relative pose error (Sturm et al. 2012).
 #pragma once
 
 #include <vector>

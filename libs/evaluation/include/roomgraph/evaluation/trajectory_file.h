@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Trajectory read from a text file in TUM or planar format.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Axis-aligned rectangle in an image, with intersection, clipping and IoU.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sides of a detected box that lie inside the image rather than on its border.
 #pragma once
 
 #include <array>

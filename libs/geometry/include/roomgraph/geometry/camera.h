@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Pinhole camera: projection, back-projection, intrinsic matrix, scaling.
 #pragma once
 
 #include <Eigen/Core>

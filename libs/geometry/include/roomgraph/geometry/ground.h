@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Planes, the ground plane in the camera frame, and intersection of rays with it.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rotation of a covariance of (x, y, z, yaw) into another frame.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Plausibility of poses: finite, near enough, a proper rotation.
 #pragma once
 
 #include <string>

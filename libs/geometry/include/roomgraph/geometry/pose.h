@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Rigid transforms in 3D and in the plane: composition, Lie maps, interpolation, conversion to MRPT.
 #pragma once
 
 #include <mrpt/poses/CPose3D.h>

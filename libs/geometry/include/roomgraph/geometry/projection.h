@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Bounding box of a projected object model, and of a projected circle.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct ProjectedShape {
   bool cut_left = false, cut_top = false, cut_right = false, cut_bottom = false;  ///< sides outside the image
 };
 
-/// Bounding box of the model's silhouette (paper Eq. 12: b = min/max of the projected shape). Edges are
+/// Bounding box of the model's silhouette (paper Eq. 13: b = min/max of the projected shape). Edges are
 /// clipped at `near_m`; nothing when the whole model is behind it or outside the image.
 std::optional<ProjectedShape> projectShape(const ObjectShape& shape, const Pose3& camera_from_object,
                                            const PinholeCamera& camera, double near_m = 0.05);

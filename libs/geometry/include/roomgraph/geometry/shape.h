@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Shape models of objects (cylinder, cuboid, plane): footprint, distance, overlap.
 #pragma once
 
 #include <Eigen/Core>

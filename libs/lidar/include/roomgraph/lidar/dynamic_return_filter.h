@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Removal of lidar returns on moving people.
 #pragma once
 
 #include <vector>

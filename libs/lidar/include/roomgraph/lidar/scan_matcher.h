@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interfaces of scan matching and of loop closing by scans.
 #pragma once
 
 #include <optional>

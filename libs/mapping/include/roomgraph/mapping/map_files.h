@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Reading and writing of map files: map.rgmap, landmarks.json, ROS occupancy map.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Occupancy mapping from posed lidar scans or depth images.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

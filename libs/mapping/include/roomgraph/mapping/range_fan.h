@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Planar fan of beams from a lidar scan or a slice of a depth image.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// MRPT observation class for the boxes of a 2D object detector.
 #pragma once
 
 #include <mrpt/obs/CObservation.h>

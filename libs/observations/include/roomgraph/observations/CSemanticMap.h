@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// The semantic map: occupancy grid, landmarks and trajectory, serialisable with MRPT.
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// 2D detection: box, class, score, mask and track.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Detections stored as MRPT comment records with JSON text.
 #pragma once
 
 #include <mrpt/obs/CObservationComment.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Tracked image feature with its map point and depth.
 #pragma once
 
 #include <Eigen/Core>

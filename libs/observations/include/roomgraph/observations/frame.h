@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// RGB-D frame: undistorted colour, grey and depth images with camera and extrinsics.
 #pragma once
 
 #include <opencv2/core/mat.hpp>

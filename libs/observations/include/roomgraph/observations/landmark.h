@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Landmark: an object of the semantic map with pose, covariance, existence and class posterior.
 #pragma once
 
 #include <map>

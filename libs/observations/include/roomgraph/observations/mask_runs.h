@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Run-length encoding of binary masks.
 #pragma once
 
 #include <cstdint>

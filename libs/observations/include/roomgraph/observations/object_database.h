@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Object database: classes with shape, size prior, symmetry and detector labels.
 #pragma once
 
 #include <filesystem>

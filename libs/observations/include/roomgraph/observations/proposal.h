@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Ground estimate, 3D proposals of objects, and selected object measurements.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct GroundEstimate {
   bool from_depth = false;                               ///< false: predicted from the extrinsics
 };
 
-/// One hypothesis of an object's shape and place (method.md sec. 1, end).
+/// One hypothesis of an object's shape and place (method.md sec. 1.E).
 struct Proposal {
   int detection = -1;  ///< index j of the detection in its frame
   std::string model;   ///< record of the object database

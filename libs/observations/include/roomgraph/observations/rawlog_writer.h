@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Gzipped rawlog under construction, put into place when complete.
 #pragma once
 
 #include <mrpt/serialization/CSerializable.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Registration of the serialisable classes with MRPT.
 #pragma once
 
 namespace roomgraph::observations {

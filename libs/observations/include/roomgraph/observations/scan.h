@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Planar lidar scan and wheel odometry reading.
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Times of the first and last measurement of a landmark.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Time-ordered trajectory in segments with interpolation, and relative poses between instants.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Sink that records the detections of a run into a copy of its rawlog.
 #pragma once
 
 #include <filesystem>

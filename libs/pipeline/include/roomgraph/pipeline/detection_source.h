@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Warning before a run that has neither a detector network nor recorded boxes.
 #pragma once
 
 #include <filesystem>

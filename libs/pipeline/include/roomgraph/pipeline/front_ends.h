@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Odometry front ends: wheels, visual tracking and scan matching, each predicting for the others.
 #pragma once
 
 #include <map>

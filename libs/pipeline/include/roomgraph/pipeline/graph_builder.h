@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Construction of the factor graph, whole or as a sliding window, from all measurements of a run.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct Measurements {
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 
 /// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects
-/// (method.md sec. 4, factors 1, 3, 5, 6).
+/// (method.md sec. 4.4, factors 1 to 6).
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const std::vector<Landmark>& landmarks, const BackendOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Key poses of the graph and robot poses interpolated between them.
 #pragma once
 
 #include <vector>

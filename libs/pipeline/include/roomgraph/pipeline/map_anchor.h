@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Localisation in an earlier map by the constellation of objects, confirmed by a scan.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Motion sources with their trajectories and noise models.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Factors of the graph from object measurements: sightings, sides, boxes, sizes, points.
 #pragma once
 
 #include <map>

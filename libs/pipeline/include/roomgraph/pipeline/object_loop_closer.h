@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Loop closing by objects: duplicate constellations of landmarks from two visits.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Mapping of objects: selection, association, landmark fusion and re-association.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Options of the pipeline's configuration sections.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Estimation of robot poses: key poses, sliding window, full optimisation, loop closures.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// What is read of a recording according to the configuration: sources, sensors, extrinsics.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Replay of a span of a recording through SemanticSlam, with progress and interruption.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Result files of a run, written live or at the end.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// SemanticSlam: the complete system, record by record, and the result of a run.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Wall-clock and processor time of every call of a stage.
 #pragma once
 
 #include <chrono>

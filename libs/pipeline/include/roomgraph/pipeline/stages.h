@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// All options and stages of a run, made from the configuration.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Report of one processed record, and the interface of its observers (Sink).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interface of proposal generation: 3D hypotheses from detections, depth and ground.
 #pragma once
 
 #include <optional>

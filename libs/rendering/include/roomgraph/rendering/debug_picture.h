@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Debug pictures: detections, depth samples, hypotheses and landmarks drawn into the image.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Off-screen picture of a semantic map as PNG.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interface of proposal selection: at most one measurement per detection.
 #pragma once
 
 #include <vector>

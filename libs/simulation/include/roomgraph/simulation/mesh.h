@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Triangle meshes with materials, and the planar convex hull.
 #pragma once
 
 #include <Eigen/Geometry>

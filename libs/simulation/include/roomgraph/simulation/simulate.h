@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Simulation of a recording with ground truth from a world and a seed.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Description of a simulated world: rooms, furniture, people, paths and sensors.
 #pragma once
 
 #include <Eigen/Core>

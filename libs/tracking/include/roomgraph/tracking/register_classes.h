@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Registration of the visual odometry stages with MRPT's class factory.
 #pragma once
 
 namespace roomgraph::tracking {

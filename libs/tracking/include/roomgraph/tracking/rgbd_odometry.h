@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of roomgraph, object-level semantic SLAM.
+// Interface of RGB-D visual odometry.
 #pragma once
 
 #include <optional>

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Greedy one-to-one assignment by posterior probability.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/association/associator.h"
+
+namespace roomgraph {
+
+/// Serves measurements in the order of their most probable alternative; of landmarks each is given once.
+/// `posteriors[k]` sums to 1 and holds "new" (invalid id).
+std::vector<Association> assignGreedily(
+    const std::vector<std::vector<std::pair<LandmarkId, double>>>& posteriors);
+
+}  // namespace roomgraph

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Track posterior carried from frame to frame, and landmarks that own tracked feature points.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "roomgraph/association/measurement_model.h"
+
+namespace roomgraph {
+
+/// The product over the frames of a track (method.md sec. 4), one factor at a time: the posterior of the last
+/// sighting is the prior of the next. Some of it is spread evenly every time, so that a wrong start is
+/// overcome; more of it the less the frame resembles the one before (p_c, proportional to beta, Eq. 5).
+class TrackMemory {
+ public:
+  /// Prior of each of `ids` (invalid: new), summing to at most 1; even for a track that is new. `forgetting`:
+  /// share of the past that is lost from one frame to the next, in (0, 1].
+  std::vector<double> prior(const ObjectMeasurement& measurement, const std::vector<LandmarkId>& ids,
+                            double forgetting) const;
+  void remember(const ObjectMeasurement& measurement, const WeightedLandmarks& posterior);
+  /// Tells the landmark a measurement went to; one that was just made takes over what "new" had.
+  void named(const ObjectMeasurement& measurement, LandmarkId landmark);
+  void merged(LandmarkId removed, LandmarkId kept);
+
+ private:
+  struct Past {
+    double t = 0;
+    std::map<LandmarkId, double> posterior;
+  };
+  using Key = std::pair<bool, std::int64_t>;  // the detector's own ids are no gamma chains
+  static Key keyOf(const ObjectMeasurement& measurement);
+
+  std::map<Key, Past> tracks_;
+};
+
+/// Which landmark the tracked feature points belong to: the last one whose sighting showed them.
+class FeatureOwners {
+ public:
+  void own(const std::vector<std::int64_t>& features, LandmarkId landmark);
+  void merged(LandmarkId removed, LandmarkId kept);
+
+  /// p0 of each of `ids`: share of the points that belong to it, with `weight` points spread evenly; even
+  /// without points.
+  std::vector<double> shares(const std::vector<std::int64_t>& features, const std::vector<LandmarkId>& ids,
+                             double weight) const;
+
+ private:
+  std::map<std::int64_t, LandmarkId> owners_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Object detection by neural networks through OpenCV's dnn module.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "roomgraph/detection/detector.h"
+
+namespace roomgraph {
+
+class Network;
+
+/// Runs one or more networks through OpenCV's dnn module and merges what they find.
+class DnnDetector : public Detector {
+  DEFINE_MRPT_OBJECT(DnnDetector, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
+  /// Loads the networks. Throws InputError with the file and the cause.
+  void prepare() override;
+  Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  DetectorIdentity identity() const override;
+  bool hasModels() const { return !models_.empty(); }
+  double scoreThreshold() const { return score_threshold_; }
+
+ private:
+  std::vector<std::string> models_;
+  std::string labels_file_;
+  std::vector<std::string> segmentation_labels_{"door"};
+  int input_size_px_ = 0;
+  double score_threshold_ = 0.35;
+  double nms_threshold_ = 0.5;
+  double twin_threshold_ = 1;
+  int every_nth_frame_ = 1;
+
+  const ObjectDatabase* database_ = nullptr;
+  std::vector<std::shared_ptr<Network>> networks_;
+  DetectorIdentity identity_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Detector that replays boxes recorded in a rawlog or a file.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "roomgraph/detection/detector.h"
+
+namespace roomgraph {
+
+/// Boxes of one recorded image.
+struct RecordedBoxes {
+  std::string image_label;       ///< sensor label of the camera; empty: any
+  std::vector<Detection> boxes;  ///< class_name is not filled in yet
+};
+
+/// Recorded boxes by time, seconds.
+using DetectionRecords = std::multimap<double, RecordedBoxes>;
+
+/// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]}, with "track" (an
+/// id) and "mask" (a grey picture as large as the image, relative to the file; then the box is the mask's)
+/// where the source has them, or text lines
+/// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
+DetectionRecords readDetectionFile(const std::string& file);
+
+/// Replays detections: from records of the rawlog (fed as they are read), from a file, or both.
+class RecordedDetector : public Detector {
+  DEFINE_MRPT_OBJECT(RecordedDetector, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  /// Where the records are: all parameters but the score.
+  void declareSource(ParameterVisitor& visitor);
+  void setScoreThreshold(double smallest) { score_threshold_ = smallest; }
+  void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
+  void prepare() override;
+  void feed(const CObservationDetections& recorded) override;
+  /// The records nearest in time to the frame (and of its camera), when within the tolerance. Records that
+  /// stand after the frame in the rawlog are found when they have been fed before this call.
+  Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  /// Of the records read last: the file's name and hash, or what stands in the rawlog.
+  DetectorIdentity identity() const override { return identity_; }
+  /// When records were made with a stricter threshold than the configured one, or none of them is of a frame
+  /// that was asked for.
+  std::string warning() const override;
+  /// Whether no record is known so far.
+  bool empty() const { return records_.empty(); }
+
+ private:
+  const RecordedBoxes* nearest(const Frame& frame) const;
+  std::string mismatch() const;
+
+  std::string file_;
+  double tolerance_s_ = 0.02;
+  double score_threshold_ = 0.35;
+
+  const ObjectDatabase* database_ = nullptr;
+  DetectionRecords records_;
+  DetectorIdentity identity_;
+  std::string threshold_warning_;
+  int frames_ = 0, matched_ = 0;  ///< asked for; with a record
+  double first_frame_t_ = 0, last_frame_t_ = 0;
+  std::string frame_label_;  ///< of the last one
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Graph of kept scans and closures; shortest path lengths as bound on drift.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "roomgraph/geometry/pose.h"
+
+namespace roomgraph {
+
+/// Kept scans in a row, joined where closures were found. Its shortest paths tell how much drift may lie
+/// between two scans, and the movement along them.
+class ClosureGraph {
+ public:
+  struct Reached {
+    double length_m = std::numeric_limits<double>::infinity();  ///< infinite: not connected
+    Pose2 start_from_node;                                      ///< movement composed along the shortest path
+  };
+
+  /// Adds a node after the last one; `connected`: the movement between them is known.
+  void addNode(bool connected, const Pose2& last_from_this, double length_m);
+  void addClosure(int a, int b, const Pose2& a_from_b, double length_m);
+  int size() const { return static_cast<int>(edges_.size()); }
+  /// Shortest paths from `start` to every node (Dijkstra), ties broken by the lower number.
+  std::vector<Reached> reachedFrom(int start) const;
+
+ private:
+  struct Edge {
+    int to;
+    double length_m;
+    Pose2 from_to;
+  };
+  void join(int a, int b, const Pose2& a_from_b, double length_m);
+  std::vector<std::vector<Edge>> edges_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Least-squares scan-to-grid refinement with a pose prior, and its covariance.
+#pragma once
+
+#include "probability_grid.h"
+
+namespace roomgraph {
+
+/// How far to trust the expected pose against the scan.
+struct PosePrior {
+  Pose2 pose;
+  double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
+  /// More weight along directions the scan fixes badly; x, y only.
+  Eigen::Matrix2d extra_weight_per_m2 = Eigen::Matrix2d::Zero();
+};
+
+struct GridRefinement {
+  Pose2 grid_from_scan;
+  /// Of the summed squared residuals by (x, y, yaw) of the pose: directions from the surfaces
+  /// (surfaceCurvature), size from the grid; the prior is not in it.
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  double residual_variance = 1;  ///< mean of (1 - p)^2
+  double explained = 0;          ///< share of the points on a surface of the grid
+  double contradicted = 0;       ///< share of the points in space the grid knows to be free
+};
+
+/// Cost of a pose: mean over the points of (1 - p)^2, plus the prior; with its gradient by (x, y, yaw) and
+/// the Gauss-Newton curvature of the mean.
+struct GridCost {
+  double value = 0, residual = 0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+};
+GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose2& grid_from_scan,
+                  const PosePrior& prior);
+
+/// Mean over the points of J^T N J, J the derivative of the point by (x, y, yaw) of the pose and N the
+/// projection on the normal of the surface around it (rounder where they form no line, none where they stand
+/// alone). Free of the cells' texture, which a grid's own curvature mistakes for hold along a corridor.
+/// Scaled to the trace in (x, y) of `grid_curvature`.
+Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_scan,
+                                 const Eigen::Matrix3d& grid_curvature);
+
+/// `most_per_m2` along directions the points do not fix at all, nothing where the curvature of their mean
+/// cost by translation (yaw free) reaches `enough_per_m2`: the cells' own texture must not hold a scan back
+/// in a corridor.
+Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, double most_per_m2,
+                                    double enough_per_m2);
+
+/// Levenberg-Marquardt on the interpolated grid (Hess et al. 2016, Eq. CS) with a prior on the pose.
+GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,
+                            const PosePrior& prior, int max_iterations = 20);
+
+/// Covariance of a refined pose, in the grid's axes: residual_variance * curvature^-1, bounded by `max_sigma`
+/// (m and rad) along what the scan does not fix, plus the floor's squares.
+struct CovarianceModel {
+  double inflation = 1;  ///< of the standard deviations: residuals are correlated
+  double floor_sigma_m = 0.005, floor_sigma_rad = 0.002;
+  double max_sigma = 1;
+};
+Eigen::Matrix3d poseCovariance(const GridRefinement& refinement, const CovarianceModel& model);
+
+}  // namespace roomgraph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loop closing of lidar scans against older submaps.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "closure_confirmation.h"
+#include "closure_graph.h"
+#include "correlative_search.h"
+#include "roomgraph/lidar/scan_matcher.h"
+#include "score_pyramid.h"
+#include "submap_settings.h"
+
+namespace roomgraph {
+
+/// Finds returns by matching kept scans against older submaps: branch-and-bound search as wide as the drift
+/// may be, refinement, and for returns after a long way the agreement of several scans. After Hess et al.
+/// 2016, sec. V.
+class SubmapLoopCloser : public ScanLoopCloser {
+  DEFINE_MRPT_OBJECT(SubmapLoopCloser, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  void prepare() override;
+  void add(const Scan& scan, const ScanMatch& match) override;
+  std::vector<RelativePose> search(const Trajectory& world_from_robot) override;
+  std::optional<RelativePose> verify(const RelativePose& proposed) override;
+
+ private:
+  struct KeptScan {
+    double t = 0;
+    Points2 points;  ///< robot frame, thinned
+  };
+  struct StoredSubmap {
+    std::shared_ptr<Submap> submap;
+    ScorePyramid pyramid;  ///< made when first needed
+  };
+  struct Candidate {
+    std::size_t submap = 0;
+    int a = 0;              ///< kept scan of the submap next to the scan
+    Pose2 a_from_b;         ///< expected
+    double distance_m = 0;  ///< between the two
+    double drift_m = 0;     ///< way between the two
+  };
+
+  void store(std::shared_ptr<Submap> submap);
+  std::vector<Candidate> candidatesFor(int b, const std::vector<std::optional<Pose2>>& world) const;
+  std::optional<Candidate> nearestIn(std::size_t submap, int b,
+                                     const std::vector<ClosureGraph::Reached>& reached,
+                                     const std::vector<std::optional<Pose2>>& world) const;
+  SearchWindow windowFor(double drift_m) const;
+  std::optional<Closure> match(const Candidate& candidate, int b);
+  int nearestScan(double t) const;
+  bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
+                 const SearchWindow& window, const SearchResult& best) const;
+  RelativePose toRelativePose(const Closure& closure) const;
+
+  SubmapSettings submap_settings_{
+      .keep_distance_m = 0.2, .keep_angle_deg = 10, .keep_time_s = 10, .max_points = 150, .min_points = 40};
+  double min_way_m_ = 4;
+  double near_m_ = 3, max_near_m_ = 12;
+  double drift_per_m_ = 0.03, drift_deg_per_m_ = 0.5;
+  double window_m_ = 0.3, window_deg_ = 8, max_window_m_ = 6, max_window_deg_ = 60;
+  double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
+  double ambiguity_ratio_ = 0.93;
+  double trusted_drift_m_ = 8;
+  int agreeing_closures_ = 3;
+  double agreeing_travel_m_ = 1;
+  int max_candidates_ = 2, max_matches_per_search_ = 12;
+  double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_deg_ = 0.3;
+
+  std::unique_ptr<ActiveSubmaps> active_;
+  std::vector<StoredSubmap> submaps_;
+  std::vector<KeptScan> scans_;
+  std::vector<WayPoint> way_;  ///< one per kept scan
+  ClosureGraph graph_;
+  ClosureConfirmation confirmation_;
+  std::deque<int> waiting_;  ///< kept scans not searched yet
+};
+
+}  // namespace roomgraph

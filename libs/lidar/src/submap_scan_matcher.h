@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scan-to-submap matching with motion prediction.
+#pragma once
+
+#include <memory>
+
+#include "grid_refinement.h"
+#include "roomgraph/lidar/scan_matcher.h"
+#include "score_pyramid.h"
+#include "submap_settings.h"
+
+namespace roomgraph {
+
+/// Scan-to-submap matching: a correlative search around the predicted pose, then a refinement on the
+/// interpolated grid with a prior on the prediction. After Hess et al. 2016 (Cartographer) and Olson 2009.
+/// Wheels slip: where the given movement jumps away from a steady one, the scan decides between the two.
+class SubmapScanMatcher : public ScanMatcher {
+  DEFINE_MRPT_OBJECT(SubmapScanMatcher, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  void prepare() override;
+  ScanMatch match(const Scan& scan, const std::optional<Pose2>& previous_from_current) override;
+  Trajectory trajectory() const override { return trajectory_; }
+
+ private:
+  Pose2 predict(double t, const std::optional<Pose2>& previous_from_current) const;
+  /// If the robot goes on as it went between the last two scans.
+  Pose2 steadyPose(double t) const;
+  /// Whether the prediction lies beyond the search window around the steady pose.
+  bool jumps(double t, const Pose2& predicted) const;
+  GridRefinement matchTo(const Submap& submap, const Points2& points, const Pose2& predicted, bool has_prior);
+  void accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
+  ScanMatch start(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
+
+  SubmapSettings submap_settings_;
+  double window_m_ = 0.15, window_deg_ = 12;
+  double free_window_m_ = 0.4, free_window_deg_ = 25;
+  double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
+  double prior_per_m2_ = 2, prior_per_rad2_ = 1;
+  double weak_prior_per_m2_ = 100, weak_below_per_m2_ = 15;
+  double min_score_ = 0.1;
+  int max_lost_scans_ = 10;
+  double covariance_inflation_ = 1;
+  double floor_sigma_m_ = 0.005, floor_sigma_deg_ = 0.1;
+
+  std::unique_ptr<ActiveSubmaps> submaps_;
+  ScorePyramid pyramid_;  ///< of the submap matched against
+  bool pyramid_stale_ = true;
+  Trajectory trajectory_;
+  int segment_ = 0, lost_scans_ = 0;
+  std::optional<double> last_t_;  ///< of the last scan, matched or predicted
+  Pose2 last_pose_;
+  Pose2 velocity_;  ///< last movement per second, in the robot frame
+  double kept_t_ = 0;
+  Pose2 kept_pose_;
+};
+
+}  // namespace roomgraph

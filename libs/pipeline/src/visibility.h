@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Expected visibility of landmarks in a frame, and evidence of lidar beams about them.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/observations/detection.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/scan.h"
+
+namespace roomgraph {
+
+/// Whether the detector ought to have found a landmark in this frame and did not: well inside the image, near
+/// and large enough, not hidden behind something that the depth image shows in front of it, and no detection
+/// where it stands (one with another label is a confusion, not a miss).
+bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
+                  const std::vector<Detection>& detections);
+
+/// Beams of a scan that speak for or against a landmark.
+struct RayEvidence {
+  int inside = 0;   ///< ended in its footprint
+  int through = 0;  ///< passed through the middle of it and ended behind
+};
+
+/// Only the lower part of cuboids is solid: beams pass over the seat of a sofa, between the legs of a chair
+/// and through an open door, so that these count beams inside only.
+RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot);
+
+}  // namespace roomgraph

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plane fitting: RANSAC hypothesis and robust refinement with covariance.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "roomgraph/geometry/ground.h"
+
+namespace roomgraph {
+
+/// Standard deviation of a Kinect-like depth measurement, m.
+double depthSigma(double z_m);
+
+/// Plane through three points, normal turned towards the camera centre (origin); nothing when they are
+/// collinear.
+std::optional<Plane> planeThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c);
+
+/// Plane that maximises inliers(plane) over `tries` random triples among the points, fixed seed. `inliers`
+/// returns 0 for a plane that is out of the question.
+std::optional<Plane> bestPlane(const std::vector<Eigen::Vector3d>& points, int tries,
+                               const std::function<int(const Plane&)>& inliers);
+
+/// Plane refined on the points near it by iteratively re-weighted least squares, with the covariance of
+/// (normal, offset).
+struct RefinedPlane {
+  Plane plane;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  int inliers = 0;
+  double spread_m = 0;  ///< smaller standard deviation of the inliers within the plane
+};
+RefinedPlane refinePlane(const Plane& initial, const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace roomgraph

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// L-shape fit of rectangles to footprint points.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace roomgraph {
+
+/// Rectangle around footprint points: centre, yaw of its first side in [0, pi/2), full sizes along both axes.
+struct FootprintRectangle {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double yaw = 0, size_first = 0, size_second = 0;
+};
+
+/// Rectangles whose two visible sides lie close to many points (L-shape criterion over sampled yaw), best
+/// first: local maxima of the criterion, at most `max_count`. Extents are the 2 % and 98 % quantiles.
+std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points, int max_count = 2);
+
+}  // namespace roomgraph

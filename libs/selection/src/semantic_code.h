@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Semantic codes of frames and their matching (paper Eq. 5).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "roomgraph/geometry/box.h"
+
+namespace roomgraph {
+
+/// Binary codes of class names: one byte each, numbered in the order in which they are first asked for.
+/// Ratios of code lengths (Eq. 5) do not depend on the numbering or the width.
+class LabelCodes {
+ public:
+  /// Throws std::length_error at the 257th name.
+  std::uint8_t of(const std::string& class_name);
+
+ private:
+  std::vector<std::string> names_;
+};
+
+/// What a semantic code keeps of an object in an image.
+struct LabelledBox {
+  Box2 box;
+  std::uint8_t label = 0;
+};
+
+/// Semantic code of a frame (paper sec. V-B2, method.md sec. 2): the bytes of its labels, read as one reads a
+/// page.
+struct SemanticCode {
+  std::vector<std::uint8_t> labels;  ///< in reading order
+  std::vector<int> objects;          ///< which object of the frame stands at each position
+  int bits() const { return 8 * static_cast<int>(labels.size()); }
+};
+
+/// Reading order: a row starts with the highest box left and takes in all whose centres lie above its bottom
+/// side; rows from top to bottom, inside a row by the centre's column.
+SemanticCode semanticCode(const std::vector<LabelledBox>& objects);
+
+/// Two codes laid side by side.
+struct CodeMatch {
+  double beta = 1;         ///< Eq. 5, in [0, 1]; two empty codes are alike: 1
+  std::vector<int> gamma;  ///< per object of b the object of a that it matches, -1: none
+};
+
+/// Longest common subsequence of the labels; of several, that with the largest sum of overlaps. `overlap(i,
+/// k)`
+/// >= 0 is how well object i of a, moved as predicted, covers object k of b.
+CodeMatch matchCodes(const SemanticCode& a, const SemanticCode& b, const Eigen::MatrixXd& overlap);
+
+/// Links that may carry an object's identity from a to b; per object of b the object of a, -1: none. Gamma
+/// alone cannot: when two chairs change places in the reading order it links each to the other, and it links
+/// any two chairs when nothing else is left. So only pairs of one label with at least `min_overlap` (> 0)
+/// count, the largest overlaps are linked first, and gamma adds kOrderVoice to those it agrees with: it
+/// decides where the motion leaves it open.
+std::vector<int> identityLinks(const SemanticCode& a, const SemanticCode& b, const CodeMatch& match,
+                               const Eigen::MatrixXd& overlap, double min_overlap);
+inline constexpr double kOrderVoice = 0.1;
+
+}  // namespace roomgraph

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proposal selection frame by frame by unary energy: a baseline.
+#pragma once
+
+#include "roomgraph/selection/proposal_selector.h"
+
+namespace roomgraph {
+
+/// Each frame on its own: per detection the proposal with the lowest alpha * U, if it is low enough.
+/// Confidence is the Boltzmann probability of the choice among {none} and the detection's proposals.
+class UnarySelector : public ProposalSelector {
+  DEFINE_MRPT_OBJECT(UnarySelector, roomgraph)
+ public:
+  void declareParameters(ParameterVisitor& visitor) override;
+  std::vector<ObjectMeasurement> select(const FrameProposals& frame, const FrameContext& context) override;
+
+ private:
+  double max_energy_ = -0.15;
+  double temperature_ = 0.1;
+};
+
+}  // namespace roomgraph
