@@ -13,9 +13,9 @@ namespace roomgraph::testing {
 namespace {
 
 LandmarkMap mapWith(const std::string& config) {
-  LandmarkMap map;
-  Config::fromText("[landmarks]\n" + config).read("landmarks", map);
-  return map;
+  LandmarkOptions options;
+  Config::fromText("[landmarks]\n" + config).read("landmarks", options);
+  return LandmarkMap(options);
 }
 
 LandmarkId born(LandmarkMap& map, const WorldMeasurement& seen) {

@@ -26,12 +26,6 @@ std::vector<Association> associate(const std::vector<WorldMeasurement>& seen,
   return associator.associate(seen, landmarks);
 }
 
-double probabilityOf(const Association& association, LandmarkId id) {
-  for (const auto& [candidate, probability] : association.posterior)
-    if (candidate == id) return probability;
-  return 0;
-}
-
 // Bayes' rule over every landmark, written down without gates' shortcuts: density N(d; 0, S) per candidate.
 std::map<LandmarkId, double> bruteForce(const WorldMeasurement& seen,
                                         const std::vector<Landmark>& landmarks) {

@@ -33,6 +33,14 @@ inline WorldMeasurement sightingAt(double x, double y, double yaw = 0, double si
   return seen;
 }
 
+/// Share of the posterior; 0 for landmarks that are not in it.
+inline double probabilityOf(const Association& association, LandmarkId id) {
+  double sum = 0;
+  for (const auto& [landmark, probability] : association.posterior)
+    if (landmark == id) sum += probability;
+  return sum;
+}
+
 /// The decision that a measurement belongs to a landmark; invalid id: to a new one.
 inline Association belongsTo(LandmarkId landmark) {
   Association association;

@@ -28,13 +28,6 @@ WorldMeasurement ofTrack(WorldMeasurement seen, std::int64_t track, double t) {
   return seen;
 }
 
-double probabilityOf(const Association& association, LandmarkId id) {
-  double sum = 0;
-  for (const auto& [landmark, probability] : association.posterior)
-    if (landmark == id) sum += probability;
-  return sum;
-}
-
 TEST(SoftAssociator, PosteriorSumsToOneAndNoLandmarkServesTwo) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     Random random(seed);

@@ -164,7 +164,7 @@ bool ObjectMapper::reassociate() {
   if (!model || frames_.empty()) return false;
   const auto by_frame = measurementsInWorld();
   const Reassociation result =
-      roomgraph::reassociate(by_frame, landmarks().landmarks(), *model, landmarks().duplicates());
+      roomgraph::reassociate(by_frame, landmarks().landmarks(), *model, landmarks().rules());
   landmarks().adopt(by_frame, result);
   bool changed = false;
   for (std::size_t f = 0; f < frames_.size(); ++f) {

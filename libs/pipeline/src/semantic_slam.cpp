@@ -29,6 +29,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
       box_tracker_(stages_->detection.tracker, stages_->database),
       estimator_(stages_->backend, front_ends_.motion()),
       objects_(*stages_, estimator_.poses()),
+      grid_(stages_->mapping),
       object_loops_(stages_->object_loops),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
@@ -74,7 +75,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   } else if (stages_->scan_loop_closer) {
     stages_->scan_loop_closer->add(clean, match);
   }
-  stages_->mapper.add(clean);
+  grid_.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t));
   if (map_ && !anchored_) last_scan_ = clean;
@@ -210,7 +211,7 @@ void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& det
     return;
   }
   level(frame);
-  stages_->mapper.add(frame, seen_.ground->plane);
+  grid_.add(frame, seen_.ground->plane);
 }
 
 // A handheld camera's world is levelled when the floor is seen for the first time; later sightings become
@@ -308,7 +309,7 @@ SlamResult SemanticSlam::collect() {
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
   const auto timing = times_.measure("occupancy map");
   try {
-    result.map.occupancy = stages_->mapper.build(dense);
+    result.map.occupancy = grid_.build(dense);
   } catch (const RunError& error) {  // all else is still good
     ++result.counts.reasons[error.what()];
   }

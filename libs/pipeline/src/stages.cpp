@@ -151,7 +151,7 @@ std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::
   makeFrontEnds(*stages, loader);
   makeObjectStages(*stages, loader);
   loader.read("backend", stages->backend);
-  loader.read("mapping", stages->mapper);
+  loader.read("mapping", stages->mapping);
   prepareAll(*stages);
   stages->effective_config = loader.text();
   return stages;
@@ -167,9 +167,9 @@ ConfigSchema configSchema() {
   OdometryOptions odometry;
   DetectionStageOptions detection;
   BackendOptions backend;
-  LandmarkMap landmarks;
+  LandmarkOptions landmarks;
   ObjectLoopOptions object_loops;
-  OccupancyMapper mapper;
+  OccupancyOptions mapping;
   schema.add("pipeline", general);
   schema.add("rgbd", rgbd);
   schema.add("odometry", odometry);
@@ -186,7 +186,7 @@ ConfigSchema configSchema() {
   schema.add("landmarks", landmarks);
   schema.add("object_loop_closing", object_loops);
   schema.add("backend", backend);
-  schema.add("mapping", mapper);
+  schema.add("mapping", mapping);
   return schema;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "roomgraph/association/landmark_map.h"
 #include "roomgraph/observations/seen_span.h"
 #include "roomgraph/pipeline/key_poses.h"
 #include "roomgraph/pipeline/object_factors.h"
@@ -18,7 +19,8 @@ namespace roomgraph {
 class ObjectMapper {
  public:
   /// Both outlive the mapper.
-  ObjectMapper(Stages& stages, const KeyPoses& poses) : stages_(stages), poses_(poses) {}
+  ObjectMapper(Stages& stages, const KeyPoses& poses)
+      : stages_(stages), poses_(poses), landmarks_(stages.landmarks) {}
 
   /// One frame on which there are detections: chooses proposals, gives them to landmarks, fuses them.
   std::vector<ObjectDecision> observe(const FrameProposals& seen, const Frame& frame,
@@ -45,8 +47,8 @@ class ObjectMapper {
   ObjectFactors factors() const;
 
   const std::vector<ObjectFrame>& frames() const { return frames_; }
-  LandmarkMap& landmarks() { return stages_.landmarks; }
-  const LandmarkMap& landmarks() const { return stages_.landmarks; }
+  LandmarkMap& landmarks() { return landmarks_; }
+  const LandmarkMap& landmarks() const { return landmarks_; }
   const SeenSpans& seenSpans() const { return spans_; }
 
  private:
@@ -59,6 +61,7 @@ class ObjectMapper {
 
   Stages& stages_;
   const KeyPoses& poses_;
+  LandmarkMap landmarks_;
   std::vector<ObjectFrame> frames_;
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;

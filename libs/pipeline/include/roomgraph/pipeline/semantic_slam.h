@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/mapping/occupancy_mapper.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
 #include "roomgraph/pipeline/map_anchor.h"
@@ -96,6 +97,7 @@ class SemanticSlam {
   BoxTracker box_tracker_;   ///< boxes of the last detection, on the frames after it
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
+  OccupancyMapper grid_;     ///< scans or depth slices for the occupancy grid
   ObjectLoopCloser object_loops_;
   std::optional<MapAnchor> map_;
   bool anchored_ = false;          ///< the world is the map's

@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "roomgraph/association/landmark_map.h"
+#include "roomgraph/association/associator.h"
+#include "roomgraph/association/landmark_options.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/config_schema.h"
 #include "roomgraph/detection/detector.h"
 #include "roomgraph/lidar/scan_matcher.h"
-#include "roomgraph/mapping/occupancy_mapper.h"
+#include "roomgraph/mapping/occupancy_options.h"
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/pipeline/options.h"
 #include "roomgraph/proposals/proposal_generator.h"
@@ -42,9 +43,9 @@ struct Stages {
   std::shared_ptr<ProposalGenerator> proposal_generator;
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;
-  LandmarkMap landmarks;
+  LandmarkOptions landmarks;
   ObjectLoopOptions object_loops;
-  OccupancyMapper mapper;
+  OccupancyOptions mapping;
   /// INI text of every parameter as it is used, and of the object database, which it expects beside itself as
   /// objects.ini.
   std::string effective_config, objects;
