@@ -81,6 +81,8 @@ def checked_fault(root, source, library, fault):
         raise BadInput(f"{place}: it changes nothing")
     if fault.get("kind", "statement") not in WRAPPED:
         raise BadInput(f"{place}: `kind` is neither {' nor '.join(sorted(WRAPPED))}")
+    if set(fault["name"]) & set('"\\\n'):
+        raise BadInput(f"{place}: a name must do inside a C++ string")
     return {"library": library, **fault}
 
 
