@@ -6,7 +6,7 @@
 #include "program.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using nlohmann::json;
@@ -102,4 +102,4 @@ TEST_F(TruthTest, TinyHandheld) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test
