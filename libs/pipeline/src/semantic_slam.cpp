@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "detection_schedule.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/lidar/dynamic_return_filter.h"
 
@@ -26,12 +27,14 @@ bool isMounted(const Frame& frame) {
 SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
     : stages_(std::move(stages)),
       front_ends_(*stages_),
-      box_tracker_(stages_->detection.tracker, stages_->database),
+      detection_schedule_(std::make_unique<DetectionSchedule>(stages_->detection, stages_->database)),
       estimator_(stages_->backend, front_ends_.motion()),
       objects_(*stages_, estimator_.poses()),
       object_loops_(stages_->object_loops),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
+
+SemanticSlam::~SemanticSlam() = default;
 
 void SemanticSlam::process(const Record& record) {
   times_.startRecord(timeOf(record));
@@ -114,19 +117,10 @@ bool SemanticSlam::inOrder(double t, double& last, const std::string& source) {
 }
 
 std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& report) {
-  if (!stages_->detector || stages_->detector->idle()) return {};
-  const auto timing = times_.measure("detection");
-  const auto found = stages_->detector->detect(frame);
-  report.detector_ran = found.ok();
-  if (found) {
-    box_tracker_.start(*found, frame);
-    report.detections = *found;
-  } else {
-    ++counts_.reasons["detection: " + found.reason()];
-    report.detections = box_tracker_.advance(frame, cameraMovement(frame));
-    report.boxes_carried = box_tracker_.active();
-    if (!report.boxes_carried) return {};
-  }
+  FrameBoxes found = boxesIn(frame);
+  report.detector_ran = found.source == BoxSource::kDetected;
+  report.boxes_carried = found.source == BoxSource::kCarried;
+  report.detections = std::move(found.boxes);
   people_.clear();
   for (const auto& detection : report.detections) {
     const auto* model = stages_->database.find(detection.class_name);
@@ -135,10 +129,22 @@ std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& repo
   return report.detections;
 }
 
-// Since the frame that the box tracker saw last, as far as it is known before this frame is tracked.
+FrameBoxes SemanticSlam::boxesIn(const Frame& frame) {
+  if (!stages_->detector || stages_->detector->idle()) return {};
+  const auto timing = times_.measure("detection");
+  if (detection_schedule_->due()) {
+    const auto found = stages_->detector->detect(frame);
+    if (found) return detection_schedule_->detected(*found, frame);
+    ++counts_.reasons["detection: " + found.reason()];
+  }
+  return detection_schedule_->missed(frame, cameraMovement(frame));
+}
+
+// Since the frame from which boxes are carried, as far as it is known before this frame is tracked.
 std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
-  if (!box_tracker_.active()) return std::nullopt;
-  const auto moved = front_ends_.motion().movement(box_tracker_.lastTime(), frame.t, kMovementHorizon_s);
+  const auto since = detection_schedule_->carriedFrom();
+  if (!since) return std::nullopt;
+  const auto moved = front_ends_.motion().movement(*since, frame.t, kMovementHorizon_s);
   if (!moved) return std::nullopt;
   return frame.robot_from_camera.inverse() * *moved * frame.robot_from_camera;
 }

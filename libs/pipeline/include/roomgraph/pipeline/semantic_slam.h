@@ -45,10 +45,14 @@ struct SlamResult {
   std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
 };
 
+class DetectionSchedule;
+struct FrameBoxes;
+
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.
 class SemanticSlam {
  public:
   explicit SemanticSlam(std::unique_ptr<Stages> stages);
+  ~SemanticSlam();
 
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to be in the frame of this map; until its objects are recognised it is in its own.
@@ -76,6 +80,7 @@ class SemanticSlam {
 
   bool inOrder(double t, double& last, const std::string& source);
   std::vector<Detection> detect(const Frame& frame, StepReport& report);
+  FrameBoxes boxesIn(const Frame& frame);
   std::optional<Pose3> cameraMovement(const Frame& frame) const;
   void track(const Frame& frame, StepReport& report);
   ScanMatch matched(const Scan& scan);
@@ -92,10 +97,10 @@ class SemanticSlam {
   std::vector<std::shared_ptr<Sink>> sinks_;
   StageTimes times_;
 
-  FrontEnds front_ends_;     ///< trajectories of the sources
-  BoxTracker box_tracker_;   ///< boxes of the last detection, on the frames after it
-  PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
-  ObjectMapper objects_;     ///< what was seen of objects
+  FrontEnds front_ends_;                                  ///< trajectories of the sources
+  std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
+  PoseEstimator estimator_;                               ///< key poses, measurements, the factor graph
+  ObjectMapper objects_;                                  ///< what was seen of objects
   ObjectLoopCloser object_loops_;
   std::optional<MapAnchor> map_;
   bool anchored_ = false;          ///< the world is the map's
