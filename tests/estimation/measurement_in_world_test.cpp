@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Covariance of a measurement in the world: by hand for a quarter turn, by sampling for any pose.
-#include "roomgraph/estimation/measurement_in_world.h"
+#include "measurement_in_world.h"
 
 #include <gtest/gtest.h>
 

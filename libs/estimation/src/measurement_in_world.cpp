@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rotation of a proposal's covariance from the camera's ground frame into the world.
-#include "roomgraph/estimation/measurement_in_world.h"
+#include "measurement_in_world.h"
 
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/geometry/place_covariance.h"

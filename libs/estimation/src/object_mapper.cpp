@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "measurement_in_world.h"
 #include "roomgraph/association/reassociation.h"
-#include "roomgraph/estimation/measurement_in_world.h"
 #include "visibility.h"
 
 namespace roomgraph {
