@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/estimation/map_anchor.h"
 #include "roomgraph/estimation/object_loop_closer.h"
 #include "roomgraph/estimation/object_mapper.h"
