@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "data_folder.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
@@ -29,13 +29,8 @@ const ObjectDatabase& networkClasses() {
   return db;
 }
 
-fs::path dataFolder() {
-  const char* env = std::getenv("ROOMGRAPH_DATA");
-  return env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
 fs::path modelFolder() {
-  return dataFolder() / "models";
+  return test::dataFolder() / "models";
 }
 
 class DnnDetectorTest : public ::testing::Test {
@@ -136,7 +131,7 @@ bool sameBoxes(const std::vector<Detection>& a, const std::vector<Detection>& b)
 // A real photo with two chairs: boxes of several networks are merged, and the labels that count are those of
 // the object database.
 TEST_F(DnnDetectorTest, SeveralNetworksAndTheLabelsOfTheDatabase) {
-  const fs::path photo = dataFolder() / "rgbd/fr3_office_10hz/rgb/1341847980.722988.jpg";
+  const fs::path photo = test::dataFolder() / "rgbd/fr3_office_10hz/rgb/1341847980.722988.jpg";
   const std::string nanodet = (modelFolder() / "nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-416.onnx").string();
   const std::string yolox = (modelFolder() / "yolox-nano/yolox_nano.onnx").string();
   if (!fs::exists(photo) || !fs::exists(nanodet) || !fs::exists(yolox))
