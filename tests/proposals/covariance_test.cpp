@@ -55,7 +55,7 @@ TEST(Covariance, PoorFitCutBoxAndMissingDepthMakeItLarger) {
   poor.quality = 0.6;
   EXPECT_GT(covarianceOf(poor, seen(true), 0.01)(0, 0), 2 * usual);
   BoxEvidence cut = seen(true);
-  cut.cut_left = true;
+  cut.cut.left = true;
   EXPECT_GT(covarianceOf(good, cut, 0.01)(1, 1), usual * 0.1);
   EXPECT_GT(covarianceOf(good, cut, 0.01)(0, 0), usual);
   EXPECT_GT(covarianceOf(good, seen(false), 0.01)(0, 0), usual);

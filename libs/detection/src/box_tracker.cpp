@@ -46,8 +46,7 @@ void BoxTrackerOptions::declareParameters(ParameterVisitor& v) {
 }
 
 bool BoxTracker::moves(const Detection& detection) const {
-  const ObjectModel* model = database_->find(detection.class_name);
-  return model && !model->landmark;
+  return database_->moves(detection.class_name);
 }
 
 void BoxTracker::start(const std::vector<Detection>& detections, const Frame& frame) {

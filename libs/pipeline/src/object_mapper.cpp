@@ -111,7 +111,8 @@ void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
   }
   last_rays_from_ = world_from_robot;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks().landmarks())) {
-    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot);
+    const ObjectModel* model = stages_.database.find(landmark.model);
+    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot, model ? model->solid_share : 0);
     if (rays.inside > 0) {
       landmarks().supported(landmark.id, rays.inside);
     } else if (rays.through > 0) {

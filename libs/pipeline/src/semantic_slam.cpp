@@ -129,8 +129,7 @@ std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& repo
   }
   people_.clear();
   for (const auto& detection : report.detections) {
-    const auto* model = stages_->database.find(detection.class_name);
-    if (model && !model->landmark) people_.push_back(detection.box);
+    if (stages_->database.moves(detection.class_name)) people_.push_back(detection.box);
   }
   return report.detections;
 }
@@ -246,8 +245,7 @@ void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
 Scan SemanticSlam::withoutPeople(const Scan& scan) {
   std::vector<DynamicWedge> wedges;
   for (const auto& proposal : seen_.proposals) {
-    const auto* model = stages_->database.find(proposal.class_name);
-    if (!model || model->landmark || std::abs(seen_.t - scan.t) > kPeopleMaxAge_s) continue;
+    if (!stages_->database.moves(proposal.class_name) || std::abs(seen_.t - scan.t) > kPeopleMaxAge_s) continue;
     const Eigen::Vector3d place = (robot_from_camera_ * proposal.camera_from_object).translation();
     const double distance = place.head<2>().norm(), bearing = std::atan2(place.y(), place.x());
     const double half = std::atan2(proposal.shape.radius() + kPersonMargin_m, std::max(0.3, distance));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evidence, hypotheses, scores and covariances of one frame; alternatives when depth misleads.
+// Evidence, hypotheses, scores and covariances of one frame; other explanations of misleading depth.
 #include "geometric_proposal_generator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "gather_evidence.h"
 #include "initial_score.h"
 #include "proposal_covariance.h"
 
@@ -17,24 +18,12 @@ namespace {
 
 constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
 constexpr double kPredictedVariance = 1e-4;  // rad², m²: of a ground plane that was not seen
-constexpr double kUnsupported =
-    0.7;  // on the quality of what no depth point speaks for, where there are some
+constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points there are
 
 // Largest standard deviation of the ground's normal.
 double tiltSigma(const GroundEstimate& ground) {
   const Eigen::Matrix3d covariance = ground.covariance.topLeftCorner<3, 3>();
   return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
-}
-
-std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  switch (evidence.model->nominal().kind) {
-    case ShapeKind::kCylinder:
-      return cylinderHypotheses(evidence, limits);
-    case ShapeKind::kPlanar:
-      return doorHypotheses(evidence, limits);
-    default:
-      return cuboidHypotheses(evidence, limits);
-  }
 }
 
 // Share of the box in which something stands clearly before the shape: the detector saw that, then.
@@ -52,16 +41,17 @@ double obscured(const PlacedShape& placed, const BoxEvidence& e) {
 // With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
 // been taken for the object.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
-                                      const Frame& frame, const GeneratorLimits& limits) {
+                                      const Frame& frame, const ShapeGenerator& generator,
+                                      const GeneratorLimits& limits) {
   std::vector<PlacedShape> all = std::move(first);
   for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
-    for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
+    for (PlacedShape placed : generator.generate(withMask(evidence, mask, frame), limits)) {
       placed.supported = !mask.points.empty();
       if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
       all.push_back(std::move(placed));
     }
   }
-  return keepBest(all, 0.05, 0.1, limits);
+  return keepBest(std::move(all), {}, limits);
 }
 
 // Nothing when it is out of view.
@@ -124,6 +114,10 @@ void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
         {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
 }
 
+void GeometricProposalGenerator::prepare() {
+  if (database_ && generators_.empty()) generators_ = ShapeGenerators(*database_);
+}
+
 FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
                                                     const std::vector<Detection>& detections,
                                                     const std::optional<Plane>& expected_ground) {
@@ -161,9 +155,10 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   GeneratorLimits limits = limits_;
   std::vector<PlacedShape> rejected;
   if (keep_traces_) limits.rejected = &rejected;
-  auto found = hypotheses(evidence, limits);
+  const ShapeGenerator& generator = generators_.of(*model);
+  auto found = generator.generate(evidence, limits);
   if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
-    found = reconsidered(std::move(found), evidence, frame, limits);
+    found = reconsidered(std::move(found), evidence, frame, generator, limits);
   const double tilt_sigma = tiltSigma(*out.ground);
   for (const PlacedShape& placed : found)
     if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {

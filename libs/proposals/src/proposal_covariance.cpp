@@ -60,8 +60,8 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   s.yaw += misfit;
   if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints)
     s.along *= 1.5, s.across *= 1.3, s.yaw *= 2;
-  if (e.cut_left || e.cut_right) s.across *= 1.7, s.along *= 1.2, s.yaw *= 1.5;
-  if (e.cut_bottom) s.along *= 1.3;
+  if (e.cut.left || e.cut.right) s.across *= 1.7, s.along *= 1.2, s.yaw *= 1.5;
+  if (e.cut.bottom) s.along *= 1.3;
   if (!placed.has_yaw) s.yaw = std::numbers::pi;
   const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();

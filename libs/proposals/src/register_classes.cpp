@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// List of the proposal generator classes, registered when the library is loaded.
+// List of the proposal and shape generator classes, registered when the library is loaded.
 #include "roomgraph/proposals/register_classes.h"
 
 #include <mrpt/core/initializer.h>
 
+#include "cuboid_generator.h"
+#include "cylinder_generator.h"
+#include "door_generator.h"
 #include "geometric_proposal_generator.h"
 
 namespace roomgraph::proposals {
@@ -12,6 +15,10 @@ void registerClasses() {
   mrpt::rtti::registerClass(CLASS_ID(Stage));
   mrpt::rtti::registerClass(CLASS_ID(ProposalGenerator));
   mrpt::rtti::registerClass(CLASS_ID(GeometricProposalGenerator));
+  mrpt::rtti::registerClass(CLASS_ID(ShapeGenerator));
+  mrpt::rtti::registerClass(CLASS_ID(CylinderGenerator));
+  mrpt::rtti::registerClass(CLASS_ID(CuboidGenerator));
+  mrpt::rtti::registerClass(CLASS_ID(DoorGenerator));
 }
 
 }  // namespace roomgraph::proposals

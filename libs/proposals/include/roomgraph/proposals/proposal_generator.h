@@ -9,6 +9,7 @@
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/observations/proposal.h"
+#include "roomgraph/proposals/shape_generator.h"
 
 namespace roomgraph {
 
@@ -18,6 +19,9 @@ class ProposalGenerator : public Stage {
  public:
   /// The object database outlives the generator; called before prepare().
   virtual void setDatabase(const ObjectDatabase& database) = 0;
+  /// The shape generators that the database's classes name; called before prepare(). One that makes its shapes in
+  /// another way ignores them.
+  virtual void setShapeGenerators(ShapeGenerators generators) { (void)generators; }
   /// `expected_ground`: plane predicted from extrinsics or from the frames before, camera frame; nothing when
   /// unknown (a handheld camera that has not seen the floor yet).
   virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
