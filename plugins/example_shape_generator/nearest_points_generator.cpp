@@ -25,8 +25,7 @@ std::vector<roomgraph::PlacedShape> NearestPointsGenerator::generate(const roomg
   std::sort(ranges.begin(), ranges.end());
   const double nearest = ranges[static_cast<std::size_t>(near_share_ * static_cast<double>(ranges.size() - 1))];
 
-  roomgraph::PlacedShape start;
-  start.shape = evidence.model->nominal();
+  roomgraph::PlacedShape start = roomgraph::usualShape(evidence);
   const double bearing = roomgraph::bearingOf(evidence), range = nearest + start.shape.depth / 2;
   start.x = range * std::cos(bearing);
   start.y = range * std::sin(bearing);

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 class ClassRegistry : public ::testing::Test {
  protected:

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
 
-const ObjectDatabase& database() {
+const ObjectDatabase& chairsAndPeople() {
   static const ObjectDatabase db = ObjectDatabase::fromText(
       "[swivel_chair]\nlabels = chair\n[person]\nlabels = person\nlandmark = false\n");
   return db;
@@ -75,7 +75,7 @@ Box2 moved(const Box2& box, double scale, double du, double dv) {
 BoxTracker tracker(const std::string& ini = "") {
   BoxTrackerOptions options;
   Config::fromText("[detection]\n" + ini, "test").read("detection", options);
-  return {options, database()};
+  return {options, chairsAndPeople()};
 }
 
 TEST(BoxTracker, FollowsShiftAndScale) {

@@ -22,7 +22,10 @@ struct WorldObject {
 struct World {
   std::function<roomgraph::Pose3(double)> world_from_camera;
   std::vector<WorldObject> objects;
-  double lost_at = 1e300;  ///< from then on the odometry counts in a new segment
+  double lost_at = 1e300;              ///< from then on the odometry counts in a new segment
+  double detector_fails_from = 1e300;  ///< from then on the detector does not run
+  /// What came of the run: regions that the tracker was told to leave out, frame by frame.
+  std::vector<std::vector<roomgraph::Box2>> masked = {};
 };
 World& world();
 
@@ -43,7 +46,7 @@ class FakeProposals : public roomgraph::ProposalGenerator {
   void setDatabase(const roomgraph::ObjectDatabase&) override {}
   roomgraph::FrameProposals generate(const roomgraph::Frame& frame,
                                      const std::vector<roomgraph::Detection>& detections,
-                                     const std::optional<roomgraph::Plane>& expected_ground) override;
+                                     const roomgraph::FrameGround& ground) override;
 };
 
 /// The exact movement of the camera.

@@ -51,7 +51,7 @@ TEST(ShapeGenerators, OnePerNameWithItsParameters) {
 // A cabinet before the camera, through the whole stage: the plug-in's shapes come out, and are right.
 TEST(ShapeGenerators, OneFromAPlugInMakesTheShapesOfItsClass) {
   proposals::registerClasses();
-  loadPlugin(EXAMPLE_PLUGIN);
+  loadPlugin(EXAMPLE_GENERATOR);
   const auto database = withGenerator("NearestPointsGenerator");
   test::Scene scene;
   scene.lookAhead(0.8, 0.2);

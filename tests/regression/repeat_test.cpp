@@ -12,7 +12,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
@@ -109,4 +109,4 @@ INSTANTIATE_TEST_SUITE_P(EverySignal, Interrupt, ::testing::Values(SIGINT, SIGTE
                          [](const auto& signal) { return std::string(sigabbrev_np(signal.param)); });
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -16,7 +16,7 @@
 #include "roomgraph/selection/register_classes.h"
 #include "unary_selector.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 void configure(Configurable& stage, const std::string& keys) {
@@ -272,4 +272,4 @@ TEST(Selectors, AreMadeByName) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

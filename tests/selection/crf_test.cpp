@@ -10,7 +10,7 @@
 
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -170,4 +170,4 @@ TEST(Crf, MarginalsAreStableWhenCold) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -34,7 +34,7 @@ double shareDone(double file_share, double file_from, double seconds, const Repl
 ReplayState replay(RawlogReader& reader, SemanticSlam& slam, const ReplaySpan& span,
                    const ReplayWatch& watch) {
   ReplayState state;
-  RecordSorter sorter(slam.stages().general.lookahead_s);
+  RecordSorter sorter(slam.setup().options.general.lookahead_s);
   const double until_s = span.until_s > 0 ? span.until_s : std::numeric_limits<double>::infinity();
   std::optional<double> start;
   double file_from = 0;

@@ -48,8 +48,7 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
   const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, growDirection(front, r.center, e));
   const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, growDirection(left, r.center, e));
   const Eigen::Vector2d center = front * depth.center + left * width.center;
-  PlacedShape placed;
-  placed.shape = m.nominal();
+  PlacedShape placed = usualShape(e);
   placed.shape.depth = depth.size;
   placed.shape.width = width.size;
   placed.x = center.x();
@@ -80,8 +79,7 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   if (!contact || contact->norm() < 0.1 || !e.model->rests_on_ground) return out;
   const Eigen::Vector2d ahead = contact->normalized();
   for (int k = 0; k < 8; ++k) {
-    PlacedShape placed;
-    placed.shape = e.model->nominal();
+    PlacedShape placed = usualShape(e);
     placed.yaw = wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + k * std::numbers::pi / 4);
     double reach = 0;
     for (const auto& corner : footprint(placed.shape))
@@ -102,8 +100,7 @@ std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
   if (e.cut.left || e.cut.right || halfAngleOf(e) < 1e-3) return {};
   const double bearing = bearingOf(e),
                range = e.model->width_m / 2 / std::tan(halfAngleOf(e)) + e.model->depth_m / 2;
-  PlacedShape placed;
-  placed.shape = e.model->nominal();
+  PlacedShape placed = usualShape(e);
   placed.x = range * std::cos(bearing);
   placed.y = range * std::sin(bearing);
   placed.yaw = wrapAngle(bearing + std::numbers::pi);
@@ -124,6 +121,7 @@ std::vector<PlacedShape> cuboidGuesses(const BoxEvidence& e) {
 
 std::vector<PlacedShape> CuboidGenerator::generate(const BoxEvidence& evidence,
                                                    const GeneratorLimits& limits) const {
+  if (!heightKnown(evidence)) return {};
   auto guesses = cuboidGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
   const bool blind = evidence.mask.points.empty();

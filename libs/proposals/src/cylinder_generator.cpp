@@ -24,8 +24,7 @@ constexpr int kLegStarts = 2;
 constexpr double kLegSpacing_m = 0.15, kLegIou = 0.3;
 
 PlacedShape placeAt(double bearing, double range, const BoxEvidence& e, const char* source) {
-  PlacedShape placed;
-  placed.shape = e.model->nominal();
+  PlacedShape placed = usualShape(e);
   placed.x = range * std::cos(bearing);
   placed.y = range * std::sin(bearing);
   placed.source = source;
@@ -103,6 +102,7 @@ std::vector<PlacedShape> cylinderGuesses(const BoxEvidence& e) {
 
 std::vector<PlacedShape> CylinderGenerator::generate(const BoxEvidence& evidence,
                                                      const GeneratorLimits& limits) const {
+  if (!heightKnown(evidence)) return {};
   std::vector<PlacedShape> fitted;
   for (const PlacedShape& guess : cylinderGuesses(evidence)) fitted.push_back(fitShape(guess, evidence));
   return keepBest(fitted, {.angle_rad = kAnyYaw_rad}, limits);

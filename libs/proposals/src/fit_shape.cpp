@@ -45,7 +45,8 @@ PointDistance pointDistance(const PlacedShape& p, double cos_yaw, double sin_yaw
   const Eigen::Vector2d q(cos_yaw * dx + sin_yaw * dy, cos_yaw * dy - sin_yaw * dx);
   // Parts of the distance along the model's own axes; each is 0 inside.
   double along = 0, across = 0, radial = 0;
-  const double above = std::max(0.0, point.z() - p.shape.height), below = std::max(0.0, -point.z());
+  const double height = point.z() - p.z;
+  const double above = std::max(0.0, height - p.shape.height), below = std::max(0.0, -height);
   if (p.shape.kind == ShapeKind::kCylinder) {
     const double reach = q.norm();
     radial = std::max(0.0, reach - p.shape.radius());

@@ -17,7 +17,6 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 namespace {
 
 constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
-constexpr double kPredictedVariance = 1e-4;  // rad², m²: of a ground plane that was not seen
 constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points there are
 
 // Largest standard deviation of the ground's normal.
@@ -93,25 +92,11 @@ ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore
 }  // namespace
 
 void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
-  v.add("use_depth", use_depth_, {.doc = "false: box and expected ground only, as without a depth camera"});
+  v.add("use_depth", use_depth_, {.doc = "false: from the box and the ground alone, as without a depth camera ([ground] class = "
+                "ExpectedGroundDetector does the same for the ground)"});
   v.add("max_proposals", limits_.max_count, {.doc = "hypotheses kept per detection", .min = 1, .max = 5});
   v.add("min_box_iou", limits_.min_iou,
         {.doc = "smallest IoU of projected shape and box", .min = 0, .max = 1});
-  v.add(
-      "ground_max_angle_error", search_.max_angle_error,
-      {.doc = "largest angle between seen and expected ground normal", .unit = "rad", .min = 0, .max = 1.5});
-  v.add(
-      "ground_max_height_error_m", search_.max_height_error_m,
-      {.doc = "largest difference between seen and expected camera height", .unit = "m", .min = 0, .max = 2});
-  v.add("ground_max_tilt", search_.max_tilt,
-        {.doc = "without expectation: largest angle between ground normal and the image's up",
-         .unit = "rad",
-         .min = 0,
-         .max = 1.5});
-  v.add("ground_min_camera_height_m", search_.min_camera_height_m,
-        {.doc = "without expectation: a plane nearer than this is a table", .unit = "m", .min = 0, .max = 5});
-  v.add("ground_max_range_m", search_.max_range_m,
-        {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
 }
 
 void GeometricProposalGenerator::prepare() {
@@ -120,27 +105,17 @@ void GeometricProposalGenerator::prepare() {
 
 FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
                                                     const std::vector<Detection>& detections,
-                                                    const std::optional<Plane>& expected_ground) {
+                                                    const FrameGround& ground) {
   FrameProposals out;
   out.frame = frame.id;
   out.t = frame.t;
   out.detections = detections;
-  if (!frame.camera.valid()) {
-    out.ground_reason = "no camera intrinsics";
-    return out;
-  }
+  out.ground = ground.estimate;
+  out.ground_reason = ground.reason;
   Frame used = frame;
   if (!use_depth_) used.depth.release();
-  const auto found = findGround(used, expected_ground, search_);
-  if (found) {
-    out.ground = *found;
-  } else {
-    out.ground_reason = found.reason();
-    if (expected_ground)
-      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * kPredictedVariance, false};
-  }
   if (keep_traces_) out.traces.resize(detections.size());
-  if (!out.ground || !database_) return out;
+  if (!out.ground || !database_ || !frame.camera.valid()) return out;
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
   return out;
 }

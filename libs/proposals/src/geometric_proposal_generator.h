@@ -2,7 +2,6 @@
 // Proposal generator from box, ground and depth by the shape generators of the classes.
 #pragma once
 
-#include "ground_plane.h"
 #include "roomgraph/proposals/proposal_generator.h"
 
 namespace roomgraph {
@@ -20,13 +19,12 @@ class GeometricProposalGenerator : public ProposalGenerator {
   /// Makes the shape generators, with default parameters, when none were set.
   void prepare() override;
   FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
-                          const std::optional<Plane>& expected_ground) override;
+                          const FrameGround& ground) override;
   void keepTraces(bool keep) override { keep_traces_ = keep; }
 
  private:
   void propose(const Frame& frame, int index, FrameProposals& out) const;
 
-  GroundSearch search_;
   GeneratorLimits limits_;
   ShapeGenerators generators_;
   bool use_depth_ = true, keep_traces_ = false;

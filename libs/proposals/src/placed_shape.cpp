@@ -4,10 +4,29 @@
 
 #include <algorithm>
 
+#include "quantile.h"
+
 namespace roomgraph {
 
+bool heightKnown(const BoxEvidence& evidence) {
+  return evidence.model->rests_on_ground || !evidence.mask.points.empty();
+}
+
+PlacedShape usualShape(const BoxEvidence& evidence) {
+  constexpr double kLowest = 0.03;  // quantile of the heights that stands for the lowest point
+  PlacedShape placed;
+  placed.shape = evidence.model->nominal();
+  if (evidence.model->rests_on_ground) return placed;
+  std::vector<double> heights;
+  for (const MaskPoint& point : evidence.mask.points) heights.push_back(point.in_ground.z());
+  placed.z = quantile(std::move(heights), kLowest);
+  return placed;
+}
+
 Pose3 groundFromObject(const PlacedShape& placed) {
-  return toPose3(Pose2{placed.x, placed.y, placed.yaw});
+  Pose3 pose = toPose3(Pose2{placed.x, placed.y, placed.yaw});
+  pose.translation().z() = placed.z;
+  return pose;
 }
 
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence) {

@@ -9,7 +9,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kHeightSigma = 0.02;  // m, of the ground below the object
+constexpr double kHeightSigma = 0.02;   // m, of the ground below the object
+constexpr double kBottomSigma_m = 0.05;  // of the lowest depth point of an object that does not rest on the ground
 
 /// Standard deviations along and across the view, m, and of yaw, rad.
 struct Deviations {
@@ -68,7 +69,8 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   covariance.topLeftCorner<2, 2>() = turn.toRotationMatrix() *
                                      Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
                                      turn.toRotationMatrix().transpose();
-  covariance(2, 2) = kHeightSigma * kHeightSigma;
+  const double height_sigma = e.model->rests_on_ground ? kHeightSigma : kBottomSigma_m;
+  covariance(2, 2) = height_sigma * height_sigma;
   covariance(3, 3) = s.yaw * s.yaw;
   return covariance;
 }

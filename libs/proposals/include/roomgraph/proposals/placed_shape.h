@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hypothesis of a shape standing on the ground, and its projection into the image.
+// Hypothesis of an upright shape at a place, and its projection into the image.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,11 @@
 
 namespace roomgraph {
 
-/// An upright model on the ground.
+/// An upright model on the ground, or above it.
 struct PlacedShape {
   ObjectShape shape;
   double x = 0, y = 0, yaw = 0;  ///< m, rad, ground frame: bottom centre and direction of the front
+  double z = 0;                  ///< m, of the bottom above the ground: 0 for what rests on it
   double roll = 0, pitch = 0;    ///< rad, small correction of the local ground's normal, about the camera
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
@@ -25,6 +26,11 @@ struct PlacedShape {
   std::string reason;                         ///< why it was dropped
 };
 
+/// The usual size of the class, not placed yet: on the ground or, for what does not rest on it, at the height where the
+/// object's depth points begin.
+PlacedShape usualShape(const BoxEvidence& evidence);
+/// Whether the height is known: the object rests on the ground, or depth points show where its bottom is.
+bool heightKnown(const BoxEvidence& evidence);
 /// Pose on the ground as it was given, without the correction of its normal.
 Pose3 groundFromObject(const PlacedShape& placed);
 /// Pose with the correction of the ground's normal.
