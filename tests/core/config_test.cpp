@@ -147,7 +147,7 @@ class Files : public Configurable {
 
 // A relative name is meant from where it was written: in a file its folder, on the command line here.
 TEST(Config, NamesOfFilesAreCompleted) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   auto config = Config::fromFile(folder.write("c.ini", "[s]\none = ../x.onnx\nmore = y, /z\ntext = ../x\n"));
   Files read;
   config.read("s", read);
