@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::Field;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 ObjectDatabase withGenerator(const std::string& name) {
   return ObjectDatabase::fromText("[cabinet]\nlabels = cabinet\nwidth_m = 0.9\ndepth_m = 0.45\nheight_m = 1.1\ngenerator = " +
@@ -70,7 +70,7 @@ TEST(ShapeGenerators, OneFromAPlugInMakesTheShapesOfItsClass) {
       return generator;
     }));
     stage.prepare();
-    return stage.generate(frame, detections, {GroundEstimate{ground, {}, true}, ""}).proposals;
+    return stage.generate(frame, detections, {GroundEstimate{ground, Eigen::Matrix4d::Zero(), true}, ""}).proposals;
   };
   const auto found = sourcesOf("[shape_generators]\nnear_share = 0.1\n");
   ASSERT_GE(found.size(), 2u);

@@ -8,7 +8,7 @@
 #include "program.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using Json = nlohmann::json;
@@ -60,4 +60,4 @@ TEST(HomeObjects, AFlatIsMappedAsItIs) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test
