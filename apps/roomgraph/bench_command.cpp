@@ -16,7 +16,7 @@
 #include "roomgraph/evaluation/object_files.h"
 #include "roomgraph/evaluation/report_proposals.h"
 #include "roomgraph/evaluation/trajectory_file.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/setup.h"
 
 namespace roomgraph {
 namespace {
@@ -141,8 +141,8 @@ void benchProposals(const BenchOptions& options) {
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const char* unused : {"tracking", "lidar", "detection"})
     configuration.config.override(std::string(unused) + ".enabled=false");
-  const auto stages = makeStages(configuration.config, configuration.objects_file);
-  const BenchInput in = load(options, stages->database);
+  const auto setup = makeSetup(configuration.config, configuration.objects_file);
+  const BenchInput in = load(options, setup->database);
   RawlogReader reader(options.input, {true, false, false});
   Progress progress(&std::cerr, "bench", "", 1);
   BenchRun run;
@@ -150,7 +150,7 @@ void benchProposals(const BenchOptions& options) {
   while (const auto record = reader.next()) {
     const Frame* frame = std::get_if<Frame>(&*record);
     if (frame && index++ % options.every == 0)
-      addFrame(*frame, *stages->proposal_generator, in, options, run);
+      addFrame(*frame, *setup->stages.proposal_generator, in, options, run);
     progress.update(reader.progress(), "");
   }
   progress.finish();

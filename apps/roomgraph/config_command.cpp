@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "commands.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/setup.h"
 
 namespace roomgraph {
 namespace {

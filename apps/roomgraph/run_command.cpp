@@ -47,10 +47,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void check(const RunOptions& options, const Stages& stages) {
+void check(const RunOptions& options, const Options& run) {
   if (options.span.until_s > 0 && options.span.from_s >= options.span.until_s)
     throw ConfigError("--from is not before --until: there is nothing between");
-  if (!stages.tracking.enabled && !stages.lidar.enabled && !stages.odometry.enabled)
+  if (!run.tracking.enabled && !run.lidar.enabled && !run.odometry.enabled)
     throw ConfigError("every source of motion is switched off: [tracking], [lidar] and [odometry] enabled");
 }
 
@@ -68,17 +68,17 @@ struct ExtraSinks {
   std::shared_ptr<DebugPictures> pictures;
 };
 
-ExtraSinks addSinks(const RunOptions& options, Stages& stages) {
+ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
   ExtraSinks sinks;
   if (!options.recording.empty()) {
-    if (!stages.detector)
+    if (!setup.stages.detector)
       throw ConfigError("--record-detections needs a detector; [detection] enabled is false");
     sinks.recording =
-        std::make_shared<DetectionRecording>(options.input, options.recording, *stages.detector);
+        std::make_shared<DetectionRecording>(options.input, options.recording, *setup.stages.detector);
   }
   if (!options.pictures.empty()) {
-    stages.proposal_generator->keepTraces(true);
-    sinks.pictures = std::make_shared<DebugPictures>(options.pictures, stages.database);
+    setup.stages.proposal_generator->keepTraces(true);
+    sinks.pictures = std::make_shared<DebugPictures>(options.pictures, setup.database);
   }
   return sinks;
 }
@@ -95,9 +95,9 @@ ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, 
 }
 
 // A run without poses has no result, and there is a reason.
-void requireRecords(const RunOptions& options, const Stages& stages, const ReplayState& replayed,
+void requireRecords(const RunOptions& options, const Options& run, const ReplayState& replayed,
                     const SlamResult& result) {
-  const bool sensors = stages.tracking.enabled || stages.lidar.enabled;
+  const bool sensors = run.tracking.enabled || run.lidar.enabled;
   const bool nothing_seen = sensors && result.counts.frames + result.counts.scans == 0;
   if (replayed.interrupted && (nothing_seen || result.world_from_robot.empty()))
     throw Interrupted("interrupted before there was a pose; " + options.output + " is as it was");
@@ -144,10 +144,10 @@ void run(const RunOptions& options) {
   }
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
-  auto stages = makeStages(configuration.config, configuration.objects_file);
-  check(options, *stages);
-  RawlogReader reader(options.input, readOptionsOf(*stages));
-  if (const std::string advice = missingDetections(*stages, options.input); !advice.empty())
+  auto setup = makeSetup(configuration.config, configuration.objects_file);
+  check(options, setup->options);
+  RawlogReader reader(options.input, readOptionsOf(setup->options));
+  if (const std::string advice = missingDetections(setup->stages, options.input); !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
@@ -155,8 +155,8 @@ void run(const RunOptions& options) {
   if (!options.recording.empty()) requireOther(options.recording, inputs);
   catchInterrupts();
   auto output = std::make_shared<RunOutput>(options.output, inputs);
-  const ExtraSinks extra = addSinks(options, *stages);
-  SemanticSlam slam(std::move(stages));
+  const ExtraSinks extra = addSinks(options, *setup);
+  SemanticSlam slam(std::move(setup));
   if (earlier) slam.setMap(std::move(*earlier));
   slam.addSink(output);
   if (extra.recording) slam.addSink(extra.recording);
@@ -166,16 +166,16 @@ void run(const RunOptions& options) {
   const ReplayState replayed = replayWithProgress(options, reader, slam);
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
-  requireRecords(options, slam.stages(), replayed, result);
+  requireRecords(options, slam.setup().options, replayed, result);
   output->writeResult(slam, result, reader.statistics(), replayed,
                       {options.input, kVersion, kRevision, commandLine()});
-  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.stages().database,
+  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
                                                           output->files().pending("snapshot.png"));
   output->files().publish();
   if (extra.recording) extra.recording->finish();
 
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  const std::string detector = slam.stages().detector ? slam.stages().detector->warning() : "";
+  const std::string detector = slam.setup().stages.detector ? slam.setup().stages.detector->warning() : "";
   std::vector<std::string> warnings = reader.statistics().sensor_warnings;
   warnings.insert(warnings.end(), {reader.statistics().warning, detector});
   for (const std::string& warning : warnings)

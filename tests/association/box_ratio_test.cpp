@@ -7,7 +7,7 @@
 #include "sightings.h"
 #include "soft_associator.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 constexpr double kFocal = 500, kCenter = 320, kRow = 240, kHeight_m = 0.8;
@@ -114,4 +114,4 @@ TEST(BoxRatio, TellsWhichChairABoxWithAFailedDepthShows) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 Landmark object(const std::string& class_name, double x, double y, double yaw = 0, bool has_yaw = false) {
@@ -113,4 +113,4 @@ TEST(Constellation, FrontsMustAgreeUpToHalfATurn) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -9,7 +9,7 @@
 
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 struct Enumerated {
@@ -103,4 +103,4 @@ TEST(ExclusiveAssignment, NothingToAssign) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

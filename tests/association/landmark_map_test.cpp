@@ -9,13 +9,13 @@
 #include "roomgraph/core/config.h"
 #include "sightings.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 LandmarkMap mapWith(const std::string& config) {
-  LandmarkMap map;
-  Config::fromText("[landmarks]\n" + config).read("landmarks", map);
-  return map;
+  LandmarkOptions options;
+  Config::fromText("[landmarks]\n" + config).read("landmarks", options);
+  return LandmarkMap(options);
 }
 
 LandmarkId born(LandmarkMap& map, const WorldMeasurement& seen) {
@@ -335,4 +335,4 @@ TEST(LandmarkMap, CutAndCarriedBoxesCountLess) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -14,7 +14,7 @@
 #include "roomgraph/core/config.h"
 #include "sightings.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 constexpr double kGate = 3, kReach = 0.75 * 0.6, kNewDensity = 0.05;
@@ -26,14 +26,8 @@ std::vector<Association> associate(const std::vector<WorldMeasurement>& seen,
   return associator.associate(seen, landmarks);
 }
 
-double probabilityOf(const Association& association, LandmarkId id) {
-  for (const auto& [candidate, probability] : association.posterior)
-    if (candidate == id) return probability;
-  return 0;
-}
-
 // Bayes' rule over every landmark, written down without gates' shortcuts: density N(d; 0, S) per candidate.
-std::map<LandmarkId, double> bruteForce(const WorldMeasurement& seen,
+std::map<LandmarkId, double> posteriorByBayes(const WorldMeasurement& seen,
                                         const std::vector<Landmark>& landmarks) {
   std::map<LandmarkId, double> posterior{{LandmarkId{}, kNewDensity}};
   double sum = kNewDensity;
@@ -71,7 +65,7 @@ TEST(MaximumLikelihoodAssociator, PosteriorIsBayesRuleOverGateAndNew) {
     std::set<LandmarkId> taken;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       EXPECT_EQ(result[k].measurement, k);
-      const auto expected = bruteForce(seen[k], landmarks);
+      const auto expected = posteriorByBayes(seen[k], landmarks);
       EXPECT_EQ(result[k].posterior.size(), expected.size());
       double sum = 0;
       for (const auto& [id, probability] : result[k].posterior) {
@@ -145,4 +139,4 @@ TEST(MaximumLikelihoodAssociator, IsMadeByName) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -6,7 +6,7 @@
 
 #include "roomgraph/association/associator.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 inline Landmark landmarkAt(std::int64_t id, double x, double y, double sigma_m = 0.1,
                            const std::string& class_name = "chair") {
@@ -33,6 +33,14 @@ inline WorldMeasurement sightingAt(double x, double y, double yaw = 0, double si
   return seen;
 }
 
+/// Share of the posterior; 0 for landmarks that are not in it.
+inline double probabilityOf(const Association& association, LandmarkId id) {
+  double sum = 0;
+  for (const auto& [landmark, probability] : association.posterior)
+    if (landmark == id) sum += probability;
+  return sum;
+}
+
 /// The decision that a measurement belongs to a landmark; invalid id: to a new one.
 inline Association belongsTo(LandmarkId landmark) {
   Association association;
@@ -40,4 +48,4 @@ inline Association belongsTo(LandmarkId landmark) {
   return association;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -10,7 +10,7 @@
 #include "roomgraph/evaluation/association_error.h"
 #include "sightings.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Sightings of chairs with the truth, as evaluateAssociations() wants it.
 struct SmallWorld {
@@ -110,4 +110,4 @@ inline std::vector<AssociatedFrame> writtenDown(const SmallWorld& world, const R
   return out;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

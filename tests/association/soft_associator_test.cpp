@@ -13,7 +13,7 @@
 #include "roomgraph/core/config.h"
 #include "sightings.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 SoftAssociator associatorWith(const std::string& config = "") {
@@ -26,13 +26,6 @@ WorldMeasurement ofTrack(WorldMeasurement seen, std::int64_t track, double t) {
   seen.measurement.track = TrackId{track};
   seen.measurement.t = t;
   return seen;
-}
-
-double probabilityOf(const Association& association, LandmarkId id) {
-  double sum = 0;
-  for (const auto& [landmark, probability] : association.posterior)
-    if (landmark == id) sum += probability;
-  return sum;
 }
 
 TEST(SoftAssociator, PosteriorSumsToOneAndNoLandmarkServesTwo) {
@@ -190,4 +183,4 @@ TEST(SoftAssociator, AllVariantsAreMadeByName) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 #include "errors_of.h"
 #include "simulated_loop.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // Movements 24 x 6, sightings 3 x 12 x 4; unknown are 23 poses and 3 objects.
@@ -158,4 +158,4 @@ TEST(FactorGraph, AddingTwiceIsAnError) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -10,7 +10,7 @@
 
 // A graph that cannot be evaluated is a result, and silent.
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -62,4 +62,4 @@ TEST_F(FailedEvaluation, InThePlaneToo) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

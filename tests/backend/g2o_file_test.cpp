@@ -11,7 +11,7 @@
 #include "simulated_loop.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 struct Line {
@@ -146,4 +146,4 @@ TEST(G2oFile, UnwritablePlaceIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

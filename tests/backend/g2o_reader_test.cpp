@@ -11,7 +11,7 @@
 #include "simulated_loop.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -275,4 +275,4 @@ TEST(G2oReader, SphereEndsAtTheSameOptimumFromBothStarts) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

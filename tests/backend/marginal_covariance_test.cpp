@@ -7,7 +7,7 @@
 #include "residual_specimens.h"
 #include "simulated_loop.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // State of the small problem: poses 1 and 2 (pose 0 is held) and one object.
@@ -158,4 +158,4 @@ TEST(MarginalCovariance, NoneForASingularProblem) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

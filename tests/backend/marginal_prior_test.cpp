@@ -8,7 +8,7 @@
 #include "simulated_loop.h"
 #include "sliding_window.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // Everything lies on one line and is measured along it: no rotation helps, the problem is linear.
@@ -194,4 +194,4 @@ TEST(MarginalPrior, PartsThatDoNotFitAreAnError) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -9,7 +9,7 @@
 #include "roomgraph/backend/factor_graph.h"
 #include "roomgraph/geometry/projection.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 const ObjectShape kSofa{ShapeKind::kCuboid, 1.8, 0.9, 0.8};
@@ -174,4 +174,4 @@ TEST(ObjectFactors, SameBitsAgainAndInSeveralThreadsAtOnce) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -5,7 +5,7 @@
 #include "object_views.h"
 #include "roomgraph/geometry/projection.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 std::vector<double> numbers(const Eigen::Vector3d& v) {
@@ -166,4 +166,4 @@ Specimen marginalPriorByHand() {
   return s;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -4,7 +4,7 @@
 
 #include "residual_specimens.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 // Specimens of the factors of points, extents and priors; those of poses and places are in
 // residual_specimens.cpp.
@@ -19,4 +19,4 @@ Specimen pointLandmarkByHand();
 Specimen marginalPriorAtMeasurement(Random& random);
 Specimen marginalPriorByHand();
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

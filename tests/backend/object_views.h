@@ -6,7 +6,7 @@
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/shape.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 inline PinholeCamera testCamera() {
   return {.width = 640, .height = 480, .fx = 400, .fy = 300, .cx = 320, .cy = 240};
@@ -29,4 +29,4 @@ inline Pose3 lookingAt(const Eigen::Vector3d& from, const Eigen::Vector3d& targe
   return pose;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -9,7 +9,7 @@
 #include "simulated_loop.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(G2oTimes, MakeNoSenseWithoutAVertexOrANumber) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

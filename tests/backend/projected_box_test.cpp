@@ -8,7 +8,7 @@
 #include "object_views.h"
 #include "roomgraph/geometry/projection.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 std::optional<std::array<double, 4>> sidesOf(const ObjectShape& shape, const Pose3& camera_from_object) {
@@ -109,4 +109,4 @@ TEST(DistanceFromModel, AgreesWithGeometry) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -4,7 +4,7 @@
 
 #include "object_specimens.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 Specimen betweenAtMeasurement(Random& random) {
@@ -187,4 +187,4 @@ std::vector<ResidualCase> residualCases() {
   return cases;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

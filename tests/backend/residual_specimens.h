@@ -13,7 +13,7 @@
 #include "planar_residual.h"
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// One parameter block; a quaternion (x y z w) moves on its manifold, others in a plain vector space.
 struct Block {
@@ -70,4 +70,4 @@ Eigen::Matrix<double, N, N> randomCovariance(Random& random) {
 
 std::vector<ResidualCase> residualCases();
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -5,10 +5,10 @@
 
 #include "residual_specimens.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
-constexpr unsigned kSeeds = 8;
+constexpr unsigned kResidualSeeds = 8;
 
 std::vector<const double*> pointers(const std::vector<Block>& blocks) {
   std::vector<const double*> out;
@@ -68,7 +68,7 @@ Eigen::MatrixXd central(const Specimen& specimen, std::size_t which) {
 class ResidualTest : public ::testing::TestWithParam<ResidualCase> {};
 
 TEST_P(ResidualTest, VanishesAtTheMeasurement) {
-  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+  for (unsigned seed = 1; seed <= kResidualSeeds; ++seed) {
     Random random(seed);
     EXPECT_LT(residualsOf(GetParam().at_measurement(random)).norm(), 1e-9) << "seed " << seed;
   }
@@ -86,7 +86,7 @@ TEST_P(ResidualTest, HasTheValueWorkedOutByHand) {
 }
 
 TEST_P(ResidualTest, DerivativesAgreeWithCentralDifferences) {
-  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+  for (unsigned seed = 1; seed <= kResidualSeeds; ++seed) {
     Random random(seed);
     Specimen specimen = GetParam().at_measurement(random);
     for (auto& block : specimen.blocks) {
@@ -126,4 +126,4 @@ TEST(Residuals, RotationTakesTheShortWayRound) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 #include "random_poses.h"
 #include "roomgraph/backend/factor_graph.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Standard normal number (Box-Muller), the same on every platform.
 inline double gauss(Random& random) {
@@ -91,4 +91,4 @@ class SimulatedLoop {
   std::vector<LandmarkEstimate> objects_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -7,7 +7,7 @@
 
 #include "roomgraph/backend/factor_graph.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Fixed-lag smoothing with FactorGraph::marginalize, as a user of the library would write it: the last poses
 /// and all landmarks are kept, what leaves the window stays as a prior.
@@ -71,4 +71,4 @@ class SlidingWindow {
   FactorGraph graph_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

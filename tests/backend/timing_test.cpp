@@ -8,7 +8,7 @@
 #include "simulated_loop.h"
 #include "sliding_window.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // What the back end costs, as processor time. Not judged, so not run by default:
@@ -85,4 +85,4 @@ TEST(Timing, DISABLED_WholeGraph) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

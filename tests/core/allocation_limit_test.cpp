@@ -21,7 +21,7 @@ using AlignedBytes = std::vector<char, mrpt::aligned_allocator_cpp11<char>>;
 
 /// Whether `action` is refused under a limit. (GoogleTest's macros allocate, so they stay outside.)
 template <class Action>
-bool refused(std::size_t limit_bytes, const Action& action) {
+bool isRefused(std::size_t limit_bytes, const Action& action) {
   const AllocationLimit limit(limit_bytes);
   try {
     action();
@@ -39,13 +39,13 @@ void keep(const std::unique_ptr<T>& pointer) {
 
 TEST(AllocationLimit, ContainersOfMrptThrowInsteadOfWritingToNull) {
   AlignedBytes bytes;
-  EXPECT_FALSE(refused(100000, [&] { bytes.resize(50000); }));
-  EXPECT_TRUE(refused(100000, [&] { bytes.resize(1000000); }));
+  EXPECT_FALSE(isRefused(100000, [&] { bytes.resize(50000); }));
+  EXPECT_TRUE(isRefused(100000, [&] { bytes.resize(1000000); }));
   EXPECT_EQ(bytes.size(), 50000u) << "what it had is still there";
 }
 
 TEST(AllocationLimit, AlignedMallocThrowsWhereThereIsNoSuchMemory) {
-  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer ends the program at such a size";
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer ends the program at such a size";
   EXPECT_FALSE(AllocationLimit::active());
   EXPECT_THROW(mrpt::aligned_malloc(SIZE_MAX / 4, 32), std::bad_alloc);
   void* memory = mrpt::aligned_malloc(100, 64);
@@ -54,24 +54,24 @@ TEST(AllocationLimit, AlignedMallocThrowsWhereThereIsNoSuchMemory) {
 }
 
 TEST(AllocationLimit, CountsEveryFormOfNew) {
-  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
   struct alignas(128) Wide {
     char bytes[50000];
   };
-  EXPECT_TRUE(refused(40000, [] { std::string(50000, 'x'); }));
-  EXPECT_TRUE(refused(40000, [] { std::vector<double>(10000); }));
-  EXPECT_TRUE(refused(40000, [] { keep(std::make_unique<char[]>(50000)); }));
-  EXPECT_TRUE(refused(40000, [] { keep(std::make_unique<Wide>()); }));
-  EXPECT_FALSE(refused(40000, [] { std::string(30000, 'x'); }));
+  EXPECT_TRUE(isRefused(40000, [] { std::string(50000, 'x'); }));
+  EXPECT_TRUE(isRefused(40000, [] { std::vector<double>(10000); }));
+  EXPECT_TRUE(isRefused(40000, [] { keep(std::make_unique<char[]>(50000)); }));
+  EXPECT_TRUE(isRefused(40000, [] { keep(std::make_unique<Wide>()); }));
+  EXPECT_FALSE(isRefused(40000, [] { std::string(30000, 'x'); }));
   const char* none = "";
-  EXPECT_FALSE(refused(40000, [&] { none = new (std::nothrow) char[50000]; }));
+  EXPECT_FALSE(isRefused(40000, [&] { none = new (std::nothrow) char[50000]; }));
   EXPECT_EQ(none, nullptr);
 }
 
 TEST(AllocationLimit, FreedMemoryStaysCounted) {
-  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
   int made = 0;
-  EXPECT_TRUE(refused(200000, [&] {
+  EXPECT_TRUE(isRefused(200000, [&] {
     for (; made < 100; ++made) AlignedBytes(20000);
   }));
   EXPECT_EQ(made, 10);
@@ -82,7 +82,7 @@ TEST(AllocationLimit, EndsWithItsScopeAndIsOfOneThread) {
   bool inner = false, after = true, other = true;
   {
     const AllocationLimit outer(1 << 20);
-    inner = refused(10000, [&] { bytes.resize(50000); });
+    inner = isRefused(10000, [&] { bytes.resize(50000); });
     std::thread([&] { other = AllocationLimit::active(); }).join();
     after = !AllocationLimit::active();
   }
@@ -95,10 +95,10 @@ TEST(AllocationLimit, EndsWithItsScopeAndIsOfOneThread) {
 
 // MRPT's exceptions note the call stack and compose their text where nothing may be thrown.
 TEST(AllocationLimit, SmallThingsHaveAReserveAndHandlersAlwaysGetThem) {
-  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
-  EXPECT_FALSE(refused(0, [] { std::string(5000, 'x'); }));
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
+  EXPECT_FALSE(isRefused(0, [] { std::string(5000, 'x'); }));
   std::size_t length = 0;
-  EXPECT_TRUE(refused(0, [&] {
+  EXPECT_TRUE(isRefused(0, [&] {
     try {
       for (int i = 0; i < 1000; ++i) std::string(5000, 'x');
     } catch (const std::bad_alloc&) {

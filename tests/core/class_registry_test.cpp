@@ -38,7 +38,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 class ClassRegistry : public ::testing::Test {
  protected:

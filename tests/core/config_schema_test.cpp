@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 using ::testing::Not;
 
 struct Volume : Configurable {

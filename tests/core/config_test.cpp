@@ -16,7 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 using ::testing::Pair;
 
 TEST(Config, ReadsDeclaredKeysAndKeepsOtherDefaults) {
@@ -135,7 +135,7 @@ TEST(Config, MentionedFilesAreTextsAndItems) {
 }
 
 TEST(Config, MissingFile) {
-  const testing::TempFolder folder;
+  const test::TempFolder folder;
   EXPECT_THROW(Config::fromFile(folder.path() / "none.ini"), InputError);
 }
 

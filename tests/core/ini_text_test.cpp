@@ -12,7 +12,7 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 TEST(IniText, SectionsEntriesCommentsAndPlaces) {
   const auto entries = parseIni(
@@ -69,7 +69,7 @@ TEST(IniText, LinesThatAreNothing) {
 }
 
 TEST(IniText, Files) {
-  const testing::TempFolder folder;
+  const test::TempFolder folder;
   const auto file = folder.write("a.ini", "[a]\nk = 1\n");
   EXPECT_EQ(parseIniFile(file).at(0).place, file.string() + ":2");
   EXPECT_THAT(messageOf<InputError>([&] { parseIniFile(folder.path() / "none.ini"); }),

@@ -12,8 +12,8 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::messageOf;
-using testing::TemporaryFolder;
+using test::messageOf;
+using test::TemporaryFolder;
 
 TEST(OutputFile, AFullDiskIsNamedWithItsFile) {
   OutputFile out("/dev/full");

@@ -14,8 +14,8 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::messageOf;
-using testing::TemporaryFolder;
+using test::messageOf;
+using test::TemporaryFolder;
 
 class OutputFolderTest : public ::testing::Test {
  protected:

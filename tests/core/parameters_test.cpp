@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 template <class T>
 T parsed(const std::string& text, const ParameterInfo& info = {}) {

@@ -119,7 +119,7 @@ void overwrite(std::string& bytes, std::size_t at, std::uint32_t value) {
 }
 
 TEST(RawlogDamage, ImpossibleSizesCostOnlyTheirRecordAndNoMemory) {
-  if (!testing::kMemoryCanBeLimited) GTEST_SKIP() << "not under this sanitizer";
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "not under this sanitizer";
   TemporaryFolder folder;
   for (const auto& victim :
        {Object(makeScan(2, 2, 300)), Object(makeImages(2)), Object(makeOdometry(2, 0, 0, 0))}) {
@@ -133,7 +133,7 @@ TEST(RawlogDamage, ImpossibleSizesCostOnlyTheirRecordAndNoMemory) {
         ASSERT_GE(result.records, 2) << victim->GetRuntimeClass()->className << " byte " << at;
       }
   }
-  EXPECT_LT(testing::peakMegabytes(), 700);
+  EXPECT_LT(test::peakMegabytes(), 700);
 }
 
 TEST(RawlogDamage, SizeOfAScanThatDoesNotFitItsBytesIsNamed) {
@@ -171,7 +171,7 @@ TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
   const auto result = read(folder / "x.rawlog");
   EXPECT_EQ(result.records, 2);
   EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("does not fit its length"));
-  EXPECT_LT(testing::peakMegabytes(), 700);
+  EXPECT_LT(test::peakMegabytes(), 700);
 }
 
 // libjpeg's own handler of errors would call exit().

@@ -19,7 +19,7 @@ using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 
-testing::Matcher<Finding> finding(Severity severity, const std::string& text) {
+testing::Matcher<Finding> findingOf(Severity severity, const std::string& text) {
   return testing::AllOf(Field(&Finding::severity, severity), Field(&Finding::what, HasSubstr(text)));
 }
 
@@ -62,16 +62,16 @@ TEST_F(Doctor, TimeStamps) {
   auto timeless = makeScan(1);
   timeless->timestamp = INVALID_TIMESTAMP;
   EXPECT_THAT(findings({makeScan(1), timeless}),
-              Contains(finding(Severity::kWarning, "1 of 2 records have no valid")));
+              Contains(findingOf(Severity::kWarning, "1 of 2 records have no valid")));
   EXPECT_THAT(findings({makeScan(1), makeScan(1), makeScan(1)}),
-              Contains(finding(Severity::kError, "equal")));
+              Contains(findingOf(Severity::kError, "equal")));
   EXPECT_THAT(
       findings({makeScan(1), makeScan(3), makeScan(2), makeScan(4)}),
-      Contains(finding(Severity::kWarning, "1 records are older than the one before; first: record 2")));
+      Contains(findingOf(Severity::kWarning, "1 records are older than the one before; first: record 2")));
   EXPECT_THAT(findings({makeScan(1), makeScan(1.1), makeScan(1.2), makeScan(9)}),
-              Contains(finding(Severity::kWarning, "gap of 7.8 s after t = 1.200")));
+              Contains(findingOf(Severity::kWarning, "gap of 7.8 s after t = 1.200")));
   EXPECT_THAT(findings({makeScan(5), makeImages(2), makeScan(6)}),
-              Contains(finding(Severity::kWarning, "out of order by up to 3.000 s")));
+              Contains(findingOf(Severity::kWarning, "out of order by up to 3.000 s")));
 }
 
 TEST_F(Doctor, DepthImages) {
@@ -82,23 +82,23 @@ TEST_F(Doctor, DepthImages) {
   empty->rangeImage.fill(0);
   moved->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.03, 0, -M_PI / 2, 0, -M_PI / 2);
   bare->hasRangeImage = false;
-  EXPECT_THAT(findings({metres}), Contains(finding(Severity::kError, "the depth unit (1 m) is wrong")));
-  EXPECT_THAT(findings({tiny}), Contains(finding(Severity::kError, "the depth unit (1e-05 m) is wrong")));
-  EXPECT_THAT(findings({empty}), Contains(finding(Severity::kError, "depth images are empty")));
-  EXPECT_THAT(findings({moved}), Contains(finding(Severity::kNote, "not registered")));
-  EXPECT_THAT(findings({bare}), Contains(finding(Severity::kWarning, "colour without depth")));
+  EXPECT_THAT(findings({metres}), Contains(findingOf(Severity::kError, "the depth unit (1 m) is wrong")));
+  EXPECT_THAT(findings({tiny}), Contains(findingOf(Severity::kError, "the depth unit (1e-05 m) is wrong")));
+  EXPECT_THAT(findings({empty}), Contains(findingOf(Severity::kError, "depth images are empty")));
+  EXPECT_THAT(findings({moved}), Contains(findingOf(Severity::kNote, "not registered")));
+  EXPECT_THAT(findings({bare}), Contains(findingOf(Severity::kWarning, "colour without depth")));
 }
 
 TEST_F(Doctor, Intrinsics) {
   auto none = makeImages(1), corner = makeImages(1);
   none->cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
   corner->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 0, 0);
-  EXPECT_THAT(findings({none}), Contains(finding(Severity::kError, "no colour intrinsics")));
-  EXPECT_THAT(findings({corner}), Contains(finding(Severity::kWarning, "principal point")));
+  EXPECT_THAT(findings({none}), Contains(findingOf(Severity::kError, "no colour intrinsics")));
+  EXPECT_THAT(findings({corner}), Contains(findingOf(Severity::kWarning, "principal point")));
   auto outside = makeImages(1);
   outside->cameraParamsIntensity.setIntrinsicParamsFromValues(20, 20, 9999, 5.5);
   EXPECT_THAT(findings({outside}),
-              Contains(finding(Severity::kError, "colour principal point (9999.0, 5.5) lies outside")));
+              Contains(findingOf(Severity::kError, "colour principal point (9999.0, 5.5) lies outside")));
 }
 
 TEST_F(Doctor, SeveralSensorsOfAKind) {
@@ -109,12 +109,12 @@ TEST_F(Doctor, SeveralSensorsOfAKind) {
   auto visual = makeOdometry(1.6, 0, 0, 0);
   visual->sensorLabel = "VISUAL";
   const auto list = findings({makeScan(1), rear, other, camera, right, makeOdometry(1.5, 0, 0, 0), visual});
-  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(lidar): 'LASER' is used, 'REAR' not")));
-  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(RGB-D camera): 'KINECT' is used, 'RIGHT' not")));
-  EXPECT_THAT(list, Contains(finding(Severity::kWarning, "(odometry): 'ODOMETRY' is used, 'VISUAL' not")));
+  EXPECT_THAT(list, Contains(findingOf(Severity::kWarning, "(lidar): 'LASER' is used, 'REAR' not")));
+  EXPECT_THAT(list, Contains(findingOf(Severity::kWarning, "(RGB-D camera): 'KINECT' is used, 'RIGHT' not")));
+  EXPECT_THAT(list, Contains(findingOf(Severity::kWarning, "(odometry): 'ODOMETRY' is used, 'VISUAL' not")));
   EXPECT_THAT(list, Contains(Field(&Finding::hint, HasSubstr("--set lidar.label=REAR"))));
   EXPECT_THAT(findings({makeScan(1), makeImages(1.1), makeOdometry(1.2, 0, 0, 0)}),
-              Not(Contains(finding(Severity::kWarning, "several"))));
+              Not(Contains(findingOf(Severity::kWarning, "several"))));
 }
 
 /// Odometry and scans in turn; the scans' clock is `offset` ahead and runs `rate` times as fast.
@@ -134,17 +134,17 @@ TEST_F(Doctor, ClocksOfTheSensors) {
   for (const double offset : {-3600.0, 2.0}) {
     const auto apart = findings(twoClocks(offset, 1));
     const std::string text = offset < 0 ? "its clock is -3600.0 s apart" : "its clock is 2.0 s apart";
-    EXPECT_THAT(apart, Contains(finding(Severity::kError, text + " from that of ODOMETRY")));
-    EXPECT_THAT(apart, Not(Contains(finding(Severity::kWarning, "out of order by")))) << "not the cause";
+    EXPECT_THAT(apart, Contains(findingOf(Severity::kError, text + " from that of ODOMETRY")));
+    EXPECT_THAT(apart, Not(Contains(findingOf(Severity::kWarning, "out of order by")))) << "not the cause";
   }
-  EXPECT_THAT(findings(twoClocks(0, 1000)), Contains(finding(Severity::kError, "runs at another speed")));
+  EXPECT_THAT(findings(twoClocks(0, 1000)), Contains(findingOf(Severity::kError, "runs at another speed")));
 }
 
 TEST_F(Doctor, SensorsThatNeverRanTogether) {
   std::vector<Object> objects;
   for (int i = 0; i < 10; ++i) objects.push_back(makeOdometry(1000 + 0.1 * i, 0.1 * i, 0, 0));
   for (int i = 0; i < 10; ++i) objects.push_back(makeScan(5000 + 0.1 * i, 2 + 0.1f * static_cast<float>(i)));
-  EXPECT_THAT(findings(objects), Contains(finding(Severity::kError, "has no time in common with LASER")));
+  EXPECT_THAT(findings(objects), Contains(findingOf(Severity::kError, "has no time in common with LASER")));
 }
 
 TEST_F(Doctor, PosesCanBeTried) {
@@ -159,7 +159,7 @@ TEST_F(Doctor, MissingImages) {
   auto lost = makeImages(1);
   lost->intensityImage.setExternalStorage("lost.jpg");
   const auto report = inspect({lost, makeScan(1.1)});
-  EXPECT_THAT(report.findings, Contains(finding(Severity::kError, "1 of 1 records lack their image file")));
+  EXPECT_THAT(report.findings, Contains(findingOf(Severity::kError, "1 of 1 records lack their image file")));
   EXPECT_THAT(report.sensors[0].images->first_missing, HasSubstr("lost.jpg"));
 }
 
@@ -172,19 +172,19 @@ TEST_F(Doctor, ScanGeometry) {
     far->setScanRange(i, far->maxRange);
     blind->setScanRangeValidity(i, false);
   }
-  EXPECT_THAT(findings({wide}), Contains(finding(Severity::kWarning, "aperture of 180 rad is impossible")));
-  EXPECT_THAT(findings({degrees}), Contains(finding(Severity::kNote, "180 beams over 180.00 deg")));
-  EXPECT_THAT(findings({good}), Not(Contains(finding(Severity::kNote, "beams over"))));
+  EXPECT_THAT(findings({wide}), Contains(findingOf(Severity::kWarning, "aperture of 180 rad is impossible")));
+  EXPECT_THAT(findings({degrees}), Contains(findingOf(Severity::kNote, "180 beams over 180.00 deg")));
+  EXPECT_THAT(findings({good}), Not(Contains(findingOf(Severity::kNote, "beams over"))));
   auto one_more = makeScan(1, 2, 361);
   one_more->aperture = static_cast<float>(180.5 * M_PI / 180);
-  EXPECT_THAT(findings({one_more}), Contains(finding(Severity::kNote, "361 beams over 180.50 deg")));
+  EXPECT_THAT(findings({one_more}), Contains(findingOf(Severity::kNote, "361 beams over 180.50 deg")));
   for (const double aperture : {360.0, 359.0}) {  // the circle closes at the last beam, or one beam later
     auto circle = makeScan(1, 2, 360);
     circle->aperture = static_cast<float>(aperture * M_PI / 180);
-    EXPECT_THAT(findings({circle}), Not(Contains(finding(Severity::kNote, "beams over")))) << aperture;
+    EXPECT_THAT(findings({circle}), Not(Contains(findingOf(Severity::kNote, "beams over")))) << aperture;
   }
-  EXPECT_THAT(findings({far}), Contains(finding(Severity::kError, "all ranges are at the maximum (8.00 m)")));
-  EXPECT_THAT(findings({blind}), Contains(finding(Severity::kError, "all ranges are invalid")));
+  EXPECT_THAT(findings({far}), Contains(findingOf(Severity::kError, "all ranges are at the maximum (8.00 m)")));
+  EXPECT_THAT(findings({blind}), Contains(findingOf(Severity::kError, "all ranges are invalid")));
 }
 
 /// Turning on the spot, 0.15 rad each, in a room without symmetry; scans of 181 beams over 180 degrees.
@@ -211,36 +211,36 @@ TEST_F(Doctor, ApertureIsComparedWithOdometry) {
   ASSERT_TRUE(right.sensors[1].scans->rotation_ratio);
   EXPECT_NEAR(*right.sensors[1].scans->rotation_ratio, 1, 0.07);
   EXPECT_THAT(findings(turningRobot(M_PI / 2, false)),
-              Contains(finding(Severity::kWarning, "odometry turns 1.9")));
-  EXPECT_THAT(findings(turningRobot(M_PI, true)), Contains(finding(Severity::kWarning, "mirrored")));
+              Contains(findingOf(Severity::kWarning, "odometry turns 1.9")));
+  EXPECT_THAT(findings(turningRobot(M_PI, true)), Contains(findingOf(Severity::kWarning, "mirrored")));
 }
 
 TEST_F(Doctor, OdometryThatNeverChanges) {
   const auto still = [](double t) { return makeOdometry(t, 1, 1, 1); };
   EXPECT_THAT(findings({still(1), makeScan(1, 2), still(2), makeScan(2, 4)}),
-              Contains(finding(Severity::kError, "never changes while the scans do")));
+              Contains(findingOf(Severity::kError, "never changes while the scans do")));
   EXPECT_THAT(findings({still(1), makeScan(1, 2), still(2), makeScan(2, 2)}),
-              Contains(finding(Severity::kNote, "odometry never changes")));
+              Contains(findingOf(Severity::kNote, "odometry never changes")));
 }
 
 TEST_F(Doctor, WholeFile) {
   auto comment = mrpt::obs::CObservationComment::Create();
   comment->timestamp = mrpt::Clock::fromDouble(1);
   const auto useless = findings({comment, makeOdometry(1, 0, 0, 0)});
-  EXPECT_THAT(useless, Contains(finding(Severity::kError, "no usable sensor")));
-  EXPECT_THAT(useless, Contains(finding(Severity::kNote, "CObservationComment are not used")));
+  EXPECT_THAT(useless, Contains(findingOf(Severity::kError, "no usable sensor")));
+  EXPECT_THAT(useless, Contains(findingOf(Severity::kNote, "CObservationComment are not used")));
   EXPECT_EQ(useless.front().severity, Severity::kError) << "worst first";
-  EXPECT_THAT(findings({makeScan(1)}), Contains(finding(Severity::kNote, "no odometry")));
+  EXPECT_THAT(findings({makeScan(1)}), Contains(findingOf(Severity::kNote, "no odometry")));
 
   auto tilted = makeScan(2);
   tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0, 0);
   EXPECT_THAT(findings({makeScan(1), tilted}),
-              Contains(finding(Severity::kNote, "pose on the robot changes")));
+              Contains(findingOf(Severity::kNote, "pose on the robot changes")));
 
   const std::string bytes = bytesOf(makeScan(1)) + bytesOf(makeScan(2));
   writeBytes(folder_ / "cut.rawlog", bytes.substr(0, bytes.size() - 9));
   EXPECT_THAT(inspectRawlog(folder_ / "cut.rawlog").findings,
-              Contains(finding(Severity::kWarning, "ends in the middle")));
+              Contains(findingOf(Severity::kWarning, "ends in the middle")));
   EXPECT_THROW(inspectRawlog(folder_ / "none.rawlog"), InputError);
 }
 
@@ -250,7 +250,7 @@ TEST_F(Doctor, ActionFormat) {
   EXPECT_EQ(report.format, "actions and sensory frames");
   EXPECT_NEAR(*report.sensors[0].path_length_m, 1, 1e-9) << "the first action is where odometry begins";
   EXPECT_NEAR(report.sensors[0].odometry_turn_rad, 0.5, 1e-9);
-  EXPECT_THAT(report.findings, Contains(finding(Severity::kNote, "1 of 2 actions have no time stamp")));
+  EXPECT_THAT(report.findings, Contains(findingOf(Severity::kNote, "1 of 2 actions have no time stamp")));
   const auto damaged =
       inspect({makeAction(1, 1e12, 0, 0), makeSensoryFrame({makeScan(1)}), makeAction(2, 1, 0, 0.5)});
   EXPECT_EQ(damaged.skipped.size(), 1u);

@@ -25,12 +25,12 @@ CObservationDetections::Ptr boxesAt(double t) {
   return out;
 }
 
-CObservationComment::Ptr commentAt(double t) {
+CObservationComment::Ptr plainCommentAt(double t) {
   return std::make_shared<CObservationComment>(toComment(*boxesAt(t)));
 }
 
 CObservationComment::Ptr damagedAt(double t) {
-  auto out = commentAt(t);
+  auto out = plainCommentAt(t);
   out->text.resize(out->text.size() - 5);
   return out;
 }
@@ -50,7 +50,7 @@ class RecordedBoxes : public ::testing::Test {
 };
 
 TEST_F(RecordedBoxes, BothFormsAreReadAndDamagedOnesCounted) {
-  writeRawlog(file_, {commentAt(1), boxesAt(2), damagedAt(3), remarkAt(4), damagedAt(5), makeScan(6)});
+  writeRawlog(file_, {plainCommentAt(1), boxesAt(2), damagedAt(3), remarkAt(4), damagedAt(5), makeScan(6)});
   RawlogReader reader(file_);
   std::vector<double> times;
   while (const auto record = reader.next())
@@ -67,7 +67,7 @@ TEST_F(RecordedBoxes, BothFormsAreReadAndDamagedOnesCounted) {
 
 TEST_F(RecordedBoxes, InSensoryFramesToo) {
   writeRawlog(file_,
-              {makeAction(1, 1, 0, 0), makeSensoryFrame({commentAt(1.1), damagedAt(1.2), makeScan(1.3)})});
+              {makeAction(1, 1, 0, 0), makeSensoryFrame({plainCommentAt(1.1), damagedAt(1.2), makeScan(1.3)})});
   RawlogReader reader(file_);
   int boxes = 0, scans = 0;
   while (const auto record = reader.next()) {
@@ -80,7 +80,7 @@ TEST_F(RecordedBoxes, InSensoryFramesToo) {
 }
 
 TEST_F(RecordedBoxes, TheReportNamesThem) {
-  writeRawlog(file_, {makeScan(1), commentAt(1), damagedAt(2), commentAt(3)});
+  writeRawlog(file_, {makeScan(1), plainCommentAt(1), damagedAt(2), plainCommentAt(3)});
   const auto report = inspectRawlog(file_);
   ASSERT_EQ(report.sensors.size(), 2u);
   EXPECT_EQ(report.sensors[1].label, "DETECTIONS");
@@ -99,11 +99,11 @@ TEST_F(RecordedBoxes, AGlanceAtTheBeginning) {
   EXPECT_EQ(peek({makeScan(1), makeOdometry(2, 0, 0, 0)}), P(false, false));
   EXPECT_EQ(peek({makeScan(1), makeImages(2)}), P(true, false));
   EXPECT_EQ(peek({makeImages(1), remarkAt(1), damagedAt(2)}), P(true, false));
-  EXPECT_EQ(peek({makeImages(1), commentAt(1)}), P(true, true));
+  EXPECT_EQ(peek({makeImages(1), plainCommentAt(1)}), P(true, true));
   EXPECT_EQ(peek({makeImages(1), boxesAt(1)}), P(true, true));
-  EXPECT_EQ(peek({makeAction(1, 1, 0, 0), makeSensoryFrame({makeImages(1.1), commentAt(1.1)})}),
+  EXPECT_EQ(peek({makeAction(1, 1, 0, 0), makeSensoryFrame({makeImages(1.1), plainCommentAt(1.1)})}),
             P(true, true));
-  EXPECT_EQ(peek({makeScan(1), makeScan(1e9), makeImages(1.1), makeImages(40), commentAt(40)}), P(true, true))
+  EXPECT_EQ(peek({makeScan(1), makeScan(1e9), makeImages(1.1), makeImages(40), plainCommentAt(40)}), P(true, true))
       << "a wrong stamp, and boxes that start late";
   EXPECT_THROW(peekRawlog(folder_ / "none.rawlog"), InputError);
 }
@@ -113,7 +113,7 @@ TEST_F(RecordedBoxes, AGlanceHasAnEnd) {
   writeRawlog(file_, objects);
   EXPECT_TRUE(peekRawlog(file_).whole);
   objects.resize(20000, makeOdometry(2, 0, 0, 0));
-  objects.push_back(commentAt(3));
+  objects.push_back(plainCommentAt(3));
   writeRawlog(file_, objects);
   const RawlogPeek seen = peekRawlog(file_);
   EXPECT_TRUE(seen.frames);
@@ -122,7 +122,7 @@ TEST_F(RecordedBoxes, AGlanceHasAnEnd) {
 }
 
 TEST_F(RecordedBoxes, InFramesBesideObjectsThatAreMissing) {
-  writeBytes(file_, withNull(makeSensoryFrame({makeScan(1), makeImages(1.1), commentAt(1.1)})));
+  writeBytes(file_, withNull(makeSensoryFrame({makeScan(1), makeImages(1.1), plainCommentAt(1.1)})));
   const RawlogPeek seen = peekRawlog(file_);
   EXPECT_TRUE(seen.frames);
   EXPECT_TRUE(seen.detections);

@@ -11,7 +11,7 @@ namespace roomgraph {
 namespace {
 
 using namespace roomgraph::test;
-using roomgraph::testing::messageOf;
+using roomgraph::test::messageOf;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;

@@ -16,7 +16,7 @@ namespace roomgraph {
 namespace {
 
 using namespace roomgraph::test;
-using roomgraph::testing::messageOf;
+using roomgraph::test::messageOf;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;

@@ -11,12 +11,12 @@
 #include "temporary_folder.h"
 #include "tiny_network.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-const ObjectDatabase& database() {
+const ObjectDatabase& cylinderChairs() {
   static const ObjectDatabase db =
       ObjectDatabase::fromText("[swivel_chair]\nlabels = chair\nshape = cylinder\n");
   return db;
@@ -24,7 +24,7 @@ const ObjectDatabase& database() {
 
 void prepare(Detector& detector, const std::string& ini) {
   Config::fromText("[detection]\n" + ini, "test").read("detection", detector);
-  detector.setDatabase(database());
+  detector.setDatabase(cylinderChairs());
   detector.prepare();
 }
 
@@ -139,4 +139,4 @@ TEST(RecordedDetectorWarning, SaysWhyNoBoxWasUsed) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

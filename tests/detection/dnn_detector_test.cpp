@@ -23,7 +23,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const ObjectDatabase& networkClasses() {
+const ObjectDatabase& cylindersAndDoors() {
   static const ObjectDatabase db =
       ObjectDatabase::fromText("[swivel_chair]\nlabels = chair\nshape = cylinder\n[door]\nlabels = door\n");
   return db;
@@ -47,7 +47,7 @@ class DnnDetectorTest : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   void prepare(const std::string& ini) {
     Config::fromText("[detection]\n" + ini, "test").read("detection", detector_);
-    detector_.setDatabase(networkClasses());
+    detector_.setDatabase(cylindersAndDoors());
     detector_.prepare();
   }
   std::string write(const std::string& name, const std::string& text) {

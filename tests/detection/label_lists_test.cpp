@@ -14,7 +14,7 @@
 #include "roomgraph/observations/object_database.h"
 #include "tiny_network.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::AllOf;
@@ -39,7 +39,7 @@ const std::vector<std::string>& listOf(std::size_t size) {
   throw std::out_of_range("no list of " + std::to_string(size));
 }
 
-void prepare(DnnDetector& detector, const std::string& ini) {
+void prepareDnn(DnnDetector& detector, const std::string& ini) {
   Config::fromText("[detection]\n" + ini, "test").read("detection", detector);
   detector.prepare();
 }
@@ -47,7 +47,7 @@ void prepare(DnnDetector& detector, const std::string& ini) {
 std::string errorOf(const std::string& ini) {
   return messageOf<InputError>([&] {
     DnnDetector detector;
-    prepare(detector, ini);
+    prepareDnn(detector, ini);
   });
 }
 
@@ -89,11 +89,11 @@ TEST(LabelLists, AreUsedWhenNoFileSaysMore) {
   TemporaryFolder folder;
   const std::string network = writeTinyNetwork(folder, 80).string();
   DnnDetector detector;
-  EXPECT_NO_THROW(prepare(detector, "models = " + network));
+  EXPECT_NO_THROW(prepareDnn(detector, "models = " + network));
   std::string labels;
   for (int i = 0; i < 80; ++i) labels += "label " + std::to_string(i) + "\n";
   folder.write("labels.txt", labels);
-  EXPECT_NO_THROW(prepare(detector, "models = " + network)) << "a file beside the network comes first";
+  EXPECT_NO_THROW(prepareDnn(detector, "models = " + network)) << "a file beside the network comes first";
   folder.write("labels.txt", labels + "one more\n");
   EXPECT_THAT(errorOf("models = " + network),
               AllOf(HasSubstr("81 labels in"), HasSubstr("labels.txt"), HasSubstr("fits none")));
@@ -109,7 +109,7 @@ TEST(LabelLists, AnUnusualNumberOfClassesNeedsAFile) {
                     HasSubstr("put labels.txt beside it"), HasSubstr("labels_file")));
   folder.write("labels.txt", "mug\nplate\nspoon\n");
   DnnDetector detector;
-  EXPECT_NO_THROW(prepare(detector, "models = " + network));
+  EXPECT_NO_THROW(prepareDnn(detector, "models = " + network));
 }
 
 // Real files, away from their labels.txt; each tells its classes by its output.
@@ -124,8 +124,8 @@ TEST(LabelLists, PublishedNetworksNeedNoFile) {
     models += (models.empty() ? "" : ", ") + link.string();
   }
   DnnDetector detector;
-  EXPECT_NO_THROW(prepare(detector, "models = " + models));
+  EXPECT_NO_THROW(prepareDnn(detector, "models = " + models));
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

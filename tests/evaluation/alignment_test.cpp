@@ -11,7 +11,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 double cost(const Pose3& truth_from_estimate, const std::vector<PosePair>& pairs) {
   double sum = 0;

@@ -11,7 +11,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 struct Score {
   int pairs = 0;

@@ -13,7 +13,7 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::TempFolder;
+using test::TempFolder;
 
 struct Outcome {
   int exit_code = -1;

@@ -12,8 +12,8 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::messageOf;
-using testing::TempFolder;
+using test::messageOf;
+using test::TempFolder;
 
 TEST(FrameFiles, ReadsTrueBoxes) {
   const TempFolder folder;

@@ -13,7 +13,7 @@ namespace roomgraph {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
-using testing::Random;
+using test::Random;
 
 // A map as drawn: '#' occupied, '.' free, ' ' unknown; the first line has the largest y.
 COccupancyGridMap2D drawn(const std::vector<std::string>& lines, float resolution = 0.1f, float x_min = 0,

@@ -12,7 +12,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 using Objects = std::vector<EvaluatedObject>;
 
 EvaluatedObject object(int id, const std::string& name, double x, double y, double yaw = 0) {

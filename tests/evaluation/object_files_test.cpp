@@ -16,8 +16,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::messageOf;
-using testing::TempFolder;
+using test::messageOf;
+using test::TempFolder;
 
 TEST(ObjectFiles, ReadsTruthAndMap) {
   const TempFolder folder;

@@ -14,8 +14,8 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::messageOf;
-using testing::TempFolder;
+using test::messageOf;
+using test::TempFolder;
 
 TEST(Relations, ReadsAnglesInTheOrderRollPitchYaw) {
   const TempFolder folder;

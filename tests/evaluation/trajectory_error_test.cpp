@@ -11,7 +11,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 Trajectory path(const std::vector<StampedPose>& poses) {
   Trajectory out;

@@ -42,7 +42,7 @@ TEST(Box2, Clipped) {
 }
 
 TEST(Box2, IouEqualsCountedPixels) {
-  testing::Random random(3);
+  test::Random random(3);
   for (int round = 0; round < 50; ++round) {
     const auto box = [&] {
       const double u = random.index(20), v = random.index(20);

@@ -9,7 +9,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 // 0.8 m above the ground, looking along world x, pitched down.
 Pose3 robotCamera(double pitch_down) {

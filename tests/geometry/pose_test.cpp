@@ -12,7 +12,7 @@ namespace roomgraph {
 namespace {
 
 using std::numbers::pi;
-using testing::Random;
+using test::Random;
 
 // exp of the 4x4 twist matrix, summed term by term.
 Eigen::Matrix4d expBySeries(const Vector6d& tangent) {

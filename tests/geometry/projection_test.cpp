@@ -11,9 +11,9 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
-const PinholeCamera kCamera{640, 480, 525, 525, 319.5, 239.5, {}};
+const PinholeCamera kSquarePixels{640, 480, 525, 525, 319.5, 239.5, {}};
 constexpr double kNear = 0.05;
 
 // Every point that can lie on the outline of the model in front of the near plane: its edges (of a cylinder:
@@ -41,7 +41,7 @@ std::optional<Box2> sampledBounds(const ObjectShape& shape, const Pose3& camera_
   for (const auto& point : outline(shape, per_edge)) {
     const Eigen::Vector3d p = camera_from_object * point;
     if (p.z() < kNear) continue;
-    const Eigen::Vector2d pixel = kCamera.project(p);
+    const Eigen::Vector2d pixel = kSquarePixels.project(p);
     box = {std::min(box.u_min, pixel.x()), std::min(box.v_min, pixel.y()), std::max(box.u_max, pixel.x()),
            std::max(box.v_max, pixel.y())};
   }
@@ -71,9 +71,9 @@ TEST(ProjectShape, InFrontEqualsSampling) {
     Pose3 pose = random.pose(0);
     pose.translation() =
         Eigen::Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2.8, 7));
-    const auto projected = projectShape(shape, pose, kCamera);
+    const auto projected = projectShape(shape, pose, kSquarePixels);
     const Box2 full = *sampledBounds(shape, pose, 3);
-    const Box2 visible = clipped(full, kCamera.width, kCamera.height);
+    const Box2 visible = clipped(full, kSquarePixels.width, kSquarePixels.height);
     ASSERT_EQ(projected.has_value(), !visible.empty());
     if (!projected) continue;
     ++seen;
@@ -81,8 +81,8 @@ TEST(ProjectShape, InFrontEqualsSampling) {
     expectNear(projected->visible, visible, 0.05);
     EXPECT_EQ(projected->cut_left, full.u_min < 0);
     EXPECT_EQ(projected->cut_top, full.v_min < 0);
-    EXPECT_EQ(projected->cut_right, full.u_max > kCamera.width);
-    EXPECT_EQ(projected->cut_bottom, full.v_max > kCamera.height);
+    EXPECT_EQ(projected->cut_right, full.u_max > kSquarePixels.width);
+    EXPECT_EQ(projected->cut_bottom, full.v_max > kSquarePixels.height);
     cut += projected->cut_left || projected->cut_top || projected->cut_right || projected->cut_bottom;
   }
   EXPECT_GT(seen, 200);
@@ -99,9 +99,9 @@ TEST(ProjectShape, PartlyBehindTheCameraEqualsSampling) {
     pose.translation() =
         Eigen::Vector3d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-0.8, 1));
     const auto full = sampledBounds(shape, pose, 20000);
-    const auto projected = projectShape(shape, pose, kCamera);
+    const auto projected = projectShape(shape, pose, kSquarePixels);
     if (!full) continue;
-    const Box2 visible = clipped(*full, kCamera.width, kCamera.height);
+    const Box2 visible = clipped(*full, kSquarePixels.width, kSquarePixels.height);
     if (visible.width() < 3 || visible.height() < 3) continue;  // its border decides whether there is any
     ++partly;
     ASSERT_TRUE(projected.has_value());
@@ -115,9 +115,9 @@ TEST(ProjectShape, BehindOrBesideGivesNothing) {
   const ObjectShape shape{ShapeKind::kCuboid, 1, 1, 1};
   Pose3 pose = Pose3::Identity();
   pose.translation().z() = -3;
-  EXPECT_FALSE(projectShape(shape, pose, kCamera).has_value());
+  EXPECT_FALSE(projectShape(shape, pose, kSquarePixels).has_value());
   pose.translation() = Eigen::Vector3d(20, 0, 3);
-  EXPECT_FALSE(projectShape(shape, pose, kCamera).has_value());
+  EXPECT_FALSE(projectShape(shape, pose, kSquarePixels).has_value());
 }
 
 TEST(ProjectCircle, EqualsSampling) {
@@ -134,11 +134,11 @@ TEST(ProjectCircle, EqualsSampling) {
       const double angle = 2 * std::numbers::pi * k / 20000;
       const Eigen::Vector3d p = center + radius * (std::cos(angle) * e1 + std::sin(angle) * e2);
       nearest = std::min(nearest, p.z());
-      const Eigen::Vector2d pixel = kCamera.project(p);
+      const Eigen::Vector2d pixel = kSquarePixels.project(p);
       sampled = {std::min(sampled.u_min, pixel.x()), std::min(sampled.v_min, pixel.y()),
                  std::max(sampled.u_max, pixel.x()), std::max(sampled.v_max, pixel.y())};
     }
-    const auto box = projectCircle(center, normal, radius, kCamera);
+    const auto box = projectCircle(center, normal, radius, kSquarePixels);
     if (nearest < -1e-3) {
       EXPECT_FALSE(box.has_value());
     }

@@ -10,7 +10,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 Pose3 upright(double x, double y, double z, double yaw) {
   return poseFromYpr(x, y, z, yaw, 0, 0);

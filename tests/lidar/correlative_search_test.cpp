@@ -25,11 +25,11 @@ double scoreAt(const ScorePyramid& pyramid, const Points2& points, const Pose2& 
 class CorrelativeSearch : public ::testing::Test {
  protected:
   CorrelativeSearch() : random_(17), grid_(0.1) {
-    const Scan scan = testing::castScan(testing::asymmetricRoom(), {}, 0, random_);
+    const Scan scan = test::castScan(test::asymmetricRoom(), {}, 0, random_);
     grid_.insert(toPlanarScan(scan, 0.1, 30), {}, {0.7, 0.4});
     pyramid_ = ScorePyramid(grid_, 4);
     points_ = thinnedTo(
-        toPlanarScan(testing::castScan(testing::asymmetricRoom(), truth_, 0, random_), 0.1, 30).points, 0.05,
+        toPlanarScan(test::castScan(test::asymmetricRoom(), truth_, 0, random_), 0.1, 30).points, 0.05,
         60);
   }
   std::mt19937 random_;

@@ -12,10 +12,10 @@
 namespace roomgraph {
 namespace {
 
-using testing::asymmetricRoom;
-using testing::castScan;
+using test::asymmetricRoom;
+using test::castScan;
 
-ProbabilityGrid mapOf(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses) {
+ProbabilityGrid mapOf(const std::vector<test::Wall>& walls, const std::vector<Pose2>& poses) {
   std::mt19937 random(3);
   ProbabilityGrid grid(0.05);
   for (const Pose2& pose : poses)
@@ -119,9 +119,9 @@ TEST(GridRefinement, FindsThePoseAndItsCovariance) {
 }
 
 TEST(GridRefinement, CorridorIsUncertainAlongItsAxis) {
-  const ProbabilityGrid grid = mapOf(testing::corridor(), {{0, 0, 0}});
+  const ProbabilityGrid grid = mapOf(test::corridor(), {{0, 0, 0}});
   std::mt19937 random(5);
-  const Points2 points = toPlanarScan(castScan(testing::corridor(), {0.02, 0, 0}, 0, random), 0.1, 30).points;
+  const Points2 points = toPlanarScan(castScan(test::corridor(), {0.02, 0, 0}, 0, random), 0.1, 30).points;
   const GridRefinement found = refineOnGrid(grid, points, {}, {});
   const Eigen::Matrix3d covariance = poseCovariance(found, {.floor_sigma_m = 1e-4, .floor_sigma_rad = 1e-4});
   EXPECT_GT(covariance(0, 0), 9 * covariance(1, 1));

@@ -11,8 +11,8 @@
 namespace roomgraph {
 namespace {
 
-std::vector<testing::Wall> shifted(std::vector<testing::Wall> walls, double dx) {
-  for (testing::Wall& wall : walls) {
+std::vector<test::Wall> shifted(std::vector<test::Wall> walls, double dx) {
+  for (test::Wall& wall : walls) {
     wall.from.x() += dx;
     wall.to.x() += dx;
   }
@@ -30,7 +30,7 @@ std::vector<Pose2> oval(int scans) {
 }
 
 struct Pass {
-  std::vector<testing::Wall> walls;
+  std::vector<test::Wall> walls;
   std::vector<Pose2> poses;  ///< in the world of the walls
   Pose2 odom_from_world;     ///< drift the matcher has gathered until then
 };
@@ -54,7 +54,7 @@ Found drive(const std::vector<Pass>& passes) {
       match.matched = true;
       match.odom_from_robot = pass.odom_from_world * pose;
       world.add(t, toPose3(match.odom_from_robot));
-      closer.add(testing::castScan(pass.walls, pose, t, random), match);
+      closer.add(test::castScan(pass.walls, pose, t, random), match);
       for (const RelativePose& closure : closer.search(world)) out.closures.push_back(closure);
       out.times.push_back(t);
       out.truth.push_back(pose);
@@ -63,7 +63,7 @@ Found drive(const std::vector<Pass>& passes) {
 }
 
 TEST(SubmapLoopCloser, FindsTheReturnAndItsRelativePose) {
-  const auto room = testing::asymmetricRoom();
+  const auto room = test::asymmetricRoom();
   const Found found = drive({{room, oval(170), {}}, {room, oval(60), {0.35, -0.2, 0.06}}});
   const auto index = [](double t) { return static_cast<std::size_t>(std::lround(t / 0.2)); };
   int of_second_pass = 0;
@@ -82,21 +82,21 @@ TEST(SubmapLoopCloser, FindsTheReturnAndItsRelativePose) {
 
 TEST(SubmapLoopCloser, DoesNotJoinSimilarRooms) {
   // The second room has the same size, but other furniture and a corner cut differently.
-  auto other = testing::ring({{-3, -2}, {5, -2}, {5, 2.9}, {3.4, 2.9}, {3.4, 3.6}, {-3, 3.4}});
-  for (const auto& wall : testing::boxAt(-1.6, -1.6, 0.9, 0.6)) other.push_back(wall);
-  for (const auto& wall : testing::boxAt(0.3, 0, 0.7, 0.7)) other.push_back(wall);
-  const Found found = drive({{testing::asymmetricRoom(), oval(170), {}}, {other, oval(60), {0.3, 0.2, 0}}});
+  auto other = test::ring({{-3, -2}, {5, -2}, {5, 2.9}, {3.4, 2.9}, {3.4, 3.6}, {-3, 3.4}});
+  for (const auto& wall : test::boxAt(-1.6, -1.6, 0.9, 0.6)) other.push_back(wall);
+  for (const auto& wall : test::boxAt(0.3, 0, 0.7, 0.7)) other.push_back(wall);
+  const Found found = drive({{test::asymmetricRoom(), oval(170), {}}, {other, oval(60), {0.3, 0.2, 0}}});
   for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
 }
 
 TEST(SubmapLoopCloser, FarPlacesAreNotCompared) {
-  const auto room = testing::asymmetricRoom();
+  const auto room = test::asymmetricRoom();
   const Found found = drive({{room, oval(170), {}}, {shifted(room, 0), oval(60), {60, 0, 0}}});
   for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
 }
 
 TEST(SubmapLoopCloser, SameInputSameOutput) {
-  const auto room = testing::asymmetricRoom();
+  const auto room = test::asymmetricRoom();
   const std::vector<Pass> passes{{room, oval(200), {}}};
   const Found first = drive(passes), second = drive(passes);
   ASSERT_EQ(first.closures.size(), second.closures.size());
@@ -107,7 +107,7 @@ TEST(SubmapLoopCloser, SameInputSameOutput) {
 }
 
 TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
-  const auto room = testing::asymmetricRoom();
+  const auto room = test::asymmetricRoom();
   const auto poses = oval(170);
   std::mt19937 random(5);
   SubmapLoopCloser closer;
@@ -119,7 +119,7 @@ TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
     match.matched = true;
     match.odom_from_robot = i < 170 ? pose : Pose2{far, 0, 0.5} * pose;
     match.segment = i < 170 ? 0 : 1;
-    closer.add(testing::castScan(room, pose, 0.2 * i, random), match);
+    closer.add(test::castScan(room, pose, 0.2 * i, random), match);
   }
   RelativePose proposed;
   proposed.t_a = 0.2 * 20;

@@ -26,7 +26,7 @@ struct Replayed {
   Trajectory trajectory;
 };
 
-Replayed replay(const std::vector<testing::Wall>& walls, const std::vector<Pose2>& poses, bool with_prior,
+Replayed replay(const std::vector<test::Wall>& walls, const std::vector<Pose2>& poses, bool with_prior,
                 const Pose2& odometry_error = {}) {
   std::mt19937 random(23);
   SubmapScanMatcher matcher;
@@ -36,7 +36,7 @@ Replayed replay(const std::vector<testing::Wall>& walls, const std::vector<Pose2
     std::optional<Pose2> step;
     if (with_prior && i > 0) step = poses[i - 1].inverse() * poses[i] * odometry_error;
     run.matches.push_back(
-        matcher.match(testing::castScan(walls, poses[i], 0.1 * static_cast<double>(i), random), step));
+        matcher.match(test::castScan(walls, poses[i], 0.1 * static_cast<double>(i), random), step));
   }
   run.trajectory = matcher.trajectory();
   return run;
@@ -51,7 +51,7 @@ void expectNear(const Pose2& found, const Pose2& truth, double tolerance_m, doub
 TEST(SubmapScanMatcher, RecoversMovementWithPrior) {
   const auto poses = bow();
   // Odometry that is wrong by 1 cm and 1 degree in each step.
-  const Replayed run = replay(testing::asymmetricRoom(), poses, true, {0.01, 0, 0.017});
+  const Replayed run = replay(test::asymmetricRoom(), poses, true, {0.01, 0, 0.017});
   for (const ScanMatch& m : run.matches) EXPECT_TRUE(m.matched) << m.reason;
   EXPECT_EQ(run.trajectory.size(), poses.size());
   expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
@@ -60,7 +60,7 @@ TEST(SubmapScanMatcher, RecoversMovementWithPrior) {
 
 TEST(SubmapScanMatcher, RecoversMovementWithoutPrior) {
   const auto poses = bow();
-  const Replayed run = replay(testing::asymmetricRoom(), poses, false);
+  const Replayed run = replay(test::asymmetricRoom(), poses, false);
   expectNear(run.matches.back().odom_from_robot, poses.front().inverse() * poses.back(), 0.04, 0.02);
 }
 
@@ -75,7 +75,7 @@ TEST(SubmapScanMatcher, ASlipOfTheWheelsDoesNotMoveTheScan) {
     if (i > 0) step = poses[i - 1].inverse() * poses[i];
     if (i == 20) step = *step * Pose2{0.45, 0, 0.25};
     const ScanMatch match = matcher.match(
-        testing::castScan(testing::asymmetricRoom(), poses[i], 0.1 * static_cast<double>(i), random), step);
+        test::castScan(test::asymmetricRoom(), poses[i], 0.1 * static_cast<double>(i), random), step);
     ASSERT_TRUE(match.matched);
     expectNear(match.odom_from_robot, poses.front().inverse() * poses[i], 0.06, 0.03);
   }
@@ -84,7 +84,7 @@ TEST(SubmapScanMatcher, ASlipOfTheWheelsDoesNotMoveTheScan) {
 TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   std::vector<Pose2> poses{{0, 0, 0}};
   for (int i = 0; i < 30; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});
-  const Replayed run = replay(testing::corridor(), poses, true);
+  const Replayed run = replay(test::corridor(), poses, true);
   const ScanMatch& last = run.matches.back();
   ASSERT_TRUE(last.matched);
   EXPECT_NEAR(last.odom_from_robot.x, 1.5, 0.15);
@@ -110,7 +110,7 @@ TEST(SubmapScanMatcher, RepeatedTimeIsAReason) {
   std::mt19937 random(1);
   SubmapScanMatcher matcher;
   matcher.prepare();
-  const Scan scan = testing::castScan(testing::asymmetricRoom(), {}, 1, random);
+  const Scan scan = test::castScan(test::asymmetricRoom(), {}, 1, random);
   EXPECT_TRUE(matcher.match(scan, std::nullopt).matched);
   EXPECT_FALSE(matcher.match(scan, std::nullopt).matched);
 }
@@ -120,19 +120,19 @@ TEST(SubmapScanMatcher, StartsANewSegmentSomewhereElse) {
   SubmapScanMatcher matcher;
   matcher.prepare();
   for (int i = 0; i < 5; ++i)
-    matcher.match(testing::castScan(testing::asymmetricRoom(), {}, i, random), Pose2{});
-  const auto elsewhere = testing::boxAt(-9, -9, 19, 17);
+    matcher.match(test::castScan(test::asymmetricRoom(), {}, i, random), Pose2{});
+  const auto elsewhere = test::boxAt(-9, -9, 19, 17);
   ScanMatch match;
   for (int i = 5; i < 20 && match.segment == 0; ++i)
-    match = matcher.match(testing::castScan(elsewhere, {}, i, random), Pose2{});
+    match = matcher.match(test::castScan(elsewhere, {}, i, random), Pose2{});
   EXPECT_EQ(match.segment, 1);
   EXPECT_TRUE(match.matched);
 }
 
 TEST(SubmapScanMatcher, SameInputSameOutput) {
   const auto poses = bow();
-  const Replayed first = replay(testing::asymmetricRoom(), poses, true),
-                 second = replay(testing::asymmetricRoom(), poses, true);
+  const Replayed first = replay(test::asymmetricRoom(), poses, true),
+                 second = replay(test::asymmetricRoom(), poses, true);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     EXPECT_EQ(first.matches[i].odom_from_robot.x, second.matches[i].odom_from_robot.x);
     EXPECT_EQ(first.matches[i].odom_from_robot.yaw, second.matches[i].odom_from_robot.yaw);

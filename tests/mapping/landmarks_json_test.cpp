@@ -14,7 +14,7 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 std::string loadError(const TemporaryFolder& folder, const std::string& text) {
   try {
@@ -27,7 +27,7 @@ std::string loadError(const TemporaryFolder& folder, const std::string& text) {
 
 TEST(LandmarksJson, RoundTrip) {
   const TemporaryFolder folder;
-  const auto landmarks = testing::sampleMap().landmarks;
+  const auto landmarks = test::sampleMap().landmarks;
   saveLandmarksJson(landmarks, folder.file("landmarks.json"));
   const auto again = loadLandmarksJson(folder.file("landmarks.json"));
   ASSERT_EQ(again.size(), landmarks.size());
@@ -51,7 +51,7 @@ TEST(LandmarksJson, RoundTrip) {
 
 TEST(LandmarksJson, HeaderAndSightings) {
   const TemporaryFolder folder;
-  const auto landmarks = testing::sampleMap().landmarks;
+  const auto landmarks = test::sampleMap().landmarks;
   ASSERT_GE(landmarks.size(), 2u);
   const LandmarkId seen = landmarks[0].id;
   saveLandmarksJson(landmarks, folder.file("a.json"),
@@ -73,7 +73,7 @@ TEST(LandmarksJson, HeaderAndSightings) {
 
 TEST(LandmarksJson, FootprintIsInWorld) {
   const TemporaryFolder folder;
-  Landmark sofa = testing::sampleLandmark(3, "sofa", ShapeKind::kCuboid, 10, 20);
+  Landmark sofa = test::sampleLandmark(3, "sofa", ShapeKind::kCuboid, 10, 20);
   sofa.shape.width = 2;  // along world x after a quarter turn
   sofa.shape.depth = 1;
   sofa.yaw = M_PI / 2;

@@ -20,9 +20,9 @@ namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
-std::string loadError(const std::filesystem::path& file) {
+std::string mapLoadError(const std::filesystem::path& file) {
   try {
     loadMap(file);
   } catch (const InputError& error) {
@@ -55,7 +55,7 @@ void expectSame(const Landmark& a, const Landmark& b) {
 
 TEST(MapFile, GivesBackEveryField) {
   const TemporaryFolder folder;
-  const CSemanticMap map = testing::sampleMap();
+  const CSemanticMap map = test::sampleMap();
   saveMap(map, folder.file("map.rgmap"));
   EXPECT_EQ(folder.count(), 1u) << "a temporary file was left";
   const CSemanticMap again = loadMap(folder.file("map.rgmap"));
@@ -77,7 +77,7 @@ TEST(MapFile, GivesBackEveryField) {
 
 TEST(MapFile, MapWithoutOccupancyAndBytesAreReproducible) {
   const TemporaryFolder folder;
-  CSemanticMap map = testing::sampleMap();
+  CSemanticMap map = test::sampleMap();
   map.occupancy.reset();
   map.planar = false;
   saveMap(map, folder.file("a.rgmap"));
@@ -89,21 +89,21 @@ TEST(MapFile, MapWithoutOccupancyAndBytesAreReproducible) {
 
 TEST(MapFile, SaysWhatIsWrongWithAFile) {
   const TemporaryFolder folder;
-  EXPECT_THAT(loadError(folder.file("none.rgmap")), HasSubstr("none.rgmap: no such file"));
-  EXPECT_THAT(loadError(folder.path()), HasSubstr("not a file"));
-  EXPECT_THAT(loadError(folder.write("empty.rgmap", "")), HasSubstr("empty"));
-  EXPECT_THAT(loadError(folder.write("text.rgmap", "[section]\nkey = value, and so on\n")),
+  EXPECT_THAT(mapLoadError(folder.file("none.rgmap")), HasSubstr("none.rgmap: no such file"));
+  EXPECT_THAT(mapLoadError(folder.path()), HasSubstr("not a file"));
+  EXPECT_THAT(mapLoadError(folder.write("empty.rgmap", "")), HasSubstr("empty"));
+  EXPECT_THAT(mapLoadError(folder.write("text.rgmap", "[section]\nkey = value, and so on\n")),
               HasSubstr("not a roomgraph map"));
   writeObject(folder.file("pose.rgmap"), mrpt::poses::CPose3D());
-  EXPECT_THAT(loadError(folder.file("pose.rgmap")), HasSubstr("CPose3D"));
+  EXPECT_THAT(mapLoadError(folder.file("pose.rgmap")), HasSubstr("CPose3D"));
 }
 
 TEST(MapFile, TruncatedFileIsAnError) {
   const TemporaryFolder folder;
-  saveMap(testing::sampleMap(), folder.file("map.rgmap"));
+  saveMap(test::sampleMap(), folder.file("map.rgmap"));
   const std::string whole = folder.read("map.rgmap");
   for (const std::size_t size : {std::size_t{5}, whole.size() / 4, whole.size() / 2, whole.size() * 3 / 4})
-    EXPECT_THAT(loadError(folder.write("cut.rgmap", whole.substr(0, size))), HasSubstr("cut.rgmap")) << size;
+    EXPECT_THAT(mapLoadError(folder.write("cut.rgmap", whole.substr(0, size))), HasSubstr("cut.rgmap")) << size;
 }
 
 TEST(MapFile, NewerVersionIsNamed) {
@@ -118,16 +118,16 @@ TEST(MapFile, NewerVersionIsNamed) {
   const std::string name = map.GetRuntimeClass()->className;
   ASSERT_EQ(bytes.substr(1, name.size()), name);
   bytes[1 + name.size()] = static_cast<char>(99);
-  EXPECT_THAT(loadError(folder.write("new.rgmap", bytes)), HasSubstr("newer version"));
+  EXPECT_THAT(mapLoadError(folder.write("new.rgmap", bytes)), HasSubstr("newer version"));
 }
 
 TEST(MapFile, ValuesThatCannotBeAreNamed) {
   const TemporaryFolder folder;
   const auto errorFor = [&](const std::function<void(CSemanticMap&)>& damage) {
-    CSemanticMap map = testing::sampleMap();
+    CSemanticMap map = test::sampleMap();
     damage(map);
     saveMap(map, folder.file("bad.rgmap"));
-    return loadError(folder.file("bad.rgmap"));
+    return mapLoadError(folder.file("bad.rgmap"));
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(errorFor([](auto& map) { map.landmarks[1].position.x() = kNan; }),
@@ -145,7 +145,7 @@ TEST(MapFile, ValuesThatCannotBeAreNamed) {
 // A count, or a side of the grid, larger than the file: no memory is taken for it.
 TEST(MapFile, ImpossibleSizesAreErrors) {
   const TemporaryFolder folder;
-  CSemanticMap map = testing::sampleMap();
+  CSemanticMap map = test::sampleMap();
   mrpt::io::CMemoryStream memory;
   mrpt::serialization::archiveFrom(memory) << map;
   const std::string bytes(static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount());
@@ -161,17 +161,17 @@ TEST(MapFile, ImpossibleSizesAreErrors) {
   ASSERT_NE(borders_at, std::string::npos);
   ASSERT_NE(poses_at, std::string::npos);
   for (const std::uint32_t count : {0xffffffffu, 0x80000000u, 0x01000000u})
-    EXPECT_THAT(loadError(with(poses_at, count)), HasSubstr("a size in it is larger than the file")) << count;
+    EXPECT_THAT(mapLoadError(with(poses_at, count)), HasSubstr("a size in it is larger than the file")) << count;
   // A border of the grid 10^7 m away.
-  EXPECT_THAT(loadError(with(borders_at + sizeof(float), std::bit_cast<std::uint32_t>(1e7f))),
+  EXPECT_THAT(mapLoadError(with(borders_at + sizeof(float), std::bit_cast<std::uint32_t>(1e7f))),
               HasSubstr("bad.rgmap"));
 }
 
 TEST(MapFile, UnwritablePlaceIsARunError) {
   const TemporaryFolder folder;
-  EXPECT_THROW(saveMap(testing::sampleMap(), folder.file("missing/map.rgmap")), RunError);
+  EXPECT_THROW(saveMap(test::sampleMap(), folder.file("missing/map.rgmap")), RunError);
   std::filesystem::create_directories(folder.file("taken.rgmap/inside"));
-  EXPECT_THROW(saveMap(testing::sampleMap(), folder.file("taken.rgmap")), RunError);
+  EXPECT_THROW(saveMap(test::sampleMap(), folder.file("taken.rgmap")), RunError);
   EXPECT_EQ(folder.count(), 1u) << "a temporary file was left";
 }
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
@@ -137,9 +136,9 @@ TEST(OccupancyMapper, AbsurdExtentIsARunError) {
 }
 
 TEST(OccupancyMapper, ReturnsBeyondTheRangeOnlyFree) {
-  OccupancyMapper mapper;
-  Config config = Config::fromText("[mapping]\nmax_range_m = 1.3\n");
-  config.read("mapping", mapper);
+  OccupancyOptions options;
+  options.max_range_m = 1.3;
+  OccupancyMapper mapper(options);
   mapper.add(scanAt(0, robotAt(0)));
   const auto grid = mapper.build(roomTrajectory());
   const Eigen::Vector3d lidar = robotAt(0) * Eigen::Vector3d(0.2, 0.1, 0);

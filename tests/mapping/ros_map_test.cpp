@@ -12,7 +12,7 @@ namespace {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 /// 4 x 3 cells of 0.5 m from (-1, 2): all unknown but the lower left one (occupied) and the one right of it
 /// (free).

@@ -35,8 +35,8 @@ CObservationComment throughAFile(const CObservationComment& comment) {
   return back;
 }
 
-CObservationDetections detections(unsigned seed) {
-  testing::Random random(seed);
+CObservationDetections randomDetections(unsigned seed) {
+  test::Random random(seed);
   CObservationDetections out;
   out.timestamp = mrpt::Clock::fromDouble(1700000000.1 + seed);
   out.sensorLabel = "DETECTIONS";
@@ -63,7 +63,7 @@ CObservationDetections detections(unsigned seed) {
 
 TEST(DetectionComment, EveryBitComesBack) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const auto before = detections(seed);
+    const auto before = randomDetections(seed);
     const auto comment = throughAFile(toComment(before));
     EXPECT_EQ(comment.timestamp, before.timestamp) << "other tools cut by time";
     ASSERT_TRUE(holdsDetections(comment));
@@ -77,13 +77,13 @@ TEST(DetectionComment, EveryBitComesBack) {
 }
 
 TEST(DetectionComment, ALabelThatAToolChangedCounts) {
-  auto comment = toComment(detections(1));
+  auto comment = toComment(randomDetections(1));
   comment.sensorLabel = "RENAMED";
   EXPECT_EQ((*fromComment(comment))->sensorLabel, "RENAMED");
 }
 
 TEST(DetectionComment, NamesThatAreNoUtf8DoNotStopTheRecording) {
-  auto odd = detections(1);
+  auto odd = randomDetections(1);
   odd.model = "caf\xe9";
   const auto back = fromComment(toComment(odd));
   ASSERT_TRUE(back);
@@ -105,7 +105,7 @@ TEST(DetectionComment, OtherRecordsAreLeftAlone) {
 }
 
 TEST(DetectionComment, DamagedTextsAreRefused) {
-  const auto good = toComment(detections(3));
+  const auto good = toComment(randomDetections(3));
   const auto replaced = [&](const std::string& from, const std::string& to) {
     auto comment = std::make_shared<CObservationComment>(good);
     const auto at = comment->text.find(from);

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 
 TEST(ObjectDatabase, ShippedFileLoads) {
   const auto database = ObjectDatabase::fromFile(std::string(ROOMGRAPH_SOURCE_DIR) + "/objects.ini");

@@ -18,7 +18,7 @@ namespace roomgraph {
 namespace {
 
 using mrpt::serialization::CSerializable;
-using testing::Random;
+using test::Random;
 
 mrpt::serialization::CSerializable::Ptr roundTrip(const CSerializable& object) {
   mrpt::io::CMemoryStream stream;

@@ -7,11 +7,18 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace roomgraph {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::ElementsAre;
-using enum BoxSource;
+
+enum Source { kNone, kDetected, kCarried };
+
+Source sourceOf(const FrameDetections& detections) {
+  EXPECT_FALSE(detections.fresh && detections.carried);
+  EXPECT_TRUE(detections.current() || detections.boxes.empty());
+  return detections.fresh ? kDetected : detections.carried ? kCarried : kNone;
+}
 
 const ObjectDatabase& classes() {
   static const ObjectDatabase db =
@@ -45,12 +52,12 @@ DetectionSchedule schedule(int every_nth_frame, int max_carried_frames = 5, bool
 }
 
 /// Sources of the boxes of `frames` frames; the detector fails on those in `failing`.
-std::vector<BoxSource> sourcesOf(DetectionSchedule schedule, int frames, const std::vector<int>& failing = {}) {
-  std::vector<BoxSource> sources;
+std::vector<Source> sourcesOf(DetectionSchedule schedule, int frames, const std::vector<int>& failing = {}) {
+  std::vector<Source> sources;
   for (int i = 0; i < frames; ++i) {
     const bool fails = std::find(failing.begin(), failing.end(), i) != failing.end();
-    sources.push_back(schedule.due() && !fails ? schedule.detected(chairAndPerson(), still(i)).source
-                                               : schedule.missed(still(i), {}).source);
+    sources.push_back(sourceOf(schedule.due() && !fails ? schedule.detected(chairAndPerson(), still(i))
+                                                        : schedule.missed(still(i), {})));
   }
   return sources;
 }
@@ -74,8 +81,8 @@ TEST(DetectionSchedule, BoxesAreCarriedSoManyFramesAndNoFurther) {
   EXPECT_EQ(boxes.detected(chairAndPerson(), still(0)).age, 0);
   EXPECT_EQ(boxes.carriedFrom(), 10.0);
   for (int i = 1; i <= 2; ++i) {
-    const FrameBoxes carried = boxes.missed(still(i), Pose3::Identity());
-    EXPECT_EQ(carried.source, kCarried);
+    const FrameDetections carried = boxes.missed(still(i), Pose3::Identity());
+    EXPECT_EQ(sourceOf(carried), kCarried);
     EXPECT_EQ(carried.age, i);
     ASSERT_EQ(carried.boxes.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {
@@ -85,12 +92,12 @@ TEST(DetectionSchedule, BoxesAreCarriedSoManyFramesAndNoFurther) {
     }
     EXPECT_EQ(boxes.carriedFrom(), still(i).t);
   }
-  const FrameBoxes after = boxes.missed(still(3), Pose3::Identity());
-  EXPECT_EQ(after.source, kNone);
+  const FrameDetections after = boxes.missed(still(3), Pose3::Identity());
+  EXPECT_EQ(sourceOf(after), kNone);
   EXPECT_TRUE(after.boxes.empty()) << "no box, of a person neither, outlives its carrying";
   EXPECT_EQ(after.age, 3);
   EXPECT_FALSE(boxes.carriedFrom());
-  EXPECT_EQ(boxes.missed(still(4), {}).source, kNone);
+  EXPECT_EQ(sourceOf(boxes.missed(still(4), {})), kNone);
 }
 
 TEST(DetectionSchedule, WithoutTrackingTheFramesBetweenHaveNoBoxes) {
@@ -102,8 +109,8 @@ TEST(DetectionSchedule, WithoutTrackingTheFramesBetweenHaveNoBoxes) {
 TEST(DetectionSchedule, ThatThereIsNothingIsCarriedToo) {
   DetectionSchedule boxes = schedule(2);
   boxes.detected({}, still(0));
-  const FrameBoxes carried = boxes.missed(still(1), {});
-  EXPECT_EQ(carried.source, kCarried);
+  const FrameDetections carried = boxes.missed(still(1), {});
+  EXPECT_EQ(sourceOf(carried), kCarried);
   EXPECT_TRUE(carried.boxes.empty());
 }
 
@@ -112,12 +119,12 @@ TEST(DetectionSchedule, AnImageThatCannotBeTrackedEndsTheBoxes) {
   boxes.detected(chairAndPerson(), still(0));
   Frame blind = still(1);
   blind.gray.release();
-  EXPECT_EQ(boxes.missed(blind, {}).source, kNone);
-  EXPECT_EQ(boxes.missed(still(2), {}).source, kNone) << "there is nothing to carry any more";
+  EXPECT_EQ(sourceOf(boxes.missed(blind, {})), kNone);
+  EXPECT_EQ(sourceOf(boxes.missed(still(2), {})), kNone) << "there is nothing to carry any more";
   EXPECT_FALSE(boxes.due());
   boxes.missed(still(3), {});
   EXPECT_TRUE(boxes.due());
 }
 
 }  // namespace
-}  // namespace roomgraph
+}  // namespace roomgraph::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Simulated lap through the asymmetric room: scans, wheels, frames and stages.
+// Simulated lap through the asymmetric room: scans, wheels, frames and setup.
 #pragma once
 
 #include <cmath>
@@ -10,11 +10,11 @@
 #include "roomgraph/pipeline/semantic_slam.h"
 #include "synthetic_scans.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
-/// Stages of the shipped object database with the given settings.
-inline std::unique_ptr<Stages> stagesWith(const std::string& config) {
-  return makeStages(Config::fromText(config, "test"), ROOMGRAPH_SOURCE_DIR "/objects.ini");
+/// A run with the shipped object database and the given settings.
+inline std::unique_ptr<Setup> setupWith(const std::string& config) {
+  return makeSetup(Config::fromText(config, "test"), ROOMGRAPH_SOURCE_DIR "/objects.ini");
 }
 
 /// A lap of 12 s through the asymmetric room; the world is the first pose.
@@ -50,4 +50,4 @@ struct Drive {
   }
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -32,6 +32,7 @@ Pose3 cameraFromObject(const WorldObject& object, double t) {
 }  // namespace
 
 Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
+  if (frame.t >= world().detector_fails_from) return Outcome<std::vector<Detection>>::failure("not this frame");
   std::vector<Detection> found;
   for (const auto& object : world().objects) {
     const Pose3 camera_from_object = cameraFromObject(object, frame.t);
@@ -76,7 +77,8 @@ FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Det
   return out;
 }
 
-TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior&) {
+TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prior) {
+  world().masked.push_back(prior.dynamic_regions);
   TrackingResult result;
   result.tracked = true;
   // A frame of its own, as a real tracker has.

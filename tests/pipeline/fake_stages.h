@@ -22,7 +22,10 @@ struct WorldObject {
 struct World {
   std::function<roomgraph::Pose3(double)> world_from_camera;
   std::vector<WorldObject> objects;
-  double lost_at = 1e300;  ///< from then on the odometry counts in a new segment
+  double lost_at = 1e300;              ///< from then on the odometry counts in a new segment
+  double detector_fails_from = 1e300;  ///< from then on the detector does not run
+  /// What came of the run: regions that the tracker was told to leave out, frame by frame.
+  std::vector<std::vector<roomgraph::Box2>> masked = {};
 };
 World& world();
 

@@ -6,7 +6,7 @@
 #include "fake_stages.h"
 #include "roomgraph/core/errors.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 const std::string kFakeObjects = "[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n";
@@ -48,7 +48,7 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
   place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);
   place("person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, -2.0, 1.0, 0);
-  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nenabled = false\n"));
   const SlamResult result = drive(slam);
   ASSERT_EQ(result.map.landmarks.size(), 2u) << "the person is no landmark";
   for (const auto& landmark : result.map.landmarks) {
@@ -70,13 +70,13 @@ TEST_F(ObjectStagesTest, SightingsReachTheSinks) {
   struct Watcher : Sink {
     void onStep(const StepReport& report) override {
       frames += report.kind == StepReport::Kind::kFrame;
-      detections += report.detections.size();
+      detections += report.detections.boxes.size();
       decisions += report.decisions.size();
     }
     std::size_t frames = 0, detections = 0, decisions = 0;
   };
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
-  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nenabled = false\n"));
   const auto watcher = std::make_shared<Watcher>();
   slam.addSink(watcher);
   drive(slam);
@@ -95,7 +95,7 @@ TEST_F(ObjectStagesTest, HandheldCameraIsLevelledByTheFloor) {
     return held * forward_from_optical;
   };
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
-  SemanticSlam slam(stagesWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n"));
+  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n"));
   for (int i = 0; i <= 120; ++i) {
     Frame frame = Drive::frame(0.1 * i);
     frame.robot_from_camera = forward_from_optical;  // nobody says where it is held
@@ -119,7 +119,7 @@ TEST_F(ObjectStagesTest, HandheldCameraIsLevelledByTheFloor) {
 
 TEST_F(ObjectStagesTest, UnknownStageIsAnErrorThatListsTheKnown) {
   try {
-    stagesWith("[detection]\nclass = FakeDetectr\n");
+    setupWith("[detection]\nclass = FakeDetectr\n");
     FAIL() << "no exception";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("FakeDetector"), std::string::npos) << error.what();
@@ -132,7 +132,7 @@ TEST_F(ObjectStagesTest, ObjectsBringBackALostCamera) {
   furnish();
   fakes::world().lost_at = 15;
   for (const bool enabled : {true, false}) {
-    SemanticSlam slam(stagesWith(kFakeObjects +
+    SemanticSlam slam(setupWith(kFakeObjects +
                                  "[tracking]\nclass = FakeOdometry\n[object_loop_closing]\nenabled = " +
                                  (enabled ? "true" : "false") + "\n"));
     for (int i = 0; i <= 270; ++i)
@@ -151,14 +151,14 @@ TEST_F(ObjectStagesTest, ObjectsBringBackALostCamera) {
 TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
   furnish();
   const std::string config = kFakeObjects + "[tracking]\nenabled = false\n";
-  SemanticSlam first(stagesWith(config));
+  SemanticSlam first(setupWith(config));
   CSemanticMap map = drive(first).map;
   ASSERT_EQ(map.landmarks.size(), 6u);
   Landmark gone = map.landmarks.front();  // what is not seen again stays in the map
   gone.position = {9, 9, 0};
   map.landmarks.push_back(gone);
 
-  SemanticSlam second(stagesWith(config));
+  SemanticSlam second(setupWith(config));
   second.setMap(map);
   Drive world;
   for (int i = 40; i <= 130; ++i) {
@@ -178,7 +178,7 @@ TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
 
   // Objects that stand elsewhere are not recognised, and that is said.
   for (auto& landmark : map.landmarks) landmark.position *= 1.7;
-  SemanticSlam third(stagesWith(config));
+  SemanticSlam third(setupWith(config));
   third.setMap(map);
   const auto own = drive(third);
   ASSERT_TRUE(own.earlier);
@@ -187,4 +187,4 @@ TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

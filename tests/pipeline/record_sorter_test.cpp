@@ -6,7 +6,7 @@
 
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 Record odometryAt(double t) {
@@ -75,4 +75,4 @@ TEST(RecordSorter, DelaysWithinTheLookaheadAreUndone) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

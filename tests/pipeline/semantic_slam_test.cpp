@@ -7,7 +7,7 @@
 
 #include "drive.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 const std::string kLidarOnly = "[tracking]\nenabled = false\n[detection]\nenabled = false\n";
@@ -51,7 +51,7 @@ Errors errorsOf(const std::vector<StampedPose>& poses) {
 }
 
 TEST(SemanticSlam, PosesTooFarApartForAGridCostTheGridOnly) {
-  SemanticSlam slam(stagesWith(kLidarOnly + "[mapping]\nresolution_m = 0.005\n"));
+  SemanticSlam slam(setupWith(kLidarOnly + "[mapping]\nresolution_m = 0.005\n"));
   Drive world;
   // Too few returns to match anything: the wheels alone say where it went, and they are wrong by 300 m.
   for (int i = 0; i < 30; ++i) {
@@ -72,7 +72,7 @@ TEST(SemanticSlam, PosesTooFarApartForAGridCostTheGridOnly) {
 }
 
 TEST(SemanticSlam, LapThroughARoomIsFoundToACentimetre) {
-  SemanticSlam slam(stagesWith(kLidarOnly));
+  SemanticSlam slam(setupWith(kLidarOnly));
   const auto recorder = std::make_shared<Recorder>();
   slam.addSink(recorder);
   drive(slam);
@@ -91,7 +91,7 @@ TEST(SemanticSlam, LapThroughARoomIsFoundToACentimetre) {
 }
 
 TEST(SemanticSlam, MapHasTheWallsAndTheFreeSpace) {
-  SemanticSlam slam(stagesWith(kLidarOnly));
+  SemanticSlam slam(setupWith(kLidarOnly));
   drive(slam);
   const SlamResult result = slam.finish();
   ASSERT_TRUE(result.map.occupancy);
@@ -112,7 +112,7 @@ TEST(SemanticSlam, MapHasTheWallsAndTheFreeSpace) {
 }
 
 TEST(SemanticSlam, WheelsAloneAreAsGoodAsTheWheels) {
-  SemanticSlam slam(stagesWith(kLidarOnly + "[lidar]\nenabled = false\n"));
+  SemanticSlam slam(setupWith(kLidarOnly + "[lidar]\nenabled = false\n"));
   Drive world;
   for (int i = 0; i <= 60; ++i) {
     slam.process(world.odometry(0.1 * i));
@@ -129,7 +129,7 @@ TEST(SemanticSlam, WheelsAloneAreAsGoodAsTheWheels) {
 }
 
 TEST(SemanticSlam, ScansAloneWillDo) {
-  SemanticSlam slam(stagesWith(kLidarOnly + "[odometry]\nenabled = false\n"));
+  SemanticSlam slam(setupWith(kLidarOnly + "[odometry]\nenabled = false\n"));
   drive(slam, 6);
   const SlamResult result = slam.finish();
   EXPECT_EQ(result.counts.odometry, 0);
@@ -137,7 +137,7 @@ TEST(SemanticSlam, ScansAloneWillDo) {
 }
 
 TEST(SemanticSlam, RecordsThatGoBackInTimeAreCountedAndLeftOut) {
-  SemanticSlam slam(stagesWith(kLidarOnly));
+  SemanticSlam slam(setupWith(kLidarOnly));
   Drive world;
   slam.process(world.scan(1));
   slam.process(world.scan(0.5));
@@ -150,7 +150,7 @@ TEST(SemanticSlam, RecordsThatGoBackInTimeAreCountedAndLeftOut) {
 }
 
 TEST(SemanticSlam, NothingInNothingOut) {
-  SemanticSlam slam(stagesWith(kLidarOnly));
+  SemanticSlam slam(setupWith(kLidarOnly));
   const SlamResult result = slam.finish();
   EXPECT_TRUE(result.world_from_robot.empty());
   EXPECT_TRUE(result.map.landmarks.empty());
@@ -158,7 +158,7 @@ TEST(SemanticSlam, NothingInNothingOut) {
 }
 
 TEST(SemanticSlam, FinishMayBeCalledAtAnyMoment) {
-  SemanticSlam slam(stagesWith(kLidarOnly)), same(stagesWith(kLidarOnly));
+  SemanticSlam slam(setupWith(kLidarOnly)), same(setupWith(kLidarOnly));
   drive(slam, 3);
   drive(same, 3);
   const SlamResult first = slam.finish(), second = same.finish();
@@ -168,4 +168,4 @@ TEST(SemanticSlam, FinishMayBeCalledAtAnyMoment) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -65,4 +65,4 @@ TEST(StageTimes, TotalsAreThoseOfTheCalls) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -19,7 +19,7 @@ namespace {
 using test::database;
 using test::Scene;
 
-BoxEvidence evidenceOf(const Scene& scene, bool with_depth) {
+BoxEvidence doorEvidenceOf(const Scene& scene, bool with_depth) {
   cv::Mat labels;
   Frame frame = scene.render(&labels);
   frame.gray = test::shaded(frame, labels);
@@ -135,7 +135,7 @@ TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   scene.lookAhead(1.2, 0);
   scene.addBox(3.2, 1.03, -std::numbers::pi / 2, 0.9, 0.06, 0, 2.05, 1);
   scene.addBox(3.2, 1.10, -std::numbers::pi / 2, 8, 0.1, 0, 2.6, 2);  // its wall
-  const auto found = doorHypotheses(evidenceOf(scene, true));
+  const auto found = doorHypotheses(doorEvidenceOf(scene, true));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(lineAngle(found[0].yaw, std::numbers::pi / 2), 0.02);
   EXPECT_NEAR(found[0].y, 1.03, 0.04);
@@ -247,7 +247,7 @@ TEST(DoorFromImage, GlancingDoorInItsWall) {
   scene.max_range = 12;
   scene.addBox(4.0, 1.03, -std::numbers::pi / 2, 0.9, 0.06, 0, 2.05, 1);
   scene.addBox(4.0, 1.10, -std::numbers::pi / 2, 12, 0.1, 0, 2.6, 2);
-  const auto found = doorHypotheses(evidenceOf(scene, false));
+  const auto found = doorHypotheses(doorEvidenceOf(scene, false));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(std::hypot(found[0].x - 4.0, found[0].y - 1.03), 0.35);
   double angle = 1e9;

@@ -14,7 +14,7 @@ namespace {
 using test::database;
 using test::Scene;
 
-BoxEvidence evidenceOf(const Scene& scene, const std::string& class_name, bool with_depth = true) {
+BoxEvidence shadedEvidenceOf(const Scene& scene, const std::string& class_name, bool with_depth = true) {
   cv::Mat labels;
   Frame frame = scene.render(&labels);
   frame.gray = test::shaded(frame, labels);
@@ -23,7 +23,7 @@ BoxEvidence evidenceOf(const Scene& scene, const std::string& class_name, bool w
                         groundInCamera(scene.world_from_camera));
 }
 
-Scene sceneAhead() {
+Scene occludedScene() {
   Scene scene;
   scene.lookAhead(0.8, 0.2);
   return scene;
@@ -31,10 +31,10 @@ Scene sceneAhead() {
 
 TEST(Occlusion, ChairBehindABoxIsNotPulledTowardsTheVisiblePart) {
   for (const double side : {1.0, -1.0}) {
-    Scene scene = sceneAhead();
+    Scene scene = occludedScene();
     scene.addCylinder(3.0, 0, 0.31, 0.95, 1);
     scene.addBox(1.8, side * 0.47, 0, 0.8, 0.3, 0, 1.3, 2);  // hides one side of the chair
-    const BoxEvidence e = evidenceOf(scene, "swivel_chair");
+    const BoxEvidence e = shadedEvidenceOf(scene, "swivel_chair");
     EXPECT_EQ(e.hidden.left, side > 0);
     EXPECT_EQ(e.hidden.right, side < 0);
     EXPECT_FALSE(e.hidden.bottom);
@@ -45,10 +45,10 @@ TEST(Occlusion, ChairBehindABoxIsNotPulledTowardsTheVisiblePart) {
 }
 
 TEST(Occlusion, ChairWhoseFeetADeskHides) {
-  Scene scene = sceneAhead();
+  Scene scene = occludedScene();
   scene.addCylinder(2.8, 0.1, 0.31, 0.95, 1);
   scene.addBox(1.7, 0, 0, 2.0, 0.5, 0, 0.45, 2);
-  const BoxEvidence e = evidenceOf(scene, "swivel_chair");
+  const BoxEvidence e = shadedEvidenceOf(scene, "swivel_chair");
   EXPECT_TRUE(e.hidden.bottom);
   EXPECT_FALSE(contactPoint(e));  // the box's bottom is not where it stands
   const auto found = cylinderHypotheses(e);
@@ -57,19 +57,19 @@ TEST(Occlusion, ChairWhoseFeetADeskHides) {
 }
 
 TEST(Occlusion, NothingIsHiddenInTheOpen) {
-  Scene scene = sceneAhead();
+  Scene scene = occludedScene();
   scene.addCylinder(2.5, 0.1, 0.31, 0.95, 1);
   scene.addBox(3.6, 0, 0, 5, 0.2, 0, 2, 2);  // a wall behind
-  const BoxEvidence e = evidenceOf(scene, "swivel_chair");
+  const BoxEvidence e = shadedEvidenceOf(scene, "swivel_chair");
   EXPECT_FALSE(e.hidden.left || e.hidden.right || e.hidden.top || e.hidden.bottom);
 }
 
 TEST(Occlusion, SofaCutByTheBorderOnEitherSide) {
   for (const double y : {1.25, -1.25}) {
-    Scene scene = sceneAhead();
+    Scene scene = occludedScene();
     const double front = std::numbers::pi + std::atan2(y, 2.3) + 0.3;
     scene.addSofa(2.3, y, front, 1.8, 0.88, 0.8, 1);
-    const BoxEvidence e = evidenceOf(scene, "sofa");
+    const BoxEvidence e = shadedEvidenceOf(scene, "sofa");
     ASSERT_TRUE(y > 0 ? e.cut_left : e.cut_right);
     const auto found = cuboidHypotheses(e);
     ASSERT_FALSE(found.empty());
@@ -86,7 +86,7 @@ TEST(Door, WithoutDepthTheFrameGivesTheDirection) {
     scene.max_range = 8;
     const double yaw = std::numbers::pi + turn;
     scene.addBox(3.4, 0.2, yaw, 0.9, 0.06, 0, 2.05, 1);
-    const auto found = doorHypotheses(evidenceOf(scene, "door", false));
+    const auto found = doorHypotheses(shadedEvidenceOf(scene, "door", false));
     ASSERT_FALSE(found.empty()) << turn;
     double place = 1e9, angle = 1e9;
     for (const auto& p : found) {
@@ -100,12 +100,12 @@ TEST(Door, WithoutDepthTheFrameGivesTheDirection) {
 }
 
 TEST(Door, OpenLeafInItsFrame) {
-  Scene scene = sceneAhead();
+  Scene scene = occludedScene();
   // Wall with a gap; the leaf stands at a right angle to it, hinged at the gap's left side.
   scene.addBox(3.0, 1.6, 0, 2.0, 0.1, 0, 2.5, 2);
   scene.addBox(3.0, -1.4, 0, 2.0, 0.1, 0, 2.5, 3);
   scene.addBox(2.6, 0.5, std::numbers::pi / 2 - 0.35, 0.9, 0.05, 0, 2.05, 1);
-  const auto found = doorHypotheses(evidenceOf(scene, "door"));
+  const auto found = doorHypotheses(shadedEvidenceOf(scene, "door"));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(std::hypot(found[0].x - 2.6, found[0].y - 0.5), 0.15);
   EXPECT_LT(std::abs(wrapAngle(2 * (found[0].yaw - std::numbers::pi / 2 + 0.35))) / 2, 0.1);
@@ -117,7 +117,7 @@ TEST(Symmetry, OfAQuarterTurn) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> range(1.8, 2.8), turn(0, std::numbers::pi / 2);
   for (int run = 0; run < 6; ++run) {
-    Scene scene = sceneAhead();
+    Scene scene = occludedScene();
     const double x = range(random), yaw = turn(random);
     scene.addBox(x, 0, yaw, 0.8, 0.8, 0, 0.5, 1);
     cv::Mat labels;

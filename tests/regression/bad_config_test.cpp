@@ -3,7 +3,7 @@
 #include "program.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::AllOf;
@@ -108,4 +108,4 @@ TEST(Misuse, HelpAndVersionAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

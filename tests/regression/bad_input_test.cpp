@@ -4,7 +4,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::AllOf;
@@ -136,4 +136,4 @@ TEST_F(BadInput, OdometryAloneIsNoRecordingUnlessThatWasMeant) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -2,10 +2,10 @@
 // docs/config.md against the declared parameters, and the shipped configuration.
 #include "program.h"
 #include "roomgraph/core/config.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/setup.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 const std::filesystem::path kSource = ROOMGRAPH_SOURCE_DIR;
@@ -31,20 +31,20 @@ TEST(ConfigReference, NamesEveryKeyThatTheProgramKnows) {
 TEST(ShippedConfig, IsAccepted) {
   const Config config = Config::fromFile(kSource / "config.ini");
   EXPECT_NO_THROW(configSchema().check(config));
-  const auto stages = makeStages(config, kSource / "objects.ini");
-  EXPECT_TRUE(stages->rgbd_odometry && stages->scan_matcher && stages->detector && stages->associator);
+  const auto setup = makeSetup(config, kSource / "objects.ini");
+  EXPECT_TRUE(setup->stages.rgbd_odometry && setup->stages.scan_matcher && setup->stages.detector && setup->stages.associator);
   for (const char* name : {"swivel_chair", "sofa", "door", "person"})
-    EXPECT_TRUE(stages->database.find(name)) << name;
-  EXPECT_FALSE(stages->database.find("person")->landmark);
+    EXPECT_TRUE(setup->database.find(name)) << name;
+  EXPECT_FALSE(setup->database.find("person")->landmark);
 }
 
 TEST(ShippedConfig, EffectiveConfigMakesTheSameStages) {
-  const auto stages = makeStages(Config::fromFile(kSource / "config.ini"), kSource / "objects.ini");
-  Config effective = Config::fromText(stages->effective_config, "effective");
+  const auto setup = makeSetup(Config::fromFile(kSource / "config.ini"), kSource / "objects.ini");
+  Config effective = Config::fromText(setup->effective_config, "effective");
   effective.override("pipeline.objects_file=" + (kSource / "objects.ini").string());
-  const auto again = makeStages(effective, "none");
-  EXPECT_EQ(again->effective_config, stages->effective_config);
+  const auto again = makeSetup(effective, "none");
+  EXPECT_EQ(again->effective_config, setup->effective_config);
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -11,7 +11,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -103,4 +103,4 @@ TEST_F(FullDisk, SimulatedWorldsRecordingsAndGraphsAreWholeOrAbsent) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -7,13 +7,13 @@
 #include "temporary_folder.h"
 
 // MRPT's own programs, which know nothing of our library, on files that we write (package mrpt-apps).
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kRoom = fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
+const fs::path kRoomForOthers = fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
 
 /// What a command prints; its end is "exit N".
 std::string outputOf(const std::string& command) {
@@ -54,27 +54,27 @@ class RawlogEdit : public ::testing::Test {
 };
 
 TEST_F(RawlogEdit, SeesEveryRecord) {
-  const std::string text = outputOf("rawlog-edit --info -i " + kRoom.string());
+  const std::string text = outputOf("rawlog-edit --info -i " + kRoomForOthers.string());
   EXPECT_THAT(text, ::testing::ContainsRegex("number of objects *: 203"));  // 41 + 40 + 81, and 41 with boxes
   EXPECT_THAT(text, HasSubstr(" 41 /5.000 /8.000"));
 }
 
 TEST_F(RawlogEdit, CutsAndFilters) {
   const auto cut = folder.file("cut.rawlog"), fewer = folder.file("fewer.rawlog");
-  edit("--cut --from-time 1700000001.9 --to-time 1700000004.1 -i " + kRoom.string() + " -o " + cut.string());
+  edit("--cut --from-time 1700000001.9 --to-time 1700000004.1 -i " + kRoomForOthers.string() + " -o " + cut.string());
   const auto times = boxTimes(cut);
   ASSERT_EQ(times.size(), 11u);
   EXPECT_NEAR(times.front(), 1700000002, 1e-3);
   EXPECT_NEAR(times.back(), 1700000004, 1e-3);
-  edit("--remove-label LIDAR,ODOMETRY -i " + kRoom.string() + " -o " + fewer.string());
-  EXPECT_EQ(boxTimes(fewer), boxTimes(kRoom));
+  edit("--remove-label LIDAR,ODOMETRY -i " + kRoomForOthers.string() + " -o " + fewer.string());
+  EXPECT_EQ(boxTimes(fewer), boxTimes(kRoomForOthers));
 }
 
 TEST_F(RawlogEdit, ExternalImagesGiveTheSameMap) {
   const auto outside = folder.file("outside.rawlog");
-  edit("--externalize -i " + kRoom.string() + " -o " + outside.string());
+  edit("--externalize -i " + kRoomForOthers.string() + " -o " + outside.string());
   ASSERT_TRUE(fs::is_directory(folder.file("outside_Images")));
-  for (const auto& [input, output] : {std::pair{kRoom, "a"}, {outside, "b"}})
+  for (const auto& [input, output] : {std::pair{kRoomForOthers, "a"}, {outside, "b"}})
     ASSERT_EQ(call(folder.path(),
                    {"run", input.string(), "-o", folder.file(output).string(), "--quiet", "--no-snapshot"})
                   .exit_code,
@@ -87,7 +87,7 @@ TEST_F(RawlogEdit, ExternalImagesGiveTheSameMap) {
 }
 
 TEST_F(RawlogEdit, MrptOptimisesThePlanarGraph) {
-  ASSERT_EQ(call(folder.path(), {"run", kRoom.string(), "-o", folder.file("out").string(), "--quiet",
+  ASSERT_EQ(call(folder.path(), {"run", kRoomForOthers.string(), "-o", folder.file("out").string(), "--quiet",
                                  "--no-snapshot", "--set", "backend.planar_graph=true"})
                 .exit_code,
             0);
@@ -102,4 +102,4 @@ TEST_F(RawlogEdit, MrptOptimisesThePlanarGraph) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 inline std::string contentOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -90,4 +90,4 @@ inline void expectOneLine(const CallResult& outcome, int exit_code,
   EXPECT_THAT(lines[0], message);
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using nlohmann::json;
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-const fs::path kRoom = fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
+const fs::path kRoomWithBoxes = fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
 
 class RecordedBoxesRun : public ::testing::Test {
  protected:
@@ -40,13 +40,13 @@ class RecordedBoxesRun : public ::testing::Test {
 };
 
 TEST_F(RecordedBoxesRun, NeedsNoOptions) {
-  const CallResult plain = run(kRoom);
+  const CallResult plain = run(kRoomWithBoxes);
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_EQ(plain.err, "");
   EXPECT_THAT(plain.out, HasSubstr("3 objects"));
   EXPECT_EQ(landmarks().at("landmarks").size(), 3u);
   const auto files = results();
-  ASSERT_EQ(run(kRoom, {"detection.class=RecordedDetector"}).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes, {"detection.class=RecordedDetector"}).exit_code, 0);
   EXPECT_TRUE(results() == files) << "the class that it chooses gives the same";
 }
 
@@ -81,7 +81,7 @@ TEST_F(RecordedBoxesRun, BoxesThatStartLateAreNotDenied) {
 }
 
 TEST_F(RecordedBoxesRun, BoxesOfOtherTimesAreWarnedAbout) {
-  ASSERT_EQ(run(kRoom).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes).exit_code, 0);
   std::string shifted;
   for (const auto& line : linesOf(contentOf(out / "detections.jsonl"))) {
     json boxes = json::parse(line);
@@ -96,7 +96,7 @@ TEST_F(RecordedBoxesRun, BoxesOfOtherTimesAreWarnedAbout) {
 }
 
 TEST_F(RecordedBoxesRun, LandmarksSayWhereTheyComeFromAndWhenTheyWereSeen) {
-  ASSERT_EQ(run(kRoom).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes).exit_code, 0);
   const json file = landmarks();
   EXPECT_EQ(file["frame"], "world");
   EXPECT_EQ(file["recording"], "tiny_room.rawlog");
@@ -117,7 +117,7 @@ TEST_F(RecordedBoxesRun, LandmarksSayWhereTheyComeFromAndWhenTheyWereSeen) {
 }
 
 TEST_F(RecordedBoxesRun, PosesOfTheGraphAreOnTheTrajectory) {
-  ASSERT_EQ(run(kRoom).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes).exit_code, 0);
   std::set<std::string> stamps;
   for (const auto& line : linesOf(contentOf(out / "trajectory.tum")))
     stamps.insert(line.substr(0, line.find(' ')));
@@ -134,10 +134,10 @@ TEST_F(RecordedBoxesRun, PosesOfTheGraphAreOnTheTrajectory) {
 
 // The graph in the plane has the optimum of the one in space, and keeps times and names when it is optimised.
 TEST_F(RecordedBoxesRun, PlanarGraph) {
-  ASSERT_EQ(run(kRoom).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes).exit_code, 0);
   auto spatial = std::move(std::get<FactorGraph>(loadG2o(out / "graph.g2o").graph));
   ASSERT_TRUE(spatial.optimize(SolveOptions{100, 1e-12}).usable);
-  ASSERT_EQ(run(kRoom, {"backend.planar_graph=true"}).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes, {"backend.planar_graph=true"}).exit_code, 0);
   const CallResult optimized = call(folder.path(), {"optimize", (out / "graph.g2o").string(), "-o",
                                                     folder.file("best.g2o").string(), "--quiet"});
   ASSERT_EQ(optimized.exit_code, 0) << optimized.err;
@@ -161,4 +161,4 @@ TEST_F(RecordedBoxesRun, PlanarGraph) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

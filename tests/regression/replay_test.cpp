@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Replay of a span of a recording: counts, progress and interruption.
+#include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/pipeline/replay.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // 2.4 s of a lidar and wheels at 10 Hz.
@@ -19,7 +20,7 @@ class ReplayTest : public ::testing::Test {
   ReplayState replayed(
       const ReplaySpan& span, const std::function<bool()>& interrupted = [] { return false; }) {
     const auto config = Config::fromText("[tracking]\nenabled = false\n[detection]\nenabled = false\n");
-    SemanticSlam slam(makeStages(config, ROOMGRAPH_SOURCE_DIR "/objects.ini"));
+    SemanticSlam slam(makeSetup(config, ROOMGRAPH_SOURCE_DIR "/objects.ini"));
     RawlogReader reader(folder.file("tiny.rawlog"));
     shares.clear();
     return replay(reader, slam, span,
@@ -63,4 +64,4 @@ TEST_F(ReplayTest, InterruptedBetweenTwoRecords) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

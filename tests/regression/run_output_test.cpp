@@ -6,7 +6,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using nlohmann::json;
@@ -255,4 +255,4 @@ TEST_F(RunOutputTest, SpanOfTimeIsKept) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

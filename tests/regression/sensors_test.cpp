@@ -6,7 +6,7 @@
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::AllOf;
@@ -152,4 +152,4 @@ TEST_F(Sensors, ImportNamesCamerasAndPlaces) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

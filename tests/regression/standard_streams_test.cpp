@@ -5,13 +5,13 @@
 #include "program.h"
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const std::filesystem::path kRoom = std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs/tiny_room.rawlog";
+const std::filesystem::path kRoomToStream = std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs/tiny_room.rawlog";
 
 class StandardStreams : public ::testing::Test {
  protected:
@@ -31,7 +31,7 @@ TEST_F(StandardStreams, OutputThatIsLostIsAFailure) {
   const auto message = HasSubstr("standard output: writing failed");
   for (const std::string command : {"--help", "config-reference", "--version"})
     expectOneLine(shell("", command + " >/dev/full"), 1, message);
-  const CallResult info = shell("", "info '" + kRoom.string() + "' >/dev/full");
+  const CallResult info = shell("", "info '" + kRoomToStream.string() + "' >/dev/full");
   EXPECT_EQ(info.exit_code, 1);
   EXPECT_THAT(info.err, message);
 }
@@ -39,15 +39,15 @@ TEST_F(StandardStreams, OutputThatIsLostIsAFailure) {
 TEST_F(StandardStreams, ClosedStreamsAreNoFailureAndNoFileTakesTheirPlace) {
   EXPECT_EQ(shell("", "--help >&- <&-").exit_code, 0);
   const auto json = folder.file("report.json");
-  EXPECT_EQ(shell("", "info '" + kRoom.string() + "' --json '" + json.string() + "' >&- <&-").exit_code, 0);
+  EXPECT_EQ(shell("", "info '" + kRoomToStream.string() + "' --json '" + json.string() + "' >&- <&-").exit_code, 0);
   EXPECT_TRUE(contentOf(json).starts_with("{")) << "nothing that was printed went into it";
 }
 
 TEST_F(StandardStreams, RawlogsAreReadFromFilesOnly) {
-  expectOneLine(shell("cat '" + kRoom.string() + "' | ", "info /dev/stdin >/dev/null"), 3,
+  expectOneLine(shell("cat '" + kRoomToStream.string() + "' | ", "info /dev/stdin >/dev/null"), 3,
                 AllOf(HasSubstr("/dev/stdin"), HasSubstr("pipe or device")));
-  EXPECT_EQ(shell("", "info /dev/stdin >/dev/null <'" + kRoom.string() + "'").exit_code, 0);
+  EXPECT_EQ(shell("", "info /dev/stdin >/dev/null <'" + kRoomToStream.string() + "'").exit_code, 0);
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -12,7 +12,7 @@
 #include "synthetic_scans.h"
 #include "textured_room.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// A few seconds of a robot with a lidar, an RGB-D camera and wheel odometry that scales distances by 1.03.
 /// Lidar and camera each live in a synthetic room of their own; the movement is the same.
@@ -116,4 +116,4 @@ class TinyRecording {
   TexturedRoom room_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

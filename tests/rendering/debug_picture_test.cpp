@@ -16,11 +16,11 @@
 namespace roomgraph {
 namespace {
 
-using testing::Random;
+using test::Random;
 
 const PinholeCamera kCamera{640, 480, 525, 525, 319.5, 239.5, {}};
 
-const ObjectDatabase& database() {
+const ObjectDatabase& redChairsBlueSofas() {
   static const ObjectDatabase db = ObjectDatabase::fromText(
       "[swivel_chair]\nlabels=chair\ncolor=#ff0000\n[sofa]\nlabels=couch\ncolor=#0000ff\n");
   return db;
@@ -42,12 +42,15 @@ struct Scenery {
     report.kind = StepReport::Kind::kFrame;
     report.frame = frame.id;
     report.t = frame.t;
-    report.detector_ran = true;
-    report.detections = seen.detections;
+    report.detections.fresh = true;
+    report.detections.boxes = seen.detections;
     report.image = &frame;
-    report.seen = &seen;
   }
-  cv::Mat draw() const { return debugPicture(report, database()); }
+  cv::Mat draw() const {
+    StepReport with_proposals = report;
+    with_proposals.proposals = seen;
+    return debugPicture(with_proposals, redChairsBlueSofas());
+  }
 };
 
 bool like(const cv::Vec3b& bgr, const palette::TColor& color, int tolerance = 40) {
@@ -127,7 +130,7 @@ TEST(DebugPicture, SaysWhatWentWrong) {
   s.seen.ground = GroundEstimate{};
   s.seen.ground->plane = {Eigen::Vector3d(0, -1, 0), 0.8};
   EXPECT_EQ(countLike(s.draw(), bottom, {255, 110, 90}), 0);
-  EXPECT_TRUE(debugPicture(StepReport{}, database()).empty()) << "not a frame";
+  EXPECT_TRUE(debugPicture(StepReport{}, redChairsBlueSofas()).empty()) << "not a frame";
   s.frame.color.release();
   EXPECT_TRUE(s.draw().empty());
   s.frame.depth = cv::Mat(480, 640, CV_32FC1, cv::Scalar(2));
@@ -136,8 +139,8 @@ TEST(DebugPicture, SaysWhatWentWrong) {
 
 TEST(DebugPicture, OneFilePerFrame) {
   Scenery s;
-  const testing::TemporaryFolder folder;
-  DebugPictures pictures(folder.file("pictures"), database());
+  const test::TemporaryFolder folder;
+  DebugPictures pictures(folder.file("pictures"), redChairsBlueSofas());
   pictures.onStep(s.report);
   pictures.onStep(StepReport{});
   EXPECT_EQ(cv::imread(folder.file("pictures/frame_000123.jpg").string()).size(), cv::Size(640, 480));
@@ -145,7 +148,7 @@ TEST(DebugPicture, OneFilePerFrame) {
   std::filesystem::remove_all(folder.file("pictures"));
   EXPECT_THROW(pictures.onStep(s.report), RunError);
   folder.write("file", "");
-  EXPECT_THROW(DebugPictures(folder.file("file/below"), database()), RunError);
+  EXPECT_THROW(DebugPictures(folder.file("file/below"), redChairsBlueSofas()), RunError);
 }
 
 // The bounds of the drawn edges are those of the projected shape, which is computed in another way.

@@ -16,7 +16,7 @@
 namespace roomgraph {
 namespace {
 
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 ObjectDatabase database() {
   return ObjectDatabase::fromText(
@@ -37,7 +37,7 @@ int difference(const cv::Vec3b& bgr, const palette::TColor& color) {
 
 TEST(Snapshot, EveryViewHasTheSizeAskedForAndShowsTheObjects) {
   for (const auto view : {SnapshotView::kTop, SnapshotView::kOrbit, SnapshotView::kRobot}) {
-    const cv::Mat image = snapshot(testing::sampleMap(), {view, 400, 300, "A title"});
+    const cv::Mat image = snapshot(test::sampleMap(), {view, 400, 300, "A title"});
     ASSERT_EQ(image.size(), cv::Size(400, 300));
     int unlike_background = 0, dark = 0;
     for (int v = 0; v < image.rows; ++v) {
@@ -52,7 +52,7 @@ TEST(Snapshot, EveryViewHasTheSizeAskedForAndShowsTheObjects) {
 }
 
 TEST(Snapshot, ObjectsHaveTheirClassColourWhereTheyAre) {
-  const CSemanticMap map = testing::sampleMap();
+  const CSemanticMap map = test::sampleMap();
   for (const auto& [width, height] : {std::pair{800, 600}, {500, 700}}) {
     const SnapshotOptions options{SnapshotView::kTop, width, height, ""};
     const cv::Mat image = snapshot(map, options);
@@ -73,7 +73,7 @@ TEST(Snapshot, ObjectsHaveTheirClassColourWhereTheyAre) {
 }
 
 TEST(Snapshot, WorksWithoutOccupancyObjectsOrPath) {
-  CSemanticMap map = testing::sampleMap();
+  CSemanticMap map = test::sampleMap();
   map.occupancy.reset();
   EXPECT_FALSE(snapshot(map, {SnapshotView::kTop, 320, 240, ""}).empty());
   map.landmarks.clear();
@@ -83,14 +83,14 @@ TEST(Snapshot, WorksWithoutOccupancyObjectsOrPath) {
 
 TEST(Snapshot, UnwritablePlaceIsARunError) {
   const TemporaryFolder folder;
-  EXPECT_THROW(renderSnapshot(testing::sampleMap(), database(), {SnapshotView::kTop, 320, 240, ""},
+  EXPECT_THROW(renderSnapshot(test::sampleMap(), database(), {SnapshotView::kTop, 320, 240, ""},
                               folder.file("missing/x.png")),
                RunError);
 }
 
 TEST(Scene, HasAnObjectPerLandmarkAndCanBeSaved) {
   const TemporaryFolder folder;
-  const auto scene = buildScene(testing::sampleMap(), database());
+  const auto scene = buildScene(test::sampleMap(), database());
   for (const char* name : {"floor", "walls", "path", "swivel_chair 1", "sofa 2", "door 7"})
     EXPECT_TRUE(scene->getByName(name)) << name;
   ASSERT_TRUE(scene->saveToFile(folder.file("x.3Dscene").string()));

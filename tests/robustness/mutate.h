@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Damages bytes as disks, transfers and wrong programs do; the same seed gives the same damage everywhere.
 class Mutator {
@@ -75,4 +75,4 @@ class Mutator {
   std::mt19937 random_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

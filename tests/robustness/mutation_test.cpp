@@ -17,7 +17,7 @@
 #include "roomgraph/evaluation/relations.h"
 #include "roomgraph/evaluation/trajectory_file.h"
 #include "roomgraph/mapping/map_files.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/setup.h"
 #include "roomgraph/simulation/world_file.h"
 #include "sample_map.h"
 #include "temporary_folder.h"
@@ -26,7 +26,7 @@
 // Every reader gets 500 damaged files. It may use what is left or throw an Error with its exit code; nothing
 // else: no other exception, no crash, no gigabytes.
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 constexpr unsigned kSeeds = 500;
@@ -195,7 +195,7 @@ TEST_F(Mutation, World) {
 
 TEST_F(Mutation, Config) {
   expectSurvival(sourceFile("config.ini"), false, [](const Path& file) {
-    makeStages(Config::fromFile(file), ROOMGRAPH_SOURCE_DIR "/objects.ini");
+    makeSetup(Config::fromFile(file), ROOMGRAPH_SOURCE_DIR "/objects.ini");
   });
 }
 
@@ -247,4 +247,4 @@ TEST_F(Mutation, OccupancyMap) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -14,7 +14,7 @@
 
 // One number that is none, or is absurd, in one record: the record may be lost, nothing else.
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 const double kPoisons[] = {std::numeric_limits<double>::quiet_NaN(), 1e12};
@@ -82,11 +82,11 @@ TEST(Poison, EveryByteOfASensoryFrame) {
 
 /// What a whole run makes of a file.
 SlamResult run(const std::filesystem::path& file) {
-  auto stages = makeStages(Config::fromText("[detection]\nclass = RecordedDetector\n", "test"),
+  auto setup = makeSetup(Config::fromText("[detection]\nclass = RecordedDetector\n", "test"),
                            ROOMGRAPH_SOURCE_DIR "/objects.ini");
   RawlogReader reader(file);
-  RecordSorter sorter(stages->general.lookahead_s);
-  SemanticSlam slam(std::move(stages));
+  RecordSorter sorter(setup->options.general.lookahead_s);
+  SemanticSlam slam(std::move(setup));
   while (auto record = reader.next()) {
     sorter.push(std::move(*record));
     while (const auto next = sorter.pop(false)) slam.process(*next);
@@ -139,4 +139,4 @@ TEST(Poison, WholeRunsWithImages) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -12,7 +12,7 @@
 #include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/register_classes.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// A recording as short as it can be with one of each kind of record before, in and after its middle.
 struct ThreeFrames {
@@ -91,4 +91,4 @@ inline bool isFinite(const Record& record) {
          std::visit([](const auto& value) { return isFinite(value); }, record);
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 #include "random_poses.h"
 #include "roomgraph/selection/proposal_selector.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// An object of a made-up room.
 struct RoomObject {
@@ -71,4 +71,4 @@ inline FrameProposals seenFrom(FrameContext& context, const std::vector<RoomObje
   return out;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -8,7 +8,7 @@
 
 #include "made_up_room.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 Viewpoint viewOf(const FrameContext& context) {
@@ -146,4 +146,4 @@ TEST(Features, OfTheMadeUpRoomLieOnTheirObjects) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -7,7 +7,7 @@
 #include "made_up_room.h"
 #include "unary_selector.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 // 8 boxes, 4 proposals each, 8 * 12 + 900 features; the camera swings and every third frame misses an object.
@@ -40,6 +40,6 @@ BENCHMARK(selectEightObjects<UnarySelector>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(selectEightObjects<CrfSelector>)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test
 
 BENCHMARK_MAIN();

@@ -9,7 +9,7 @@
 
 #include "random_poses.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 LabelledBox boxAt(double u, double v, std::uint8_t label, double size = 20) {
@@ -161,4 +161,4 @@ TEST(IdentityLinks, NeedOverlapAndTheSameLabel) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

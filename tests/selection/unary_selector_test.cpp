@@ -12,7 +12,7 @@
 #include "roomgraph/core/config.h"
 #include "roomgraph/selection/register_classes.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 Detection detectionAt(const Box2& box, double score) {
@@ -155,4 +155,4 @@ TEST(UnarySelector, IsMadeByName) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -13,7 +13,7 @@ namespace roomgraph {
 namespace {
 
 struct Rendered {
-  World world = testing::exampleWorld();
+  World world = test::exampleWorld();
   Scene scene{world};
   ColorRenderer renderer{scene, world.camera->model};
   std::vector<Pose3> parts = scene.partPoses(1);

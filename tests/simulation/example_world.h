@@ -6,7 +6,7 @@
 
 #include "roomgraph/simulation/world_file.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// A room of 6 x 4 m; the robot drives along x from (1, 2) to (3, 2), so world = plan moved by (-1, -2).
 inline std::string exampleWorldText() {
@@ -33,4 +33,4 @@ inline std::string changed(const std::string& from, const std::string& to) {
   return text;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

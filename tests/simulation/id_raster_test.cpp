@@ -12,8 +12,8 @@ namespace roomgraph {
 namespace {
 
 struct Picture {
-  Scene scene{testing::exampleWorld()};
-  PinholeCamera camera = testing::exampleWorld().camera->model;
+  Scene scene{test::exampleWorld()};
+  PinholeCamera camera = test::exampleWorld().camera->model;
   Pose3 world_from_camera = scene.worldFromCamera(0);
   IdImage image = rasterize(scene, scene.partPoses(0), world_from_camera, camera);
 
@@ -59,7 +59,7 @@ TEST(IdRaster, BoxesMatchTheProjectedCorners) {
 }
 
 TEST(IdRaster, CountsWhatIsHiddenAndWhatIsCutOff) {
-  World world = testing::exampleWorld();
+  World world = test::exampleWorld();
   // A second block right behind the first one, a third one half outside on the left.
   Furniture behind = world.furniture[0];
   behind.at_m = {5.3, 2.5, 0};

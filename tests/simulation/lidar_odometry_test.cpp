@@ -22,7 +22,7 @@ double toWall(const Eigen::Vector2d& at, double angle) {
 }
 
 TEST(LidarCaster, RayLengthsAreExact) {
-  World world = testing::exampleWorld();
+  World world = test::exampleWorld();
   world.people.clear();
   world.furniture.clear();
   world.rooms[0].doorways.clear();
@@ -37,7 +37,7 @@ TEST(LidarCaster, RayLengthsAreExact) {
 }
 
 TEST(LidarCaster, SeesFurnitureAndPersonsWhereTheyAre) {
-  const Scene scene(testing::exampleWorld());
+  const Scene scene(test::exampleWorld());
   const LidarCaster caster(scene, 0.25);
   const auto range = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to, double t) {
     const double yaw = std::atan2((to - from).y(), (to - from).x());
@@ -73,7 +73,7 @@ TEST(MeasureScan, NoiseDropoutsAndLimits) {
 }
 
 std::vector<Pose2> drive() {
-  const Scene scene(testing::exampleWorld());
+  const Scene scene(test::exampleWorld());
   std::vector<Pose2> out;
   for (double t = 0; t < scene.duration(); t += 0.05) out.push_back(planarPart(scene.worldFromRobot(t)));
   return out;
@@ -104,8 +104,8 @@ TEST(MeasureOdometry, ScaleSlipAndDriftAddUp) {
 }
 
 TEST(MeasureDetections, JitterMissesFalseAlarmsAndConfusion) {
-  const Scene scene(testing::exampleWorld());
-  const PinholeCamera camera = testing::exampleWorld().camera->model;
+  const Scene scene(test::exampleWorld());
+  const PinholeCamera camera = test::exampleWorld().camera->model;
   int person = 0;
   while (scene.objects()[static_cast<std::size_t>(person)].kind != "person") ++person;
   const ObjectView view{person, 9000, {200, 100, 80, 240}, {200, 100, 80, 240}, 0.9, 0.9, 1, 2.0};

@@ -31,13 +31,13 @@ f 2 6 3
 )";
 
 struct MeshWorld {
-  testing::TemporaryFolder folder;
+  test::TemporaryFolder folder;
   std::filesystem::path file;
   MeshWorld() {
     folder.write("wedge.obj", kWedge);
     folder.write("wedge.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
     file = folder.write("w.json",
-                        testing::changed("\"model\": \"block\",",
+                        test::changed("\"model\": \"block\",",
                                          "\"model\": \"sofa\", \"mesh\": \"wedge.obj\", \"yaw_deg\": 90,"));
   }
 };
@@ -69,10 +69,10 @@ TEST(MeshFile, ReplacesFurnitureFittedAndTurned) {
 TEST(MeshFile, AMissingOrBrokenFileIsNamed) {
   const MeshWorld example;
   std::filesystem::remove(example.folder.file("wedge.obj"));
-  EXPECT_THAT(testing::messageOf<ConfigError>([&] { readWorld(example.file); }),
+  EXPECT_THAT(test::messageOf<ConfigError>([&] { readWorld(example.file); }),
               AllOf(HasSubstr("furniture[0].mesh"), HasSubstr("wedge.obj")));
   example.folder.write("wedge.obj", "not a mesh");
-  EXPECT_THAT(testing::messageOf<InputError>([&] { Scene scene(readWorld(example.file)); }),
+  EXPECT_THAT(test::messageOf<InputError>([&] { Scene scene(readWorld(example.file)); }),
               HasSubstr("wedge.obj"));
 }
 

@@ -16,7 +16,7 @@ const SceneObject& only(const Scene& scene, const std::string& kind) {
 }
 
 TEST(Scene, TheWorldIsTheFirstPoseOfTheRobot) {
-  const Scene scene(testing::exampleWorld());
+  const Scene scene(test::exampleWorld());
   EXPECT_LT((scene.worldFromRobot(0).matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-9);
   EXPECT_LT((scene.worldFromRobot(1e6).translation() - Eigen::Vector3d(2, 0, 0)).norm(), 0.02);
   // The camera's optical axis points forward, its x axis to the right.
@@ -27,7 +27,7 @@ TEST(Scene, TheWorldIsTheFirstPoseOfTheRobot) {
 }
 
 TEST(Scene, ObjectsAreWhereThePlanPutsThem) {
-  const Scene scene(testing::exampleWorld());
+  const Scene scene(test::exampleWorld());
   const auto& block = only(scene, "block");
   EXPECT_LT((block.world_from_object.translation() - Eigen::Vector3d(3.5, 0.5, 0)).norm(), 1e-9);
   ASSERT_EQ(block.footprint.size(), 4u);
@@ -43,7 +43,7 @@ TEST(Scene, ObjectsAreWhereThePlanPutsThem) {
 }
 
 TEST(Scene, OnlyPersonsMove) {
-  const Scene scene(testing::exampleWorld());
+  const Scene scene(test::exampleWorld());
   const auto a = scene.partPoses(0), b = scene.partPoses(2);
   ASSERT_EQ(a.size(), scene.parts().size());
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -52,7 +52,7 @@ TEST(Scene, OnlyPersonsMove) {
 }
 
 TEST(Scene, AHandHeldRecordingStartsLevelOnTheFloor) {
-  World world = testing::exampleWorld();
+  World world = test::exampleWorld();
   world.robot.reset();
   world.lidar.reset();
   world.odometry.reset();

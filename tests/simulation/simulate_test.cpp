@@ -15,7 +15,7 @@ namespace roomgraph {
 namespace {
 
 World shortWorld() {
-  World world = testing::exampleWorld();
+  World world = test::exampleWorld();
   world.duration_s = 0.45;
   world.detections = DetectionsSpec{};
   return world;
@@ -29,7 +29,7 @@ std::size_t lines(const std::string& text) {
 }
 
 TEST(Simulate, TheRecordingReadsBackWithItsTruth) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const World world = shortWorld();
   const Scene scene(world);
   const auto result = simulate(world, folder.path(), {});
@@ -79,7 +79,7 @@ TEST(Simulate, TheRecordingReadsBackWithItsTruth) {
 }
 
 TEST(Simulate, TheSameSeedGivesTheSameBytes) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const World world = shortWorld();
   SimulateOptions other;
   other.seed = 2;
@@ -95,7 +95,7 @@ TEST(Simulate, TheSameSeedGivesTheSameBytes) {
 }
 
 TEST(Simulate, AnInterruptedRecordingIsComplete) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   int asked = 0;
   SimulateOptions options;
   options.interrupted = [&] { return ++asked > 9; };

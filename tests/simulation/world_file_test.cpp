@@ -12,16 +12,16 @@ namespace roomgraph {
 namespace {
 
 using ::testing::AllOf;
-using testing::changed;
+using test::changed;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string complaint(const std::string& from, const std::string& to) {
-  return testing::messageOf<ConfigError>([&] { parseWorld(changed(from, to), "w.json"); });
+  return test::messageOf<ConfigError>([&] { parseWorld(changed(from, to), "w.json"); });
 }
 
 TEST(WorldFile, ReadsWhatIsWritten) {
-  const World world = testing::exampleWorld();
+  const World world = test::exampleWorld();
   EXPECT_EQ(world.name, "example");
   ASSERT_EQ(world.rooms.size(), 1u);
   EXPECT_EQ(world.rooms[0].max_m, Eigen::Vector2d(6, 4));
@@ -53,9 +53,9 @@ TEST(WorldFile, EveryMistakeNamesFileAndEntry) {
   EXPECT_THAT(complaint("\"rooms\"", "rooms"),
               AllOf(HasSubstr("w.json: not valid JSON: line "), Not(HasSubstr("exception"))));
   EXPECT_THAT(complaint("[1, 2]", "[1e999, 2]"), HasSubstr("the number 1e999 is too large"));
-  EXPECT_THAT(testing::messageOf<ConfigError>([] { parseWorld("", "w.json"); }),
+  EXPECT_THAT(test::messageOf<ConfigError>([] { parseWorld("", "w.json"); }),
               HasSubstr("w.json: is empty"));
-  EXPECT_THAT(testing::messageOf<InputError>([] { readWorld("/nowhere/w.json"); }),
+  EXPECT_THAT(test::messageOf<InputError>([] { readWorld("/nowhere/w.json"); }),
               HasSubstr("/nowhere/w.json"));
 }
 

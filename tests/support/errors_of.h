@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// The message of the exception of the given type that `action` throws; fails the test when it throws none or
 /// another.
@@ -24,4 +24,4 @@ std::string messageOf(Action&& action) {
   return "";
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

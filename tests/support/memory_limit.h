@@ -4,7 +4,7 @@
 
 #include <sys/resource.h>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Sanitizers bring an operator new of their own, which knows no AllocationLimit, and need more addresses
 /// than a limit would leave them.
@@ -28,4 +28,4 @@ inline void limitAddressSpace() {
   if (kMemoryCanBeLimited) setrlimit(RLIMIT_AS, &limit);
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

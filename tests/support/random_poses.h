@@ -6,7 +6,7 @@
 
 #include "roomgraph/geometry/pose.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Numbers and poses from a fixed seed. std::uniform_real_distribution may differ between standard libraries,
 /// so the numbers come straight from the generator.
@@ -39,4 +39,4 @@ class Random {
   std::mt19937 generator_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

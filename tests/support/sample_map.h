@@ -7,7 +7,7 @@
 
 #include "roomgraph/observations/CSemanticMap.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 inline Landmark sampleLandmark(std::int64_t id, const std::string& class_name, ShapeKind kind, double x,
                                double y) {
@@ -49,4 +49,4 @@ inline CSemanticMap sampleMap() {
   return map;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

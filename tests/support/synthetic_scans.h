@@ -8,7 +8,7 @@
 
 #include "roomgraph/observations/scan.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 struct Wall {
   Eigen::Vector2d from, to;
@@ -69,4 +69,4 @@ inline Scan castScan(const std::vector<Wall>& walls, const Pose2& world_from_rob
   return scan;
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

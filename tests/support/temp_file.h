@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// A folder of its own for one test; removed at the end.
 class TempFolder {
@@ -37,4 +37,4 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

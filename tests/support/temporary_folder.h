@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Temporary folder of a test, with reading and counting of its files.
+// Temporary folder of a test, with reading, writing and counting of its files.
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
-/// An empty folder of the running test, removed at the end.
+/// An empty folder with a name of its own, removed at the end.
 class TemporaryFolder {
  public:
+  /// Throws std::runtime_error when it cannot be made.
   TemporaryFolder() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("roomgraph_" + std::string(info->test_suite_name()) +
-                                                      "_" + info->name() + "_" + std::to_string(getpid()));
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "roomgraph_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder " + name);
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -31,6 +30,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
+  std::filesystem::path operator/(const std::string& name) const { return file(name); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(file(name), std::ios::binary) << text;
     return file(name);
@@ -49,4 +49,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

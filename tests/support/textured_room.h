@@ -10,7 +10,7 @@
 
 #include "roomgraph/observations/frame.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Inside of a 6 x 4 x 3 m box whose faces carry random textures, seen by an ideal RGB-D camera. World: the
 /// box spans x in [-3, 3], y in [-1.5, 1.5] (down), z in [-2, 2]; exact depth, no noise.
@@ -80,4 +80,4 @@ class TexturedRoom {
   std::vector<cv::Mat> textures_;
 };
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -7,7 +7,7 @@
 
 #include "temporary_folder.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 
 /// Writes tiny.cfg and tiny.weights: a Darknet network of one convolution, whose weights are all 0 and whose
 /// biases say "nothing here", for so many classes. Returns the weights file.
@@ -29,4 +29,4 @@ inline std::filesystem::path writeTinyNetwork(const TemporaryFolder& folder, int
   return folder.write("tiny.weights", bytes);
 }
 
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

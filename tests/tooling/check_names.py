@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """No type name is defined twice in libs/: the libraries are shared, so two definitions of one name in the same namespace
-are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces are free.
+are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces of different libraries
+are free; those of one library are not, because a unity build compiles several of its files as one.
 
 Usage: check_names.py ROOT
 """
@@ -16,8 +17,11 @@ SCOPE = re.compile(r"\b(?P<kind>namespace|class|struct|union|enum(?:\s+class|\s+
 TEMPLATE = re.compile(r"\btemplate\s*<[^<>]*(?:<[^<>]*>[^<>]*)*>")  # its "class T" is no class
 
 
+ANONYMOUS = "(anonymous)"
+
+
 def types_of(text):
-    """(namespace, name, line) of every type defined at namespace level, outside anonymous namespaces."""
+    """(namespace, name, line) of every type defined at namespace level; anonymous ones are called ANONYMOUS."""
     scopes = []  # name of the namespace, None for everything that is none
     text = TEMPLATE.sub(lambda m: "\n" * m.group(0).count("\n"), cpp_functions.blanked(text))
     for match in SCOPE.finditer(text):
@@ -27,10 +31,10 @@ def types_of(text):
         elif match.group(0) == "{":
             scopes.append(None)
         elif match.group("kind") == "namespace":
-            scopes.append(match.group("name") or "(anonymous)")
+            scopes.append(match.group("name") or ANONYMOUS)
         else:
             name = match.group("name")
-            if name and "::" not in name and None not in scopes and "(anonymous)" not in scopes:
+            if name and "::" not in name and None not in scopes:
                 yield "::".join(scopes), name, text.count("\n", 0, match.start("name")) + 1
             scopes.append(None)
 
@@ -43,9 +47,11 @@ def check(root):
         checked += 1
         for scope, name, line in types_of(source_files.read(root, path)):
             place = f"{path}:{line}"
-            if (scope, name) in first:
-                problems.append(f"{place}: {scope}::{name} is defined at {first[scope, name]} already")
-            first.setdefault((scope, name), place)
+            # An anonymous type is a rival to the other anonymous types of its library only.
+            key = (scope, name, path.parts[1] if ANONYMOUS in scope else None)
+            if key in first:
+                problems.append(f"{place}: {scope}::{name} is defined at {first[key]} already")
+            first.setdefault(key, place)
     return problems, checked
 
 

@@ -6,11 +6,11 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/config.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/setup.h"
 #include "temporary_folder.h"
 #include "tiny_network.h"
 
-namespace roomgraph::testing {
+namespace roomgraph::test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -32,8 +32,8 @@ class ConfigFiles : public ::testing::Test {
     fs::rename(weights, folder.file("data/tiny.weights"));
     fs::rename(folder.file("tiny.cfg"), folder.file("data/tiny.cfg"));
   }
-  std::unique_ptr<Stages> stagesOf(const std::string& text) const {
-    return makeStages(Config::fromFile(folder.write("my.ini", text)), "/nowhere/objects.ini");
+  std::unique_ptr<Setup> setupOf(const std::string& text) const {
+    return makeSetup(Config::fromFile(folder.write("my.ini", text)), "/nowhere/objects.ini");
   }
   TemporaryFolder folder;
 };
@@ -42,12 +42,12 @@ TEST_F(ConfigFiles, AreBesideTheConfiguration) {
   const std::string common = "[pipeline]\nplugins = plugins/associator.so\nobjects_file = data/my_objects.ini\n"
                              "[association]\nclass = GreedyNearestAssociator\n[detection]\n";
   const auto networks =
-      stagesOf(common + "models = data/tiny.weights:darknet\nlabels_file = data/names.txt\n");
-  EXPECT_EQ(networks->detector->identity().model, "tiny");
+      setupOf(common + "models = data/tiny.weights:darknet\nlabels_file = data/names.txt\n");
+  EXPECT_EQ(networks->stages.detector->identity().model, "tiny");
   EXPECT_TRUE(networks->database.find("stool"));
-  EXPECT_THAT(networks->general.plugins, ElementsAre(folder.file("plugins/associator.so").string()));
-  const auto recorded = stagesOf(common + "class = RecordedDetector\nfile = data/boxes.jsonl\n");
-  EXPECT_EQ(recorded->detector->identity().model, "boxes.jsonl");
+  EXPECT_THAT(networks->options.general.plugins, ElementsAre(folder.file("plugins/associator.so").string()));
+  const auto recorded = setupOf(common + "class = RecordedDetector\nfile = data/boxes.jsonl\n");
+  EXPECT_EQ(recorded->stages.detector->identity().model, "boxes.jsonl");
   // What the run writes down names the same files from wherever it is read.
   EXPECT_THAT(networks->effective_config, HasSubstr("models = " + folder.file("data/tiny.weights").string()));
   EXPECT_THAT(networks->effective_config, HasSubstr("labels_file = " + folder.file("data/names.txt").string()));
@@ -55,13 +55,13 @@ TEST_F(ConfigFiles, AreBesideTheConfiguration) {
 
 TEST_F(ConfigFiles, ThatAreNotThereAreNamedWithTheirFolder) {
   const auto at = [&](const std::string& name) { return HasSubstr(folder.file(name).string()); };
-  EXPECT_THAT(messageOf<ConfigError>([&] { stagesOf("[pipeline]\nplugins = none.so\n"); }), at("none.so"));
-  EXPECT_THAT(messageOf<ConfigError>([&] { stagesOf("[pipeline]\nobjects_file = none.ini\n"); }), at("none.ini"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { setupOf("[pipeline]\nplugins = none.so\n"); }), at("none.so"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { setupOf("[pipeline]\nobjects_file = none.ini\n"); }), at("none.ini"));
   const std::string objects = "[pipeline]\nobjects_file = data/my_objects.ini\n[detection]\n";
-  EXPECT_THAT(messageOf<InputError>([&] { stagesOf(objects + "models = none.onnx\n"); }), at("none.onnx"));
-  EXPECT_THAT(messageOf<InputError>([&] { stagesOf(objects + "file = none.jsonl\n"); }), at("none.jsonl"));
+  EXPECT_THAT(messageOf<InputError>([&] { setupOf(objects + "models = none.onnx\n"); }), at("none.onnx"));
+  EXPECT_THAT(messageOf<InputError>([&] { setupOf(objects + "file = none.jsonl\n"); }), at("none.jsonl"));
   EXPECT_THAT(messageOf<InputError>([&] {
-                stagesOf(objects + "models = data/tiny.weights\nlabels_file = none.txt\n");
+                setupOf(objects + "models = data/tiny.weights\nlabels_file = none.txt\n");
               }),
               at("none.txt"));
 }
@@ -80,4 +80,4 @@ TEST_F(ConfigFiles, TheseAreAllKeysThatNameFiles) {
 }
 
 }  // namespace
-}  // namespace roomgraph::testing
+}  // namespace roomgraph::test

@@ -27,6 +27,19 @@ def blanked(text):
     return MACRO.sub(lambda match: "\n" * match.group(0).count("\n"), TOKENS.sub(blank, text))
 
 
+def without_comments(text):
+    """The text without comments; literals stay, and every line keeps its number."""
+    def blank(match):
+        token = match.group(0)
+        return " " + "\n" * token.count("\n") if token.startswith(("//", "/*")) else strip_directive(token)
+    return TOKENS.sub(blank, text)
+
+
+def strip_directive(token):
+    """A preprocessor line without the comment at its end; other tokens as they are."""
+    return re.sub(r"//[^\n]*|/\*.*?\*/", " ", token, flags=re.DOTALL) if token.lstrip().startswith("#") else token
+
+
 def without_groups(head, left, right):
     """`head` with the insides of (nested) groups removed."""
     out, depth = [], 0

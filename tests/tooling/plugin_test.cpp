@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using testing::messageOf;
+using test::messageOf;
 using ::testing::Not;
 
 constexpr const char* kName = "GreedyNearestAssociator";

@@ -2,16 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The checks themselves: each must find what it is there for, and only that."""
 import pathlib
+import sys
 import tempfile
 import textwrap
 import unittest
 
+import check_headers
 import check_layers
 import check_names
 import check_references
 import check_sizes
 import check_text
 import cpp_functions
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
+import test_ratio  # noqa: E402
 
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
 HEAD = LICENCE + "// Example source for the checks.\n"
@@ -49,6 +54,67 @@ class Names(TreeTest):
                                        "namespace roomgraph::test {\nstruct View { int b; };\n}\n",
                                        "namespace roomgraph {\nstruct Outer {\n  struct View { int b; };\n  View v{};\n};\n"
                                        "template <class T>\nvoid g(T) {\n  struct View { int b; };\n}\n}\n"), [])
+
+
+    def test_anonymous_types_of_one_library(self):
+        text = "namespace roomgraph {\nnamespace {\nstruct View { int a; };\n}\n}\n"
+        self.write("libs/l0/src/b.cpp", text)
+        found = self.problems(text, text)
+        self.assertEqual(found, ["libs/l0/src/b.cpp:3: roomgraph::(anonymous)::View is defined at libs/l0/src/a.h:3 already"])
+
+
+class Headers(TreeTest):
+    def problems(self, listed, **files):
+        for name, text in {"lidar/include/roomgraph/lidar/a.h": "", **files}.items():
+            self.write(f"libs/{name}", text)
+        self.write("list.txt", listed)
+        return check_headers.check(self.root, self.root / "list.txt")[0]
+
+    def test_a_user_in_another_library_an_app_a_plugin_or_outside(self):
+        include = '#include "roomgraph/lidar/a.h"\n'
+        for user in ("libs/mapping/src/b.cpp", "apps/b.cpp", "plugins/p/b.h", "tests/tooling/consumer/main.cpp"):
+            self.write(user, include)
+            self.assertEqual(self.problems("# all\nlidar/a.h\n"), [], user)
+            (self.root / user).unlink()
+
+    def test_nobody_outside_includes_it(self):
+        for user in ("libs/lidar/src/b.cpp", "tests/lidar/b.cpp"):
+            self.write(user, '#include "roomgraph/lidar/a.h"\n')
+        self.assertEqual(self.problems("lidar/a.h\n"),
+                         ["libs/lidar/include/roomgraph/lidar/a.h: no other library, app or plug-in includes it: it belongs into src/"])
+        self.assertEqual(self.problems("lidar/a.h  for programs that read maps\n"), [])
+
+    def test_a_header_that_a_needed_header_needs(self):
+        files = {"lidar/include/roomgraph/lidar/b.h": '#include "roomgraph/lidar/a.h"\n'}
+        self.assertEqual(len(self.problems("lidar/a.h\nlidar/b.h\n", **files)), 2)
+        self.write("apps/c.cpp", '#include "roomgraph/lidar/b.h"\n')
+        self.assertEqual(self.problems("lidar/a.h\nlidar/b.h\n", **files), [])
+
+    def test_the_list_is_complete_and_true(self):
+        self.write("apps/b.cpp", '#include "roomgraph/lidar/a.h"\n')
+        self.assertEqual(self.problems(""), ["libs/lidar/include/roomgraph/lidar/a.h: is not in list.txt"])
+        self.assertEqual(self.problems("lidar/a.h\nlidar/b.h\n"), ["list.txt: there is no public header 'lidar/b.h'"])
+        self.assertEqual(self.problems("lidar/a.h for others\n"), ["list.txt: 'lidar/a.h' has users: it needs no reason"])
+
+
+class TestRatio(TreeTest):
+    CODE = "// comment\n\nint f() {  /* another\n  */ return 1;\n}\n"  # three lines of code
+
+    def test_only_lines_with_code_count(self):
+        self.assertEqual(test_ratio.count(self.CODE), 3)
+        self.assertEqual(test_ratio.count('const char* s = "// no comment";  // one\n#include "a.h"  // two\n// three\n'), 2)
+
+    def test_the_table_and_its_limits(self):
+        self.write("libs/lidar/src/a.cpp", self.CODE * 2)
+        self.write("libs/lidar/CMakeLists.txt", "x\n" * 99)
+        self.write("apps/a.cpp", self.CODE)
+        self.write("tests/lidar/a_test.cpp", self.CODE)
+        self.write("tests/support/b.h", self.CODE)
+        rows = test_ratio.table(self.root)
+        self.assertEqual(rows, [("lidar", 6, 3), ("overall", 9, 6)])
+        self.assertEqual(test_ratio.too_low(rows, 0.5, 0.66), [])
+        self.assertEqual(test_ratio.too_low(rows, 0.51, 0.67), ["lidar", "overall"])
+        self.assertEqual(test_ratio.too_low([("overall", 0, 0)], 0.5, 0.6), ["overall"])
 
 
 class Layers(TreeTest):
@@ -271,7 +337,7 @@ class References(TreeTest):
 
 class Vacuous(TreeTest):
     def test_an_empty_tree_is_noticed(self):
-        for check in (check_layers.check, check_text.check):
+        for check in (check_layers.check, check_text.check, lambda root: check_headers.check(root, root / "list.txt")):
             self.assertEqual(check(self.root), ([], 0))
 
 

@@ -37,7 +37,7 @@ TEST(FeatureGrid, FindsWhatBruteForceFinds) {
 
 TEST(FeatureExtractor, SpreadsFeaturesEvenly) {
   // Strong corners on the left half, weak ones on the right: both halves must get features.
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   Frame frame = room.render(0, Pose3::Identity());
   cv::Mat right = frame.gray.colRange(160, 320);
   right.convertTo(right, CV_8U, 0.3, 90);
@@ -49,7 +49,7 @@ TEST(FeatureExtractor, SpreadsFeaturesEvenly) {
 }
 
 TEST(FeatureExtractor, LeavesOutExcludedBoxes) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   const Frame frame = room.render(0, Pose3::Identity());
   const Box2 box{100, 60, 220, 180};
   const auto inside = [&](const Features& features) {
@@ -64,7 +64,7 @@ TEST(FeatureExtractor, LeavesOutExcludedBoxes) {
 }
 
 TEST(FeatureExtractor, DropsDepthAtEdges) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   Frame frame = room.render(0, Pose3::Identity());
   frame.depth.setTo(2.F);
   frame.depth.colRange(160, 320).setTo(3.F);
@@ -84,7 +84,7 @@ TEST(FeatureExtractor, DropsDepthAtEdges) {
 }
 
 TEST(Matcher, FindsTheSameFeaturesInTheSameImage) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   const Frame frame = room.render(0, Pose3::Identity());
   const auto features = extractFeatures(frame.gray, frame, {}, {});
   const auto matches = matchDescriptors(features.descriptors, features.descriptors, {});

@@ -24,8 +24,8 @@ Pose3 poseAt(int i) {
   return pose;
 }
 
-const testing::TexturedRoom& room() {
-  static const testing::TexturedRoom kRoom;
+const test::TexturedRoom& room() {
+  static const test::TexturedRoom kRoom;
   return kRoom;
 }
 
@@ -129,7 +129,7 @@ TEST(FeatureOdometry, RelocalisesAfterBlankImages) {
 TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
   FeatureOdometry odometry;
   for (int i = 0; i < 3; ++i) odometry.track(room().render(i, poseAt(i)), {});
-  const testing::TexturedRoom elsewhere(77);
+  const test::TexturedRoom elsewhere(77);
   int first_tracked = 0;
   for (int i = 3; i < 15; ++i) {
     const auto result = odometry.track(elsewhere.render(i, poseAt(i)), {});
@@ -166,7 +166,7 @@ TEST(FeatureOdometry, RefusesATinyImage) {
 
 /// Pastes a moving textured patch, nearer than the wall, into a frame.
 void addMover(Frame& frame, int column) {
-  const Frame texture = testing::TexturedRoom(9).render(0, Pose3::Identity());
+  const Frame texture = test::TexturedRoom(9).render(0, Pose3::Identity());
   const cv::Rect place(column, 20, 170, 200);
   texture.gray(cv::Rect(60, 20, 170, 200)).copyTo(frame.gray(place));
   frame.depth(place).setTo(1.F);

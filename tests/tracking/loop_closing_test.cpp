@@ -18,7 +18,7 @@ Pose3 looking(double yaw) {
 }
 
 TEST(Thumbnail, IsMostSimilarToItself) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   const auto a = tracking::makeThumbnail(room.render(0, looking(0)).gray);
   const auto b = tracking::makeThumbnail(room.render(0, looking(1.5)).gray);
   EXPECT_NEAR(tracking::similarity(a, a), 1, 1e-5);
@@ -26,7 +26,7 @@ TEST(Thumbnail, IsMostSimilarToItself) {
 }
 
 TEST(LoopClosing, FullTurnClosesALoopWithTheTrueRelativePose) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   FeatureOdometry odometry;
   Config::fromText("[tracking]\nloop_min_gap = 8\n").read("tracking", odometry);
   std::vector<RelativePose> closures;
@@ -46,7 +46,7 @@ TEST(LoopClosing, FullTurnClosesALoopWithTheTrueRelativePose) {
 }
 
 TEST(LoopClosing, AProposedClosureIsConfirmedByTheImagesOrNot) {
-  const testing::TexturedRoom room;
+  const test::TexturedRoom room;
   FeatureOdometry odometry;
   const double step = 0.13;
   for (int i = 0; i < 49; ++i)

@@ -26,33 +26,6 @@ bool opposite(double a, double b) {
 
 }  // namespace
 
-void LandmarkMap::declareParameters(ParameterVisitor& v) {
-  v.add("birth_existence", birth_existence_,
-        {.doc = "existence probability of a landmark seen once", .min = 0.01, .max = 0.99});
-  v.add("detection_probability", detection_probability_,
-        {.doc = "that an existing object in good view is detected", .min = 0.01, .max = 0.99});
-  v.add("score_gain", score_gain_,
-        {.doc = "log of the likelihood ratio of existence per unit of a sighting's score",
-         .min = 0,
-         .max = 50});
-  v.add("neutral_score", neutral_score_,
-        {.doc = "score of a sighting that speaks neither for nor against the object", .min = 0, .max = 1});
-  v.add("false_alarm_probability", false_alarm_probability_,
-        {.doc = "that something is detected where there is no object", .min = 0.001, .max = 0.99});
-  v.add("confirm_existence", confirm_existence_, {.doc = "existence needed for the map", .min = 0, .max = 1});
-  v.add("confirm_observations", confirm_observations_,
-        {.doc = "sightings needed for the map", .min = 1, .max = 1000});
-  v.add("exclusive_overlap", exclusive_overlap_,
-        {.doc = "share of a footprint under another landmark above which only the better seen one is kept",
-         .min = 0,
-         .max = 1});
-  v.add("ray_gain", ray_gain_,
-        {.doc = "log of the likelihood ratio of existence per ray that ends in the object, or passes through",
-         .min = 0,
-         .max = 10});
-  duplicates_.declare(v);
-}
-
 const Landmark* LandmarkMap::find(LandmarkId id) const {
   for (const auto& landmark : landmarks_)
     if (landmark.id == id) return &landmark;
@@ -74,8 +47,8 @@ double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasure
   if (isElsewhere(landmark, seen)) share = 0;
   // The poorer a sighting, the less it says either way: with a score of 0 nothing but a box was seen.
   const double score = measurement.proposal.score;
-  if (score < neutral_score_) share *= score / neutral_score_;
-  return std::exp(score_gain_ * share * (score - neutral_score_));
+  if (score < options_.neutral_score) share *= score / options_.neutral_score;
+  return std::exp(options_.score_gain * share * (score - options_.neutral_score));
 }
 
 LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& association) {
@@ -83,7 +56,7 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& 
   Landmark* landmark = get(association.landmark);
   const bool fresh = landmark == nullptr;
   if (fresh) {
-    landmarks_.push_back(bornFrom(seen, LandmarkId{next_id_++}, birth_existence_));
+    landmarks_.push_back(bornFrom(seen, LandmarkId{next_id_++}, rules().birth_existence));
     landmark = &landmarks_.back();
   }
   LandmarkRecord& record = records_[landmark->id];
@@ -143,18 +116,18 @@ void LandmarkMap::doubt(LandmarkId id, double log_ratio) {
 }
 
 void LandmarkMap::miss(LandmarkId id) {
-  doubt(id, std::log((1 - detection_probability_) / (1 - false_alarm_probability_)));
+  doubt(id, std::log((1 - options_.detection_probability) / (1 - options_.false_alarm_probability)));
 }
 
 void LandmarkMap::seenThrough(LandmarkId id, int rays) {
-  doubt(id, -ray_gain_ * std::clamp(rays, 0, kMaxRays));
+  doubt(id, -options_.ray_gain * std::clamp(rays, 0, kMaxRays));
 }
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
   if (!find(id)) return;
   // Something is there, which need not be what the landmark is taken for.
   double& support = records_[id].ray_support;
-  const double gain = std::min(ray_gain_ * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
+  const double gain = std::min(options_.ray_gain * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
   support += gain;
   doubt(id, gain);
 }
@@ -209,7 +182,8 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
   std::vector<std::pair<LandmarkId, LandmarkId>> merged;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     for (std::size_t j = i + 1; j < landmarks_.size();) {
-      if (!duplicates_.same(landmarks_[i], landmarks_[j], together(landmarks_[i].id, landmarks_[j].id))) {
+      const int together_seen = together(landmarks_[i].id, landmarks_[j].id);
+      if (!rules().duplicates.same(landmarks_[i], landmarks_[j], together_seen)) {
         ++j;
         continue;
       }
@@ -228,7 +202,7 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
     Landmark& landmark = landmarks_[i];
     LandmarkRecord& record = records_[landmark.id];
     const std::vector<PlaceSketch> sightings(record.recent.begin(), record.recent.end());
-    const auto split = findSplit(sightings, duplicates_.splitDistance(landmark.shape));
+    const auto split = findSplit(sightings, rules().duplicates.splitDistance(landmark.shape));
     if (!split) continue;
     Landmark made = landmark;
     made.id = LandmarkId{next_id_++};
@@ -259,7 +233,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   // Replayed as if seen for the first time, for the votes; then place and size as re-estimated.
   landmarks_ = result.landmarks;
   for (auto& landmark : landmarks_) {
-    landmark.existence = birth_existence_;
+    landmark.existence = rules().birth_existence;
     landmark.observations = 0;
     next_id_ = std::max(next_id_, landmark.id.value + 1);
   }
@@ -290,7 +264,8 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
 std::vector<Landmark> LandmarkMap::confirmed() const {
   std::vector<Landmark> sure;
   for (const auto& landmark : landmarks_)
-    if (landmark.existence >= confirm_existence_ && landmark.observations >= confirm_observations_)
+    if (landmark.existence >= options_.confirm_existence &&
+        landmark.observations >= options_.confirm_observations)
       sure.push_back(landmark);
   // Two things cannot be in one place: of overlapping landmarks (a sofa now and then labelled chair) the
   // better seen stays.
@@ -301,7 +276,7 @@ std::vector<Landmark> LandmarkMap::confirmed() const {
   for (const auto& landmark : sure) {
     const bool free = std::none_of(kept.begin(), kept.end(), [&](const Landmark& other) {
       return footprintOverlap(landmark.shape, landmark.worldFromObject(), other.shape,
-                              other.worldFromObject()) > exclusive_overlap_;
+                              other.worldFromObject()) > options_.exclusive_overlap;
     });
     if (free) kept.push_back(landmark);
   }

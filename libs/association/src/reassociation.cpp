@@ -16,9 +16,8 @@ namespace {
 
 using Frames = std::vector<std::vector<WorldMeasurement>>;
 using Decisions = std::vector<std::vector<BatchDecision>>;
-constexpr double kBatchExistence = 0.3;  // of a landmark made from what nobody claimed
-constexpr double kUnknown = 0.01;        // share of the objects that a whole run has left without a landmark
-constexpr int kLeastSightings = 3;       // of a landmark that competes for sightings of others
+constexpr double kUnknown = 0.01;   // share of the objects that a whole run has left without a landmark
+constexpr int kLeastSightings = 3;  // of a landmark that competes for sightings of others
 
 using Priors = std::vector<std::vector<std::vector<double>>>;  // by frame, measurement, alternative
 
@@ -117,7 +116,7 @@ std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidenc
 // gate, or make new ones, in order of time, which later ones in gate join. Landmarks so used become known.
 Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
                    const Decisions& last, const std::vector<Landmark>& weak, std::vector<Landmark>& landmarks,
-                   std::int64_t& next_id, const MeasurementModel& model) {
+                   std::int64_t& next_id, const MeasurementModel& model, double birth_existence) {
   const std::size_t known = landmarks.size();
   landmarks.insert(landmarks.end(), weak.begin(), weak.end());
   Decisions out;
@@ -133,12 +132,12 @@ Decisions complete(const Frames& frames, const std::vector<std::vector<Associati
       double best = model.new_density_per_m2;
       for (std::size_t j = known; j < landmarks.size(); ++j) {
         if (!model.inGate(seen, landmarks[j]) || taken.contains(landmarks[j].id)) continue;
-        const double density = kBatchExistence * model.density(seen, landmarks[j]);
+        const double density = birth_existence * model.density(seen, landmarks[j]);
         if (density > best) best = density, id = landmarks[j].id;
       }
       if (!id.valid()) {
         id = LandmarkId{next_id++};
-        landmarks.push_back(bornFrom(seen, id, kBatchExistence));
+        landmarks.push_back(bornFrom(seen, id, birth_existence));
       }
       taken.insert(id);
     }
@@ -298,7 +297,7 @@ void nameFirstSightings(Reassociation& result) {
 }  // namespace
 
 Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
-                          const AssociationModel& model, const DuplicateRule& duplicates, int max_rounds) {
+                          const AssociationModel& model, const LandmarkRules& rules, int max_rounds) {
   Reassociation out;
   out.landmarks = std::move(initial);
   std::int64_t next_id = 0;
@@ -311,12 +310,12 @@ Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
     const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
     Decisions decisions =
         complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions, weak,
-                 out.landmarks, next_id, model.measurement);
+                 out.landmarks, next_id, model.measurement, rules.birth_existence);
     replace(by_frame, decisions, out.landmarks, model.measurement);
-    if (open) joinDuplicates(duplicates, decisions, out.landmarks, out.merged);
+    if (open) joinDuplicates(rules.duplicates, decisions, out.landmarks, out.merged);
     out.settled = sameLandmarks(decisions, out.decisions);
     out.decisions = std::move(decisions);
-    if (open && !out.settled) partMixed(by_frame, out.decisions, out.landmarks, next_id, duplicates);
+    if (open && !out.settled) partMixed(by_frame, out.decisions, out.landmarks, next_id, rules.duplicates);
   }
   nameFirstSightings(out);
   return out;

@@ -54,58 +54,13 @@ struct OccupancyMapper::PosedFan {
   std::vector<Ray> rays;
 };
 
-void OccupancyMapper::declareParameters(ParameterVisitor& v) {
-  v.add("source", source_,
-        {.doc = "What fills the grid; auto: the lidar when there is one, else the depth camera.",
-         .choices = {"auto", "lidar", "depth", "both"}});
-  v.add("resolution_m", resolution_m_, {.doc = "Size of a cell.", .unit = "m", .min = 0.005, .max = 1});
-  v.add("max_range_m", max_range_m_,
-        {.doc = "Farther returns only free the way up to here.", .unit = "m", .min = 0.5, .max = 200});
-  v.add("no_return_free_m", no_return_free_m_,
-        {.doc = "Beams that met nothing within the lidar's range free the way up to here; 0: say nothing.",
-         .unit = "m",
-         .min = 0,
-         .max = 200});
-  v.add("hit_probability", hit_probability_,
-        {.doc = "Probability that a cell with a return is occupied, for one scan.", .min = 0.5, .max = 0.99});
-  v.add("pass_probability", pass_probability_,
-        {.doc = "Probability that a cell crossed by a beam is occupied, for one scan.",
-         .min = 0.01,
-         .max = 0.5});
-  v.add("min_move_m", min_move_m_,
-        {.doc = "A scan is used when the robot has moved this far since the last used one …",
-         .unit = "m",
-         .min = 0,
-         .max = 10});
-  v.add("min_turn_rad", min_turn_rad_,
-        {.doc = "… or turned this far …", .unit = "rad", .min = 0, .max = 3.2});
-  v.add("max_wait_s", max_wait_s_,
-        {.doc = "… or this time has passed, so that what moved away is cleared.",
-         .unit = "s",
-         .min = 0,
-         .max = 1e6});
-  v.add("depth_min_height_m", slice_.min_height_m,
-        {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
-         .unit = "m",
-         .min = 0.01,
-         .max = 2});
-  v.add("depth_max_height_m", slice_.max_height_m,
-        {.doc = "Upper end of that band.", .unit = "m", .min = 0.05, .max = 5});
-  v.add("depth_max_range_m", slice_.max_range_m,
-        {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
-  v.add("depth_step_px", slice_.step_px,
-        {.doc = "Every n-th pixel is used.", .unit = "px", .min = 1, .max = 32});
-  v.add("depth_beam_rad", slice_.beam_rad,
-        {.doc = "Width of a beam of the virtual scan.", .unit = "rad", .min = 0.001, .max = 0.2});
-}
-
 void OccupancyMapper::add(const Scan& scan) {
-  scans_.push_back(fanFromScan(scan, no_return_free_m_));
+  scans_.push_back(fanFromScan(scan, options_.no_return_free_m));
 }
 
 void OccupancyMapper::add(const Frame& frame, const Plane& ground) {
   if (!frame.hasDepth() || !frame.camera.valid()) return;
-  slices_.push_back(fanFromDepth(frame, ground, slice_));
+  slices_.push_back(fanFromDepth(frame, ground, options_.slice));
 }
 
 void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
@@ -116,19 +71,21 @@ void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory
     if (!pose) continue;
     if (last) {
       const Pose3 movement = last->pose.inverse() * *pose;
-      if (movement.translation().norm() < min_move_m_ && rotationAngle(movement) < min_turn_rad_ &&
-          std::abs(fan.t - last->t) < max_wait_s_)
+      if (movement.translation().norm() < options_.min_move_m &&
+          rotationAngle(movement) < options_.min_turn_rad && std::abs(fan.t - last->t) < options_.max_wait_s)
         continue;
     }
     last = StampedPose{fan.t, *pose};
     const Pose3 world_from_fan = *pose * fan.robot_from_fan;
-    out.push_back({world_from_fan.translation().head<2>(), raysInWorld(fan, world_from_fan, max_range_m_)});
+    out.push_back(
+        {world_from_fan.translation().head<2>(), raysInWorld(fan, world_from_fan, options_.max_range_m)});
   }
 }
 
 mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(const Trajectory& world_from_robot) const {
-  const bool use_scans = source_ == "lidar" || source_ == "both" || (source_ == "auto" && !scans_.empty());
-  const bool use_depth = source_ == "depth" || source_ == "both" || (source_ == "auto" && scans_.empty());
+  const std::string& source = options_.source;
+  const bool use_scans = source == "lidar" || source == "both" || (source == "auto" && !scans_.empty());
+  const bool use_depth = source == "depth" || source == "both" || (source == "auto" && scans_.empty());
   std::vector<PosedFan> posed;
   if (use_scans) select(scans_, world_from_robot, posed);
   if (use_depth) select(slices_, world_from_robot, posed);
@@ -140,8 +97,8 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(const Trajectory& wo
   if (area.isEmpty()) return nullptr;
   area.min().array() -= kMargin_m;
   area.max().array() += kMargin_m;
-  auto grid = emptyGrid(area, resolution_m_);
-  RayGrid rays(*grid, hit_probability_, pass_probability_);
+  auto grid = emptyGrid(area, options_.resolution_m);
+  RayGrid rays(*grid, options_.hit_probability, options_.pass_probability);
   for (const auto& fan : posed) rays.insert(fan.origin, fan.rays);
   return grid;
 }

@@ -7,8 +7,8 @@
 namespace roomgraph {
 
 void DetectionRecording::onStep(const StepReport& report) {
-  if (report.image && report.detector_ran)
-    copy_.insert(toRecord(*report.image, report.detections, detector_.identity()));
+  if (report.image && report.detections.fresh)
+    copy_.insert(toRecord(*report.image, report.detections.boxes, detector_.identity()));
 }
 
 }  // namespace roomgraph

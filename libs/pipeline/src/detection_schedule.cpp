@@ -4,26 +4,26 @@
 
 namespace roomgraph {
 
-FrameBoxes DetectionSchedule::detected(std::vector<Detection> boxes, const Frame& frame) {
+FrameDetections DetectionSchedule::detected(std::vector<Detection> boxes, const Frame& frame) {
   age_ = 0;
   carried_from_.reset();
   if (options_.track_boxes && options_.max_carried_frames > 0) {
     tracker_.start(boxes, frame);
     carried_from_ = frame.t;
   }
-  return {BoxSource::kDetected, std::move(boxes), 0};
+  return {.boxes = std::move(boxes), .fresh = true};
 }
 
-FrameBoxes DetectionSchedule::missed(const Frame& frame, const std::optional<Pose3>& previous_from_current) {
+FrameDetections DetectionSchedule::missed(const Frame& frame, const std::optional<Pose3>& previous_from_current) {
   if (!age_) return {};
-  FrameBoxes out{BoxSource::kNone, {}, ++*age_};
+  FrameDetections out{.age = ++*age_};
   if (!carried_from_) return out;
   carried_from_.reset();
   if (*age_ > options_.max_carried_frames) return out;
   auto carried = tracker_.advance(frame, previous_from_current);
   if (!carried) return out;
   carried_from_ = frame.t;
-  out.source = BoxSource::kCarried;
+  out.carried = true;
   out.boxes = std::move(*carried);
   return out;
 }

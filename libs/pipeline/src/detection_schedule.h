@@ -7,22 +7,9 @@
 
 #include "roomgraph/detection/box_tracker.h"
 #include "roomgraph/pipeline/options.h"
+#include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
-
-/// Where the boxes of a frame come from.
-enum class BoxSource {
-  kNone,      ///< there are none: nothing is known about the objects in this frame
-  kDetected,  ///< the detector ran on it
-  kCarried,   ///< tracked from the frames before
-};
-
-/// The boxes of one frame. That there are no objects is known when `boxes` is empty and the source is not kNone.
-struct FrameBoxes {
-  BoxSource source = BoxSource::kNone;
-  std::vector<Detection> boxes;  ///< empty when the source is kNone
-  int age = 0;                   ///< frames since the detector ran; 0: on this one, or never
-};
 
 /// Decides on which frames the detector runs (`every_nth_frame`) and carries its boxes over the frames after it
 /// (`track_boxes`, `max_carried_frames`). Of every frame either detected() or missed() is told, in order of time.
@@ -37,10 +24,10 @@ class DetectionSchedule {
   bool due() const { return !age_ || *age_ + 1 >= options_.every_nth_frame; }
 
   /// The detector ran on this frame; its boxes replace all carried ones.
-  FrameBoxes detected(std::vector<Detection> boxes, const Frame& frame);
+  FrameDetections detected(std::vector<Detection> boxes, const Frame& frame);
   /// It did not run, or failed. `previous_from_current`: movement of the camera since the frame at carriedFrom(),
   /// optical frames; nothing when it is not known.
-  FrameBoxes missed(const Frame& frame, const std::optional<Pose3>& previous_from_current);
+  FrameDetections missed(const Frame& frame, const std::optional<Pose3>& previous_from_current);
 
   /// Time of the last frame, s, when it has boxes that can be carried on.
   std::optional<double> carriedFrom() const { return carried_from_; }

@@ -29,10 +29,11 @@ Pose3 ofRobot(const Pose3& camera_movement, const Pose3& robot_from_camera) {
 
 }  // namespace
 
-FrontEnds::FrontEnds(const Stages& stages)
+FrontEnds::FrontEnds(const Stages& stages, const Options& options)
     : stages_(stages),
-      motion_{MotionSource(stages.odometry.noise, true), MotionSource(stages.tracking.noise, false),
-              MotionSource(stages.lidar.noise, true)} {}
+      options_(options),
+      motion_{MotionSource(options.odometry.noise, true), MotionSource(options.tracking.noise, false),
+              MotionSource(options.lidar.noise, true)} {}
 
 std::optional<Pose3> FrontEnds::predicted(double t_a, double t_b, const MotionSource& first,
                                           const MotionSource& second) const {
@@ -73,7 +74,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
 }
 
 std::vector<RelativePose> FrontEnds::takeImageClosures() {
-  if (!stages_.rgbd_odometry || !stages_.tracking.loop_closing) return {};
+  if (!stages_.rgbd_odometry || !options_.tracking.loop_closing) return {};
   std::vector<RelativePose> closures = stages_.rgbd_odometry->takeLoopClosures();
   for (auto& closure : closures) toRobot(closure);
   return closures;

@@ -9,7 +9,7 @@ namespace roomgraph {
 void saveGraph(const SemanticSlam& slam, bool planar_run, const std::filesystem::path& file) {
   NodeTimes times;
   for (const auto& node : slam.keyPoses().nodes()) times[node.id] = node.t;
-  if (planar_run && slam.stages().backend.planar_graph)
+  if (planar_run && slam.setup().options.backend.planar_graph)
     saveG2o(slam.graph().planar(), file, times);
   else
     slam.graph().saveG2o(file, times);

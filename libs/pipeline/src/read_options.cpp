@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader options from the stages, and --pose as an override of [pipeline] sensor_poses.
+// Reader options from those of the run, and --pose as an override of [pipeline] sensor_poses.
 #include "roomgraph/pipeline/read_options.h"
 
 namespace roomgraph {
 
-ReadOptions readOptionsOf(const Stages& stages) {
-  const auto& poses = stages.general.sensor_poses;
-  return {.frames = stages.tracking.enabled || stages.detection.enabled,
-          .scans = stages.lidar.enabled,
-          .odometry = stages.odometry.enabled,
-          .rgbd_label = stages.rgbd.label,
-          .lidar_label = stages.lidar.label,
-          .odometry_label = stages.odometry.label,
+ReadOptions readOptionsOf(const Options& options) {
+  const auto& poses = options.general.sensor_poses;
+  return {.frames = options.tracking.enabled || options.detection.enabled,
+          .scans = options.lidar.enabled,
+          .odometry = options.odometry.enabled,
+          .rgbd_label = options.rgbd.label,
+          .lidar_label = options.lidar.label,
+          .odometry_label = options.odometry.label,
           .sensor_poses = parseSensorPoses(poses, "[pipeline] sensor_poses = '" + poses + "'")};
 }
 

@@ -35,7 +35,7 @@ void writeStamped(std::ostream& out, double t, const Pose3& pose) {
 
 ordered_json detectionsJson(const StepReport& report) {
   ordered_json line{{"timestamp", report.t}, {"boxes", ordered_json::array()}};
-  for (const auto& detection : report.detections) {
+  for (const auto& detection : report.detections.boxes) {
     line["boxes"].push_back(
         {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
     if (detection.carried) line["boxes"].back()["carried"] = true;
@@ -100,6 +100,7 @@ ordered_json countsJson(const SlamResult& result) {
           {"frames_lost", counts.frames_lost},
           {"scans", counts.scans},
           {"scans_unmatched", counts.scans_unmatched},
+          {"returns_on_people", counts.returns_on_people},
           {"odometry", counts.odometry},
           {"recorded_detections", counts.detections},
           {"key_poses", counts.key_poses},
@@ -156,7 +157,7 @@ RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std:
 void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   writeStamped(live_, report.t, report.world_from_robot);
-  if (report.detector_ran || report.boxes_carried) detections_ << textOf(detectionsJson(report)) << '\n';
+  if (report.detections.current()) detections_ << textOf(detectionsJson(report)) << '\n';
   if (!report.decisions.empty())
     associations_ << textOf(associationsJson(report.t, report.decisions)) << '\n';
   for (OutputFile* file : {&live_, &detections_, &associations_}) file->check();
@@ -184,8 +185,8 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
     saveOccupancyRos(*result.map.occupancy, files_.pending("map.pgm").replace_extension());
   saveMap(result.map, files_.pending("map.rgmap"));
   saveGraph(slam, result.map.planar, files_.pending("graph.g2o"));
-  write("config.ini", slam.stages().effective_config);
-  write("objects.ini", slam.stages().objects);
+  write("config.ini", slam.setup().effective_config);
+  write("objects.ini", slam.setup().objects);
   write("timings.csv", timings.str());
   write("summary.json", textOf(summaryJson(slam, result, read, replayed, origin), 2) + "\n");
 }

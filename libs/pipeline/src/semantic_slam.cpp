@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Order of the stages per record, levelling, map anchoring, and final refinement.
+// Order of the stages per record, map anchoring, and final refinement.
 #include "roomgraph/pipeline/semantic_slam.h"
 
-#include <cmath>
 #include <limits>
 
 #include "detection_schedule.h"
+#include "people_in_view.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/lidar/dynamic_return_filter.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
 constexpr double kMovementHorizon_s = 0.15;
 constexpr int kMaxDescents = 5;
-constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 
 // A sensor on a robot has a place on it; a handheld camera has none.
 bool isMounted(const Frame& frame) {
@@ -24,13 +21,16 @@ bool isMounted(const Frame& frame) {
 
 }  // namespace
 
-SemanticSlam::SemanticSlam(std::unique_ptr<Stages> stages)
-    : stages_(std::move(stages)),
-      front_ends_(*stages_),
-      detection_schedule_(std::make_unique<DetectionSchedule>(stages_->detection, stages_->database)),
-      estimator_(stages_->backend, front_ends_.motion()),
-      objects_(*stages_, estimator_.poses()),
-      object_loops_(stages_->object_loops),
+SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
+    : setup_(std::move(setup)),
+      front_ends_(setup_->stages, setup_->options),
+      detection_schedule_(std::make_unique<DetectionSchedule>(setup_->options.detection, setup_->database)),
+      estimator_(setup_->options.backend, front_ends_.motion()),
+      objects_(setup_->stages.associator, setup_->options.landmarks, setup_->options.backend.pose_sigma_m,
+               estimator_.poses()),
+      object_loops_(setup_->options.object_loops),
+      mapper_(setup_->options.mapping),
+      people_(std::make_unique<PeopleInView>()),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
@@ -43,44 +43,60 @@ void SemanticSlam::process(const Record& record) {
 }
 
 StepReport SemanticSlam::step(const Frame& frame) {
-  StepReport report{.kind = StepReport::Kind::kFrame, .t = frame.t, .frame = frame.id, .image = &frame};
   if (!inOrder(frame.t, last_frame_t_, "frames")) return {};
   ++counts_.frames;
-  robot_from_camera_ = frame.robot_from_camera;
-  estimator_.measurements().planar |= isMounted(frame);
+  if (isMounted(frame)) estimator_.setPlanar();
 
-  const auto detections = detect(frame, report);  // sec. 1.1
-  track(frame, report);                           // sec. 4, factor 1
-  localize(frame.t);                              // sec. 4, M-step
-  propose(frame, detections);                     // sec. 1.2 to 1.D
-  mapObjects(frame, report);                      // sec. 3, and sec. 4, E-step
+  const FrameDetections detections = detect(frame);  // sec. 1.1
+  const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
+  const TrackingResult tracked = track(frame, people);  // sec. 4, factor 1
+  localize(frame.t);  // sec. 4, M-step
+  const FrameProposals proposals = propose(frame, detections.boxes);  // sec. 1.2 to 1.D
+  std::vector<ObjectDecision> decisions;
+  if (proposals.ground) {
+    const Plane& floor = proposals.ground->plane;
+    if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
+    mapper_.add(frame, floor);
+    if (detections.current()) {
+      const auto measurements = select(frame, proposals, tracked.features);  // sec. 3
+      decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
+    }
+  }
+  *people_ = peopleInView(proposals, frame.robot_from_camera, setup_->database);
 
   robot_times_.push_back(frame.t);
   camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
-  report.world_from_robot = estimator_.poses().at(frame.t);
-  report.seen = &seen_;
-  return report;
+  return {.kind = StepReport::Kind::kFrame,
+          .t = frame.t,
+          .world_from_robot = estimator_.poses().at(frame.t),
+          .note = tracked.tracked || !setup_->stages.rgbd_odometry ? "" : "not tracked: " + tracked.reason,
+          .frame = frame.id,
+          .detections = detections,
+          .proposals = proposals,
+          .decisions = decisions,
+          .image = &frame};
 }
 
 StepReport SemanticSlam::step(const Scan& scan) {
   StepReport report{.kind = StepReport::Kind::kScan, .t = scan.t};
-  if (!stages_->scan_matcher || !inOrder(scan.t, last_scan_t_, "scans")) return {};
+  if (!setup_->stages.scan_matcher || !inOrder(scan.t, last_scan_t_, "scans")) return {};
   ++counts_.scans;
-  estimator_.measurements().planar = true;
+  estimator_.setPlanar();
 
-  const Scan clean = withoutPeople(scan);  // sec. 5
-  const ScanMatch match = matched(clean);
-  if (!match.matched) {
+  Scan clean = scan;
+  counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
+  const ScanMatch matched = match(clean);
+  if (!matched.matched) {
     ++counts_.scans_unmatched;
-    ++counts_.reasons["lidar: " + match.reason];
-    report.note = "scan not matched: " + match.reason;
-  } else if (stages_->scan_loop_closer) {
-    stages_->scan_loop_closer->add(clean, match);
+    ++counts_.reasons["lidar: " + matched.reason];
+    report.note = "scan not matched: " + matched.reason;
+  } else if (setup_->stages.scan_loop_closer) {
+    setup_->stages.scan_loop_closer->add(clean, matched);
   }
-  stages_->mapper.add(clean);
+  mapper_.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t));
-  if (map_ && !anchored_) last_scan_ = clean;
+  if (map_) map_->add(clean);
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
@@ -88,8 +104,8 @@ StepReport SemanticSlam::step(const Scan& scan) {
 }
 
 StepReport SemanticSlam::step(const OdometryReading& reading) {
-  if (!stages_->odometry.enabled) return {};
-  estimator_.measurements().planar = true;
+  if (!setup_->options.odometry.enabled) return {};
+  estimator_.setPlanar();
   ++counts_.odometry;
   if (!front_ends_.add(reading)) {
     ++counts_.reasons["odometry: stamp does not come after the previous one"];
@@ -103,7 +119,7 @@ StepReport SemanticSlam::step(const OdometryReading& reading) {
 
 StepReport SemanticSlam::step(const std::shared_ptr<CObservationDetections>& recorded) {
   ++counts_.detections;
-  if (stages_->detector) stages_->detector->feed(*recorded);
+  if (setup_->stages.detector) setup_->stages.detector->feed(*recorded);
   return {};
 }
 
@@ -116,24 +132,12 @@ bool SemanticSlam::inOrder(double t, double& last, const std::string& source) {
   return true;
 }
 
-std::vector<Detection> SemanticSlam::detect(const Frame& frame, StepReport& report) {
-  FrameBoxes found = boxesIn(frame);
-  report.detector_ran = found.source == BoxSource::kDetected;
-  report.boxes_carried = found.source == BoxSource::kCarried;
-  report.detections = std::move(found.boxes);
-  people_.clear();
-  for (const auto& detection : report.detections) {
-    const auto* model = stages_->database.find(detection.class_name);
-    if (model && !model->landmark) people_.push_back(detection.box);
-  }
-  return report.detections;
-}
-
-FrameBoxes SemanticSlam::boxesIn(const Frame& frame) {
-  if (!stages_->detector || stages_->detector->idle()) return {};
+FrameDetections SemanticSlam::detect(const Frame& frame) {
+  const auto& detector = setup_->stages.detector;
+  if (!detector || detector->idle()) return {};
   const auto timing = times_.measure("detection");
   if (detection_schedule_->due()) {
-    const auto found = stages_->detector->detect(frame);
+    const auto found = detector->detect(frame);
     if (found) return detection_schedule_->detected(*found, frame);
     ++counts_.reasons["detection: " + found.reason()];
   }
@@ -149,119 +153,106 @@ std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
   return frame.robot_from_camera.inverse() * *moved * frame.robot_from_camera;
 }
 
-void SemanticSlam::track(const Frame& frame, StepReport& report) {
-  if (!stages_->rgbd_odometry) return;
+TrackingResult SemanticSlam::track(const Frame& frame, const std::vector<Box2>& people) {
+  if (!setup_->stages.rgbd_odometry) return {};
   const auto timing = times_.measure("RGB-D odometry");
-  const TrackingResult result = front_ends_.track(frame, people_);
-  features_ = result.features;
-  if (result.tracked) return;
-  ++counts_.frames_lost;
-  ++counts_.reasons["tracking: " + result.reason];
-  report.note = "not tracked: " + result.reason;
+  TrackingResult result = front_ends_.track(frame, people);
+  if (!result.tracked) {
+    ++counts_.frames_lost;
+    ++counts_.reasons["tracking: " + result.reason];
+  }
+  return result;
 }
 
-ScanMatch SemanticSlam::matched(const Scan& scan) {
+ScanMatch SemanticSlam::match(const Scan& scan) {
   const auto timing = times_.measure("scan matching");
   return front_ends_.match(scan);
 }
 
+FrameProposals SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
+  std::optional<Plane> expected;
+  if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
+  if (estimator_.levelled())
+    expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
+  const auto timing = times_.measure("proposals");
+  FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, expected);
+  if (!proposals.ground) ++counts_.reasons["ground: " + proposals.ground_reason];
+  return proposals;
+}
+
+std::vector<ObjectMeasurement> SemanticSlam::select(const Frame& frame, const FrameProposals& proposals,
+                                                    const std::vector<FeatureTrack>& features) {
+  const auto timing = times_.measure("selection");
+  const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
+  auto measurements =
+      setup_->stages.proposal_selector->select(proposals, {frame.camera, world_from_camera, features});
+  std::erase_if(measurements, [this](const ObjectMeasurement& measurement) {
+    const auto* model = setup_->database.find(measurement.proposal.class_name);
+    return !model || !model->landmark;
+  });
+  return measurements;
+}
+
+std::vector<ObjectDecision> SemanticSlam::associate(const Frame& frame,
+                                                    const std::vector<ObjectMeasurement>& measurements,
+                                                    const std::vector<FeatureTrack>& features,
+                                                    const FrameDetections& detections) {
+  const auto timing = times_.measure("association");
+  auto decisions = objects_.associate(measurements, frame, features);
+  if (detections.fresh) objects_.missUnseen(decisions, detections.boxes, frame);
+  return decisions;
+}
+
 void SemanticSlam::localize(double t) {
   if (!estimator_.advance(t)) return;
-  estimator_.addClosures(front_ends_.takeImageClosures(), objects_);
-  if (stages_->scan_loop_closer) {
+  addClosures(front_ends_.takeImageClosures());
+  if (const auto& closer = setup_->stages.scan_loop_closer) {
     const auto timing = times_.measure("scan loop closing");
-    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
+    addClosures(closer->search(estimator_.poses().trajectory()));
   }
   {
     const auto timing = times_.measure("object loop closing");
     const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
-    if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
-      estimator_.addClosures({*closure}, objects_);
+    if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify)) addClosures({*closure});
   }
-  {
-    const auto timing = times_.measure(estimator_.due() ? "whole graph" : "window of poses");
-    estimator_.update(objects_);
+  if (estimator_.due()) {
+    const auto timing = times_.measure("whole graph");
+    objects_.tidy();
+    if (const auto landmarks = estimator_.optimizeLive(inGraph())) objects_.apply(*landmarks);
+  } else {
+    const auto timing = times_.measure("window of poses");
+    estimator_.optimizeWindow();
   }
   anchor();
 }
 
+void SemanticSlam::addClosures(const std::vector<RelativePose>& closures) {
+  for (const PathShift& shift : estimator_.addClosures(closures)) objects_.move(shift);
+}
+
+ObjectsInGraph SemanticSlam::inGraph() const {
+  return objects_.inGraph(setup_->database, setup_->options.backend);
+}
+
+// With all data, to the end; false when the solver found no usable solution.
+bool SemanticSlam::optimizeAll() {
+  objects_.tidy();
+  const auto landmarks = estimator_.optimizeAll(inGraph());
+  if (landmarks) objects_.apply(*landmarks);
+  return landmarks.has_value();
+}
+
 void SemanticSlam::setMap(CSemanticMap map) {
-  map_.emplace(std::move(map), stages_->object_loops.constellation);
+  map_.emplace(std::move(map), setup_->options.object_loops.constellation);
 }
 
 // Looks for the landmarks seen so far in the map given to the run; moves the world there when they are found.
 void SemanticSlam::anchor() {
-  if (!map_ || anchored_ || estimator_.poses().empty()) return;
-  std::vector<Eigen::Vector2d> returns;
-  if (last_scan_) {
-    const Pose3 world_from_robot = estimator_.poses().at(last_scan_->t);
-    for (const auto& point : last_scan_->pointsInRobot())
-      returns.push_back((world_from_robot * point).head<2>());
-  }
-  const auto map_from_world = map_->find(objects_.landmarks().confirmed(), returns);
+  if (!map_ || estimator_.poses().empty()) return;
+  const auto map_from_world = map_->recognise(objects_.landmarks().confirmed(), estimator_.poses());
   if (!map_from_world) return;
   estimator_.transform(toPose3(*map_from_world));
-  objects_.moveSince(-std::numeric_limits<double>::infinity(), toPose3(*map_from_world));
-  anchored_ = true;
-}
-
-void SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
-  std::optional<Plane> expected;
-  if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
-  if (levelled_) expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
-  const auto timing = times_.measure("proposals");
-  seen_ = stages_->proposal_generator->generate(frame, detections, expected);
-  if (!seen_.ground) {
-    ++counts_.reasons["ground: " + seen_.ground_reason];
-    return;
-  }
-  level(frame);
-  stages_->mapper.add(frame, seen_.ground->plane);
-}
-
-// A handheld camera's world is levelled when the floor is seen for the first time; later sightings become
-// factors.
-void SemanticSlam::level(const Frame& frame) {
-  if (estimator_.measurements().planar || !seen_.ground->from_depth) return;
-  const Plane& plane = seen_.ground->plane;
-  if (!levelled_) {
-    const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
-    const Pose3 level_from_world = cameraFromGround(plane).inverse() * world_from_camera.inverse();
-    const Pose2 first = planarPart(level_from_world * estimator_.poses().nodes().front().world_from_robot);
-    estimator_.transform(toPose3(first.inverse()) * level_from_world);
-    levelled_ = true;
-  }
-  const KeyPose& node = estimator_.poses().nodes().back();
-  if (node.t != frame.t) return;
-  GroundFactor factor{.node = node.id,
-                      .normal_in_robot = frame.robot_from_camera.linear() * plane.normal,
-                      .sigma_normal_rad = stages_->backend.ground_sigma_rad,
-                      .sigma_offset_m = stages_->backend.ground_sigma_m};
-  factor.offset_m = plane.offset - factor.normal_in_robot.dot(frame.robot_from_camera.translation());
-  estimator_.measurements().grounds.push_back(factor);
-}
-
-void SemanticSlam::mapObjects(const Frame& frame, StepReport& report) {
-  if (!(report.detector_ran || report.boxes_carried) || !seen_.ground) return;
-  const auto timing = times_.measure("selection and association");
-  report.decisions = objects_.observe(seen_, frame, features_);
-  if (report.detector_ran) objects_.missUnseen(report.decisions, report.detections, frame);
-}
-
-// Returns inside the wedge of a person's box, at the person's depth (sec. 5).
-Scan SemanticSlam::withoutPeople(const Scan& scan) {
-  std::vector<DynamicWedge> wedges;
-  for (const auto& proposal : seen_.proposals) {
-    const auto* model = stages_->database.find(proposal.class_name);
-    if (!model || model->landmark || std::abs(seen_.t - scan.t) > kPeopleMaxAge_s) continue;
-    const Eigen::Vector3d place = (robot_from_camera_ * proposal.camera_from_object).translation();
-    const double distance = place.head<2>().norm(), bearing = std::atan2(place.y(), place.x());
-    const double half = std::atan2(proposal.shape.radius() + kPersonMargin_m, std::max(0.3, distance));
-    wedges.push_back({bearing - half, bearing + half, distance - kPersonDepth_m, distance + kPersonDepth_m});
-  }
-  Scan clean = scan;
-  if (!wedges.empty()) counts_.returns_on_people += removeDynamicReturns(clean, wedges);
-  return clean;
+  objects_.move({-std::numeric_limits<double>::infinity(), toPose3(*map_from_world)});
 }
 
 SlamResult SemanticSlam::finish() {
@@ -275,15 +266,14 @@ void SemanticSlam::refine() {
   front_ends_.refine();
   // Alternate until nothing new is found: landmarks merge after poses moved, loops close after poses moved.
   for (int round = 0; round < 3; ++round) {
-    if (!estimator_.optimizeAll(objects_)) ++counts_.reasons["back end: no usable solution"];
-    if (!stages_->scan_loop_closer || estimator_.poses().empty()) continue;
-    estimator_.addClosures(stages_->scan_loop_closer->search(estimator_.poses().trajectory()), objects_);
+    if (!optimizeAll()) ++counts_.reasons["back end: no usable solution"];
+    const auto& closer = setup_->stages.scan_loop_closer;
+    if (closer && !estimator_.poses().empty()) addClosures(closer->search(estimator_.poses().trajectory()));
   }
   anchor();  // before the last optimisation, so that the graph is in the same frame as all else
-  estimator_.optimizeAll(objects_);
+  optimizeAll();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
-  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round)
-    estimator_.optimizeAll(objects_);
+  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
 }
 
 SlamResult SemanticSlam::collect() {
@@ -291,8 +281,8 @@ SlamResult SemanticSlam::collect() {
   SlamResult result;
   result.counts = counts_;
   result.counts.key_poses = static_cast<int>(poses.nodes().size());
-  result.counts.loop_closures = static_cast<int>(estimator_.measurements().closures.size());
-  result.map.planar = estimator_.measurements().planar;
+  result.counts.loop_closures = estimator_.closureCount();
+  result.map.planar = estimator_.planar();
   if (poses.empty()) return result;
   result.map.landmarks = objects_.landmarks().confirmed();
   result.seen = objects_.seenSpans();
@@ -301,7 +291,7 @@ SlamResult SemanticSlam::collect() {
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
   if (map_) result.earlier = EarlierMap{};
-  if (anchored_) {
+  if (map_ && map_->recognised()) {
     const auto& earlier = map_->map().landmarks;
     const std::size_t apart = result.map.landmarks.size() + earlier.size();
     result.map.landmarks = joined(result.map.landmarks, earlier);
@@ -314,7 +304,7 @@ SlamResult SemanticSlam::collect() {
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
   const auto timing = times_.measure("occupancy map");
   try {
-    result.map.occupancy = stages_->mapper.build(dense);
+    result.map.occupancy = mapper_.build(dense);
   } catch (const RunError& error) {  // all else is still good
     ++result.counts.reasons[error.what()];
   }

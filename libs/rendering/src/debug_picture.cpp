@@ -127,11 +127,11 @@ std::string statusOf(const StepReport& report) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
   if (!report.note.empty()) add(report.note);
-  if (report.seen && !report.seen->ground)
-    add("no ground: " + (report.seen->ground_reason.empty() ? "not looked for" : report.seen->ground_reason));
-  if (report.boxes_carried)
+  if (report.proposals && !report.proposals->ground)
+    add("no ground: " + (report.proposals->ground_reason.empty() ? "not looked for" : report.proposals->ground_reason));
+  if (report.detections.carried)
     add("boxes carried");
-  else if (!report.detector_ran)
+  else if (!report.detections.fresh)
     add("no detections");
   return text;
 }
@@ -153,17 +153,17 @@ cv::Mat debugPicture(const StepReport& report, const ObjectDatabase& database) {
   const PinholeCamera& camera = report.image->camera;
   cv::Mat image = background(*report.image);
   if (image.empty()) return image;
-  if (report.seen && report.seen->ground) drawGround(image, report.seen->ground->plane, camera);
-  for (const auto& detection : report.detections)
+  if (report.proposals && report.proposals->ground) drawGround(image, report.proposals->ground->plane, camera);
+  for (const auto& detection : report.detections.boxes)
     drawMask(image, detection, palette::ofClass(database, detection.class_name));
-  if (report.seen)
-    for (std::size_t i = 0; i < std::min(report.seen->traces.size(), report.seen->detections.size()); ++i)
-      drawTrace(image, report.seen->traces[i], camera,
-                palette::ofClass(database, report.seen->detections[i].class_name));
+  if (report.proposals)
+    for (std::size_t i = 0; i < std::min(report.proposals->traces.size(), report.proposals->detections.size()); ++i)
+      drawTrace(image, report.proposals->traces[i], camera,
+                palette::ofClass(database, report.proposals->detections[i].class_name));
   for (const auto& decision : report.decisions)
     drawDecision(image, decision, camera,
                  palette::ofClass(database, decision.seen.measurement.proposal.class_name));
-  for (const auto& detection : report.detections) {
+  for (const auto& detection : report.detections.boxes) {
     const TColor color = palette::ofClass(database, detection.class_name);
     drawBox(image, detection.box, color, detection.carried);
     write(image, detection.class_name + " " + number(detection.score),

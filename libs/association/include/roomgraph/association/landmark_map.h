@@ -7,7 +7,7 @@
 
 #include "roomgraph/association/associator.h"
 #include "roomgraph/association/landmark_fusion.h"
-#include "roomgraph/association/landmark_rules.h"
+#include "roomgraph/association/landmark_options.h"
 #include "roomgraph/association/reassociation.h"
 
 namespace roomgraph {
@@ -15,13 +15,13 @@ namespace roomgraph {
 /// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place,
 /// weighted mean of the size, votes for class and front, Bernoulli filter for existence, merging and
 /// splitting. The one owner of landmarks while a run goes on.
-class LandmarkMap : public Configurable {
+class LandmarkMap {
  public:
-  void declareParameters(ParameterVisitor& visitor) override;
+  explicit LandmarkMap(const LandmarkOptions& options = {}) : options_(options) {}
 
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   const Landmark* find(LandmarkId id) const;
-  const DuplicateRule& duplicates() const { return duplicates_; }
+  const LandmarkRules& rules() const { return options_.rules; }
 
   /// Fuses a measurement into its landmark, or makes a new one; returns the landmark's id. A measurement of
   /// another class than its landmark's only votes for its label; when that label has far more votes, the
@@ -65,17 +65,13 @@ class LandmarkMap : public Configurable {
   void join(Landmark& kept, const Landmark& removed);
   int together(LandmarkId a, LandmarkId b) const;
 
+  LandmarkOptions options_;
   std::vector<Landmark> landmarks_;
   std::map<LandmarkId, LandmarkRecord> records_;
   SeenTogether together_;
   FrameId frame_;
   std::vector<LandmarkId> in_frame_;
   std::int64_t next_id_ = 0;
-  double birth_existence_ = 0.3, detection_probability_ = 0.6, false_alarm_probability_ = 0.15;
-  double score_gain_ = 5, neutral_score_ = 0.3, ray_gain_ = 0.1;
-  double confirm_existence_ = 0.9, exclusive_overlap_ = 0.3;
-  int confirm_observations_ = 6;
-  DuplicateRule duplicates_;
 };
 
 }  // namespace roomgraph

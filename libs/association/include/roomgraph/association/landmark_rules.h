@@ -42,4 +42,10 @@ struct DuplicateRule {
   }
 };
 
+/// How landmarks begin and which of them are one object: the same in the live map and in re-association.
+struct LandmarkRules {
+  double birth_existence = 0.3;  ///< existence probability of a landmark seen once
+  DuplicateRule duplicates;
+};
+
 }  // namespace roomgraph

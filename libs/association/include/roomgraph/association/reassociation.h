@@ -31,7 +31,7 @@ struct Reassociation {
 /// are known now. Deterministic; touches no state.
 Reassociation reassociate(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                           std::vector<Landmark> initial, const AssociationModel& model,
-                          const DuplicateRule& duplicates, int max_rounds = 10);
+                          const LandmarkRules& rules, int max_rounds = 10);
 
 /// Robust mean of a landmark's sightings: place (Student t, information weighted), yaw (axis first, then
 /// front against back by vote), size; each sighting counts with its weight. Keeps the landmark's class and

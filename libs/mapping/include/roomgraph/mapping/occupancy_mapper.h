@@ -4,20 +4,18 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
-#include <string>
 #include <vector>
 
-#include "roomgraph/core/stage.h"
-#include "roomgraph/mapping/range_fan.h"
+#include "roomgraph/mapping/occupancy_options.h"
 #include "roomgraph/observations/trajectory.h"
 
 namespace roomgraph {
 
 /// Occupancy grid from posed scans, or, where there is no lidar, from posed depth images (a virtual scan over
 /// a band of heights above the ground).
-class OccupancyMapper : public Configurable {
+class OccupancyMapper {
  public:
-  void declareParameters(ParameterVisitor& visitor) override;
+  explicit OccupancyMapper(const OccupancyOptions& options = {}) : options_(options) {}
   /// Keeps what is needed to (re)build the grid later with other poses.
   void add(const Scan& scan);
   /// `ground`: floor in the camera frame. A frame without depth is left out.
@@ -32,18 +30,8 @@ class OccupancyMapper : public Configurable {
   void select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
               std::vector<PosedFan>& out) const;
 
+  OccupancyOptions options_;
   std::vector<RangeFan> scans_, slices_;
-
-  std::string source_ = "auto";
-  double resolution_m_ = 0.05;
-  double max_range_m_ = 12;
-  double no_return_free_m_ = 4;
-  double hit_probability_ = 0.7;
-  double pass_probability_ = 0.45;
-  double min_move_m_ = 0.1;
-  double min_turn_rad_ = 0.1;
-  double max_wait_s_ = 2;
-  DepthSlice slice_;
 };
 
 }  // namespace roomgraph

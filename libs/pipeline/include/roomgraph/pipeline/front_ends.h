@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/pipeline/motion.h"
+#include "roomgraph/estimation/motion.h"
+#include "roomgraph/pipeline/options.h"
 #include "roomgraph/pipeline/stages.h"
 
 namespace roomgraph {
@@ -16,7 +17,8 @@ namespace roomgraph {
 /// frame; every source predicts for the others.
 class FrontEnds {
  public:
-  explicit FrontEnds(const Stages& stages);
+  /// Both outlive the front ends.
+  FrontEnds(const Stages& stages, const Options& options);
 
   const Motion& motion() const { return motion_; }
 
@@ -39,6 +41,7 @@ class FrontEnds {
   void toRobot(RelativePose& of_camera) const;
 
   const Stages& stages_;
+  const Options& options_;
   Motion motion_;
   std::optional<double> last_frame_t_, last_scan_t_;
   Pose3 robot_from_camera_ = Pose3::Identity();

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options of the pipeline's configuration sections.
+// Options of a run: one struct per section of the configuration, and all of them together.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "roomgraph/association/constellation.h"
+#include "roomgraph/association/landmark_options.h"
 #include "roomgraph/core/parameters.h"
-#include "roomgraph/detection/box_tracker.h"
+#include "roomgraph/estimation/options.h"
+#include "roomgraph/mapping/occupancy_options.h"
 
 namespace roomgraph {
 
@@ -18,14 +20,6 @@ struct GeneralOptions : Configurable {
   double lookahead_s = 0.5;
   std::string sensor_poses;
   void declareParameters(ParameterVisitor& v) override;
-};
-
-/// What a source of motion is trusted with: standard deviations grow with the movement.
-struct MotionNoise {
-  double floor_m = 0.01, per_m = 0.02;       ///< translation
-  double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
-  double rad_per_m = 0.01;                   ///< rotation, by distance driven
-  void declare(ParameterVisitor& v);
 };
 
 /// [rgbd]
@@ -68,40 +62,27 @@ struct DetectionStageOptions : Configurable {
   void declareParameters(ParameterVisitor& v) override;
 };
 
-/// [scan_loop_closing], [proposals], [selection], [association]
+/// A section that holds nothing but the choice of a class, and the parameters of that class.
 struct StageChoice : Configurable {
   explicit StageChoice(std::string name) : stage(std::move(name)) {}
   std::string stage;
   void declareParameters(ParameterVisitor& v) override;
 };
 
-/// [backend]
-struct BackendOptions : Configurable {
-  double node_distance_m = 0.15, node_angle_rad = 0.15, node_interval_s = 5;
-  int window_nodes = 10, optimize_every_nodes = 20, max_iterations = 30;
-  double live_tolerance = 1e-4;
-  double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
-  double closure_robust_width = 1.0, landmark_robust_width = 1.0;
-  double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
-  double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
-  double pose_sigma_m = 0.03;
-  double landmark_information_share = 0.01;
-  double landmark_side_rad = 0.26;
-  bool object_boxes = true;
-  bool planar_graph = false;
-  double box_sigma_px = 60, point_sigma_px = 20;
-  int points_per_landmark = 10;
-  void declareParameters(ParameterVisitor& v) override;
-};
-
-/// [object_loop_closing]
-struct ObjectLoopOptions : Configurable {
-  bool enabled = true;
-  double recent_s = 40;
-  int every_nodes = 5;
-  double min_shift_m = 0.3;
-  ConstellationOptions constellation;
-  void declareParameters(ParameterVisitor& v) override;
+/// The options of a run; what belongs to the class of a stage is its own.
+struct Options {
+  GeneralOptions general;
+  RgbdOptions rgbd;
+  OdometryOptions odometry;
+  TrackingOptions tracking;
+  LidarOptions lidar;
+  StageChoice scan_loop_closing{"SubmapLoopCloser"};
+  DetectionStageOptions detection;
+  StageChoice proposals{"GeometricProposalGenerator"}, selection{"CrfSelector"}, association{"SoftAssociator"};
+  LandmarkOptions landmarks;
+  ObjectLoopOptions object_loops;
+  BackendOptions backend;
+  OccupancyOptions mapping;
 };
 
 }  // namespace roomgraph

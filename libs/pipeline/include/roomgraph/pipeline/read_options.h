@@ -6,13 +6,13 @@
 
 #include "roomgraph/core/config.h"
 #include "roomgraph/datasets/rawlog_reader.h"
-#include "roomgraph/pipeline/stages.h"
+#include "roomgraph/pipeline/options.h"
 
 namespace roomgraph {
 
-/// What the stages want of a recording: sources that are switched on, chosen sensors and their places. Throws
+/// What the options want of a recording: sources that are switched on, chosen sensors and their places. Throws
 /// ConfigError when [pipeline] sensor_poses makes no sense.
-ReadOptions readOptionsOf(const Stages& stages);
+ReadOptions readOptionsOf(const Options& options);
 
 /// Adds "LABEL=x,y,z,yaw,pitch,roll" (metres, degrees), as given to --pose, to [pipeline] sensor_poses, so
 /// that the run can be repeated from its config. Throws ConfigError when it does not have that form.

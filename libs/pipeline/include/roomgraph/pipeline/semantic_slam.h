@@ -7,15 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/record_stream.h"
+#include "roomgraph/estimation/map_anchor.h"
+#include "roomgraph/estimation/object_loop_closer.h"
+#include "roomgraph/estimation/object_mapper.h"
+#include "roomgraph/estimation/pose_estimator.h"
+#include "roomgraph/mapping/occupancy_mapper.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
-#include "roomgraph/pipeline/map_anchor.h"
-#include "roomgraph/pipeline/object_loop_closer.h"
-#include "roomgraph/pipeline/object_mapper.h"
-#include "roomgraph/pipeline/pose_estimator.h"
+#include "roomgraph/pipeline/setup.h"
 #include "roomgraph/pipeline/stage_times.h"
-#include "roomgraph/pipeline/stages.h"
 #include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
@@ -46,12 +47,12 @@ struct SlamResult {
 };
 
 class DetectionSchedule;
-struct FrameBoxes;
+struct PeopleInView;
 
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.
 class SemanticSlam {
  public:
-  explicit SemanticSlam(std::unique_ptr<Stages> stages);
+  explicit SemanticSlam(std::unique_ptr<Setup> setup);
   ~SemanticSlam();
 
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
@@ -68,7 +69,7 @@ class SemanticSlam {
   const ObjectMapper& objects() const { return objects_; }
   /// The poses of the graph.
   const KeyPoses& keyPoses() const { return estimator_.poses(); }
-  const Stages& stages() const { return *stages_; }
+  const Setup& setup() const { return *setup_; }
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }
 
@@ -78,39 +79,40 @@ class SemanticSlam {
   StepReport step(const OdometryReading& reading);
   StepReport step(const std::shared_ptr<CObservationDetections>& recorded);
 
-  bool inOrder(double t, double& last, const std::string& source);
-  std::vector<Detection> detect(const Frame& frame, StepReport& report);
-  FrameBoxes boxesIn(const Frame& frame);
-  std::optional<Pose3> cameraMovement(const Frame& frame) const;
-  void track(const Frame& frame, StepReport& report);
-  ScanMatch matched(const Scan& scan);
+  FrameDetections detect(const Frame& frame);
+  TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
+  FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
+  std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
+                                        const std::vector<FeatureTrack>& features);
+  std::vector<ObjectDecision> associate(const Frame& frame, const std::vector<ObjectMeasurement>& measurements,
+                                        const std::vector<FeatureTrack>& features,
+                                        const FrameDetections& detections);
+  ScanMatch match(const Scan& scan);
+
   void localize(double t);
-  void propose(const Frame& frame, const std::vector<Detection>& detections);
-  void level(const Frame& frame);
-  void mapObjects(const Frame& frame, StepReport& report);
-  Scan withoutPeople(const Scan& scan);
+  void addClosures(const std::vector<RelativePose>& closures);
+  ObjectsInGraph inGraph() const;
+  bool optimizeAll();
   void anchor();
   void refine();
   SlamResult collect();
 
-  std::unique_ptr<Stages> stages_;
+  bool inOrder(double t, double& last, const std::string& source);
+  std::optional<Pose3> cameraMovement(const Frame& frame) const;
+
+  std::unique_ptr<Setup> setup_;
   std::vector<std::shared_ptr<Sink>> sinks_;
   StageTimes times_;
 
-  FrontEnds front_ends_;                                  ///< trajectories of the sources
+  FrontEnds front_ends_;                                   ///< trajectories of the sources
   std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
-  PoseEstimator estimator_;                               ///< key poses, measurements, the factor graph
-  ObjectMapper objects_;                                  ///< what was seen of objects
+  PoseEstimator estimator_;                                ///< key poses, measurements, the factor graph
+  ObjectMapper objects_;                                   ///< what was seen of objects
   ObjectLoopCloser object_loops_;
+  OccupancyMapper mapper_;                ///< scans and depth images, for the grid
+  std::unique_ptr<PeopleInView> people_;  ///< in the last frame, for the scans after it
   std::optional<MapAnchor> map_;
-  bool anchored_ = false;          ///< the world is the map's
-  std::optional<Scan> last_scan_;  ///< kept until then
   RunCounts counts_;
-  FrameProposals seen_;                 ///< of the last frame
-  std::vector<FeatureTrack> features_;  ///< tracked in the last frame
-  std::vector<Box2> people_;            ///< in the last frame with detections, px
-  Pose3 robot_from_camera_ = Pose3::Identity();
-  bool levelled_ = false;  ///< handheld camera: the floor has been seen
   double last_frame_t_, last_scan_t_;
   std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera

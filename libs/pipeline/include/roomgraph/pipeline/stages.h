@@ -1,61 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All options and stages of a run, made from the configuration.
+// The exchangeable stages of a run.
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "roomgraph/association/landmark_map.h"
-#include "roomgraph/core/config.h"
-#include "roomgraph/core/config_schema.h"
+#include "roomgraph/association/associator.h"
 #include "roomgraph/detection/detector.h"
 #include "roomgraph/lidar/scan_matcher.h"
-#include "roomgraph/mapping/occupancy_mapper.h"
-#include "roomgraph/observations/object_database.h"
-#include "roomgraph/pipeline/options.h"
 #include "roomgraph/proposals/proposal_generator.h"
 #include "roomgraph/selection/proposal_selector.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
 
 namespace roomgraph {
 
-/// Registers the classes of every library; safe to call again.
-void registerAllClasses();
-
-/// Everything a run is made of: options and stages, as the config names them.
+/// Stage objects, made by the class names in the configuration. The first four are null when switched off.
 struct Stages {
-  GeneralOptions general;
-  RgbdOptions rgbd;
-  TrackingOptions tracking;
-  LidarOptions lidar;
-  OdometryOptions odometry;
-  DetectionStageOptions detection;
-  BackendOptions backend;
-  ObjectDatabase database;
-  std::shared_ptr<RgbdOdometry> rgbd_odometry;       ///< null when switched off
-  std::shared_ptr<ScanMatcher> scan_matcher;         ///< null when switched off
-  std::shared_ptr<ScanLoopCloser> scan_loop_closer;  ///< null when switched off
-  std::shared_ptr<Detector> detector;                ///< null when switched off
+  std::shared_ptr<RgbdOdometry> rgbd_odometry;
+  std::shared_ptr<ScanMatcher> scan_matcher;
+  std::shared_ptr<ScanLoopCloser> scan_loop_closer;
+  std::shared_ptr<Detector> detector;
   std::shared_ptr<ProposalGenerator> proposal_generator;
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;
-  LandmarkMap landmarks;
-  ObjectLoopOptions object_loops;
-  OccupancyMapper mapper;
-  /// INI text of every parameter as it is used, and of the object database, which it expects beside itself as
-  /// objects.ini.
-  std::string effective_config, objects;
 };
-
-/// Loads the plug-ins, makes the stages and gives them their parameters. `objects_file`: the object database
-/// when the config names none. Throws ConfigError (unknown section, key, class, value; object database) or
-/// InputError (network file).
-std::unique_ptr<Stages> makeStages(const Config& config, const std::filesystem::path& objects_file);
-
-/// Every section and key that a config may hold, with all registered implementations.
-ConfigSchema configSchema();
 
 }  // namespace roomgraph

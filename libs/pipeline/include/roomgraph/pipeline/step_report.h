@@ -2,21 +2,25 @@
 // Report of one processed record, and the interface of its observers (Sink).
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "roomgraph/association/associator.h"
+#include "roomgraph/estimation/object_decision.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
 
-/// One selected measurement and what became of it.
-struct ObjectDecision {
-  WorldMeasurement seen;
-  Association association;
-  LandmarkId landmark;  ///< the landmark it was fused into (a new one's id when it was made)
+/// The detections that stand for one frame.
+struct FrameDetections {
+  std::vector<Detection> boxes;
+  bool fresh = false;    ///< the detector ran on this frame
+  bool carried = false;  ///< it did not: the boxes were tracked from the frames before
+  int age = 0;           ///< frames since the detector ran; 0: on this one, or never
+
+  /// Whether anything is known of the objects in this frame (even that there are none).
+  bool current() const { return fresh || carried; }
 };
 
 /// What one record changed; published to sinks after every step.
@@ -24,15 +28,14 @@ struct StepReport {
   enum class Kind { kFrame, kScan, kOther };
   Kind kind = Kind::kOther;
   double t = 0;
-  FrameId frame;                               ///< frames only
   Pose3 world_from_robot = Pose3::Identity();  ///< as known now, without hindsight
-  bool detector_ran = false;
-  bool boxes_carried = false;         ///< it did not: `detections` were tracked from the frames before
-  std::vector<Detection> detections;  ///< what the detector found, or what was carried
+  std::string note;                            ///< "lost: too few inliers", …; empty when all is well
+  // Frames only:
+  FrameId frame;
+  FrameDetections detections;
+  std::optional<FrameProposals> proposals;
   std::vector<ObjectDecision> decisions;
-  std::string note;                      ///< "lost: too few inliers", …; empty when all is well
-  const Frame* image = nullptr;          ///< frames only; valid during Sink::onStep()
-  const FrameProposals* seen = nullptr;  ///< frames only; valid during Sink::onStep()
+  const Frame* image = nullptr;  ///< valid during Sink::onStep()
 };
 
 /// Whoever watches a run. The pipeline never knows who.

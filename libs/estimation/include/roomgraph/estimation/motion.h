@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion sources with their trajectories and noise models.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "roomgraph/estimation/options.h"
+#include "roomgraph/observations/trajectory.h"
+
+namespace roomgraph {
+
+/// Movement of the robot as one source saw it.
+struct Movement {
+  Pose3 a_from_b = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Identity();
+};
+
+/// One source of motion: its trajectory in its own frame, and how far it is trusted.
+class MotionSource {
+ public:
+  MotionSource(MotionNoise noise, bool planar) : noise_(noise), planar_(planar) {}
+
+  /// Ignores a pose whose stamp does not come after the last one; returns whether it was taken.
+  /// `step_covariance`: of the movement since the last pose, on top of the noise model.
+  bool add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance);
+  /// Replaces the poses (later data refined them); the step covariances stay.
+  void refine(const Trajectory& poses) { poses_ = poses; }
+
+  const Trajectory& poses() const { return poses_; }
+  std::optional<Movement> between(double t_a, double t_b, double horizon_s) const;
+
+ private:
+  Matrix6d stepSum(double t_a, double t_b) const;
+
+  MotionNoise noise_;
+  bool planar_;
+  Trajectory poses_;
+  std::vector<std::pair<double, Matrix6d>> summed_;  // by time
+};
+
+/// All sources of one run.
+struct Motion {
+  MotionSource odometry, visual, lidar;
+
+  /// Best guess of the movement between two times: scans first, then images, then wheels; nothing when none
+  /// knows.
+  std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
+};
+
+}  // namespace roomgraph

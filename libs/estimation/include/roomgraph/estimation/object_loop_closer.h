@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loop closing by objects: duplicate constellations of landmarks from two visits.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "roomgraph/estimation/object_mapper.h"
+#include "roomgraph/estimation/options.h"
+#include "roomgraph/observations/trajectory.h"
+
+namespace roomgraph {
+
+/// Landmarks of two visits that have none in common.
+struct Visits {
+  std::vector<Landmark> recent, old;
+};
+
+/// Every way to part the landmarks at a time within `recent_s` before `now`: first seen from then on, and not
+/// seen any more since; only those with at least `min_each` landmarks in both visits.
+std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
+                               double recent_s, std::size_t min_each);
+
+/// Asks the scans or the images whether a closure is right; refines it.
+using ClosureVerifier = std::function<std::optional<RelativePose>(const RelativePose&)>;
+
+/// Landmarks made lately that lie on each other like older ones elsewhere: the robot came back with drift (or
+/// after being lost) and mapped the same objects again. The constellation gives the candidate, scans or
+/// images verify it (method.md sec. 4).
+class ObjectLoopCloser {
+ public:
+  explicit ObjectLoopCloser(const ObjectLoopOptions& options) : options_(options) {}
+
+  /// Called with every new key pose. Returns a verified closure that the current estimate does not agree
+  /// with, or nothing.
+  std::optional<RelativePose> search(const ObjectMapper& objects, const KeyPoses& poses,
+                                     const ClosureVerifier& verify);
+
+ private:
+  std::optional<RelativePose> confirm(const ConstellationMatch& match, const Visits& visits,
+                                      const SeenSpans& spans, const KeyPoses& poses,
+                                      const ClosureVerifier& verify);
+
+  const ObjectLoopOptions& options_;
+  int nodes_since_search_ = 0;
+  std::map<std::pair<LandmarkId, LandmarkId>, double> refused_;  ///< (recent, old): time of the last attempt
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Options of the estimation: noise of the motion sources, factor graph, loop closing by objects.
+#pragma once
+
+#include "roomgraph/association/constellation.h"
+#include "roomgraph/core/parameters.h"
+
+namespace roomgraph {
+
+/// What a source of motion is trusted with: standard deviations grow with the movement.
+struct MotionNoise {
+  double floor_m = 0.01, per_m = 0.02;       ///< translation
+  double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
+  double rad_per_m = 0.01;                   ///< rotation, by distance driven
+  void declare(ParameterVisitor& v);
+};
+
+/// [backend]
+struct BackendOptions : Configurable {
+  double node_distance_m = 0.15, node_angle_rad = 0.15, node_interval_s = 5;
+  int window_nodes = 10, optimize_every_nodes = 20, max_iterations = 30;
+  double live_tolerance = 1e-4;
+  double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
+  double closure_robust_width = 1.0, landmark_robust_width = 1.0;
+  double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
+  double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
+  double pose_sigma_m = 0.03;
+  double landmark_information_share = 0.01;
+  double landmark_side_rad = 0.26;
+  bool object_boxes = true;
+  bool planar_graph = false;
+  double box_sigma_px = 60, point_sigma_px = 20;
+  int points_per_landmark = 10;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// [object_loop_closing]
+struct ObjectLoopOptions : Configurable {
+  bool enabled = true;
+  double recent_s = 40;
+  int every_nodes = 5;
+  double min_shift_m = 0.3;
+  ConstellationOptions constellation;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion edges, anchors, closures and object factors between key poses.
+#include "roomgraph/estimation/graph_builder.h"
+
+#include <algorithm>
+#include <set>
+
+namespace roomgraph {
+namespace {
+
+const NodeId kAnchor{1'000'000'000};
+constexpr double kLidarGap_s = 0.25;
+
+// Nothing saw the movement: the poses are as near to each other as a walk, or a drive, allows.
+Movement unknownMovement(double seconds) {
+  const double sigma_m = 0.3 + 0.5 * seconds, sigma_rad = 0.3 + 0.7 * seconds;
+  Vector6d sigma;
+  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
+}
+
+void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion) {
+  bool any = false;
+  for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar}) {
+    const auto seen = source->between(a.t, b.t, kLidarGap_s);
+    if (!seen) continue;
+    any = true;
+    graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
+  }
+  if (any) return;
+  const Movement unknown = unknownMovement(b.t - a.t);
+  graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
+}
+
+// A handheld camera's world is level only as far as the seen floor says: tilt and height of the first pose
+// are free.
+void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
+  Pose3 anchor = toPose3(planarPart(first.world_from_robot));
+  graph.addPose(kAnchor, anchor, true);
+  Vector6d sigma;
+  sigma << 1e-4, 1e-4, 10, 1, 1, 1e-4;
+  graph.add(BetweenFactor{kAnchor, first.id, anchor.inverse() * first.world_from_robot,
+                          Matrix6d(sigma.cwiseAbs2().asDiagonal()), 0});
+}
+
+std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const KeyPoses& poses, double width) {
+  const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
+  if (a.id == b.id) return std::nullopt;
+  BetweenFactor factor{
+      a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
+      closure.covariance, width};
+  if (closure.planar) {
+    for (int i : {2, 3, 4}) {
+      factor.covariance.row(i).setZero();
+      factor.covariance.col(i).setZero();
+      factor.covariance(i, i) = 0.25;
+    }
+  }
+  return factor;
+}
+
+void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
+  const ObjectFactors& objects = in_graph.factors;
+  std::set<LandmarkId> seen;
+  for (const auto& sighting : objects.sightings) seen.insert(sighting.landmark);
+  for (const auto& landmark : in_graph.landmarks) {
+    if (!seen.contains(landmark.id)) continue;
+    graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
+    graph.add(LandmarkGroundFactor{landmark.id, 0.02});
+  }
+  for (const auto& [id, side] : objects.sides) graph.addLandmark(id, side);
+  for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
+  for (const auto& factor : objects.sightings) graph.add(factor);
+  for (const auto& factor : objects.visits) graph.add(factor);
+  for (const auto& factor : objects.sizes) graph.add(factor);
+  for (const auto& factor : objects.boxes) graph.add(factor);
+  for (const auto& factor : objects.views) graph.add(factor);
+  for (const auto& factor : objects.insides) graph.add(factor);
+}
+
+// Key poses from `first` on, and what is measured between neighbours and of the floor. `hold`: the first one
+// stays where it is, as far as its place is anybody's choice.
+void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
+              const Measurements& measurements, const BackendOptions& options, std::size_t first, bool hold) {
+  const auto& nodes = poses.nodes();
+  const bool loose = hold && first == 0 && !measurements.planar && !measurements.grounds.empty();
+  for (std::size_t i = first; i < nodes.size(); ++i)
+    graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && hold && !loose);
+  if (loose) addLooseAnchor(graph, nodes[first]);
+  for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
+  if (measurements.planar)
+    for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
+      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+  const auto since =
+      std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
+                       [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
+  for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
+}
+
+}  // namespace
+
+bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
+  for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})
+    if (source->between(a.t, b.t, kLidarGap_s)) return true;
+  return false;
+}
+
+FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                       const ObjectsInGraph& objects, const BackendOptions& options) {
+  FactorGraph graph;
+  addPoses(graph, poses, motion, measurements, options, 0, true);
+  for (const auto& closure : measurements.closures)
+    if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
+  addObjects(graph, objects);
+  return graph;
+}
+
+Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                   const BackendOptions& options, std::size_t first,
+                   const std::optional<MarginalPrior>& prior) {
+  Window window;
+  addPoses(window.graph, poses, motion, measurements, options, first, !prior);
+  if (prior) window.graph.add(*prior);
+  const KeyPose& oldest = poses.nodes()[first];
+  const double before = first > 0 ? poses.nodes()[first - 1].t : oldest.t;
+  std::set<NodeId> held;
+  for (const auto& closure : measurements.closures) {
+    if (std::max(closure.t_a, closure.t_b) < before) continue;  // a shortcut: there may be thousands
+    const auto factor = closureFactor(closure, poses, options.closure_robust_width);
+    if (!factor || std::max(factor->a, factor->b) < oldest.id) continue;
+    for (const NodeId id : {factor->a, factor->b})
+      if (id < oldest.id && held.insert(id).second)
+        window.graph.addPose(id, poses.node(id).world_from_robot, true);
+    window.graph.add(*factor);
+  }
+  window.held.assign(held.begin(), held.end());
+  return window;
+}
+
+}  // namespace roomgraph

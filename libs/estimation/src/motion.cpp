@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Covariance of a movement from noise model and summed steps.
+#include "roomgraph/estimation/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+// Of directions a planar source says nothing about: loose, but not so loose that the equations become
+// ill-conditioned.
+constexpr double kUnmeasuredSigma = 0.5;
+
+Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool planar) {
+  const double distance = movement.translation().norm(), angle = rotationAngle(movement);
+  const double sigma_m = noise.floor_m + noise.per_m * distance;
+  const double sigma_rad = noise.floor_rad + noise.per_rad * angle + noise.rad_per_m * distance;
+  Vector6d sigma;
+  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  if (planar) sigma[2] = sigma[3] = sigma[4] = kUnmeasuredSigma;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
+  if (!poses_.empty() && t <= poses_.lastTime()) return false;
+  poses_.add(t, odom_from_robot, segment);
+  const Matrix6d before = summed_.empty() ? Matrix6d::Zero() : summed_.back().second;
+  summed_.emplace_back(t, before + step_covariance);
+  return true;
+}
+
+Matrix6d MotionSource::stepSum(double t_a, double t_b) const {
+  const auto until = [&](double t) -> Matrix6d {
+    const auto after = std::upper_bound(summed_.begin(), summed_.end(), t,
+                                        [](double time, const auto& entry) { return time < entry.first; });
+    return after == summed_.begin() ? Matrix6d::Zero() : std::prev(after)->second;
+  };
+  return until(std::max(t_a, t_b)) - until(std::min(t_a, t_b));
+}
+
+std::optional<Movement> MotionSource::between(double t_a, double t_b, double horizon_s) const {
+  if (poses_.empty()) return std::nullopt;
+  const auto movement = poses_.between(t_a, t_b, horizon_s);
+  if (!movement) return std::nullopt;
+  return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b)};
+}
+
+std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {
+  for (const auto* source : {&lidar, &visual, &odometry})
+    if (const auto seen = source->between(t_a, t_b, horizon_s)) return seen->a_from_b;
+  return std::nullopt;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Association and fusion of measurements, evidence of misses and beams, merging and splitting of landmarks.
+#include "roomgraph/estimation/object_mapper.h"
+
+#include <algorithm>
+#include <set>
+
+#include "measurement_in_world.h"
+#include "roomgraph/association/reassociation.h"
+#include "visibility.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place say the same
+
+// Two landmarks were one: their shares of the posterior belong together.
+void rename(ObjectDecision& decision, LandmarkId removed, LandmarkId kept) {
+  if (decision.landmark == removed) decision.landmark = kept;
+  if (decision.association.landmark == removed) decision.association.landmark = kept;
+  auto& posterior = decision.association.posterior;
+  const auto find = [&](LandmarkId id) {
+    return std::find_if(posterior.begin(), posterior.end(), [id](const auto& p) { return p.first == id; });
+  };
+  const auto old = find(removed);
+  if (old == posterior.end()) return;
+  if (const auto other = find(kept); other != posterior.end()) {
+    other->second = std::min(1.0, other->second + old->second);  // rounding
+    posterior.erase(old);
+  } else {
+    old->first = kept;
+  }
+}
+
+// Those with depth; the mapper remembers no more of the others than which object they lie on.
+std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& decisions,
+                                            const std::vector<FeatureTrack>& features) {
+  std::set<std::int64_t> on_objects;
+  for (const auto& decision : decisions)
+    on_objects.insert(decision.seen.measurement.features.begin(), decision.seen.measurement.features.end());
+  std::vector<FeatureTrack> out;
+  for (const auto& feature : features)
+    if (feature.depth_m > 0 && on_objects.contains(feature.point)) out.push_back(feature);
+  return out;
+}
+
+}  // namespace
+
+std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeasurement>& measurements,
+                                                    const Frame& frame,
+                                                    const std::vector<FeatureTrack>& features) {
+  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+  std::vector<WorldMeasurement> in_world;
+  for (const auto& measurement : measurements)
+    in_world.push_back(measurementInWorld(measurement, frame.camera, world_from_camera, pose_sigma_m_));
+  std::vector<ObjectDecision> decisions;
+  for (const auto& association : associator_->associate(in_world, landmarks_.landmarks())) {
+    ObjectDecision decision{in_world[association.measurement], association, {}};
+    decision.landmark = landmarks_.update(decision.seen, association);
+    associator_->assigned(decision.seen, decision.landmark);
+    decision.seen.measurement.detection.mask = cv::Mat();  // large, and not needed any more
+    decisions.push_back(std::move(decision));
+  }
+  if (decisions.empty()) return decisions;
+  frames_.push_back({frame.id, frame.t, frame.camera, frame.robot_from_camera, decisions,
+                     featuresOnObjects(decisions, features)});
+  span(frames_.back());
+  return decisions;
+}
+
+void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
+                              const std::vector<Detection>& detections, const Frame& frame) {
+  std::set<LandmarkId> seen;
+  for (const auto& decision : decisions) seen.insert(decision.landmark);
+  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+  std::vector<LandmarkId> missed;
+  for (const auto& landmark : landmarks_.landmarks())
+    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, frame, world_from_camera, detections))
+      missed.push_back(landmark.id);
+  for (const auto id : missed) landmarks_.miss(id);
+}
+
+void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
+  if (last_rays_from_) {
+    const Pose3 moved = last_rays_from_->inverse() * world_from_robot;
+    if (moved.translation().norm() < kRayDistance_m && rotationAngle(moved) < kRayAngle_rad) return;
+  }
+  last_rays_from_ = world_from_robot;
+  for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks())) {
+    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot);
+    if (rays.inside > 0) {
+      landmarks_.supported(landmark.id, rays.inside);
+    } else if (rays.through > 0) {
+      landmarks_.seenThrough(landmark.id, rays.through);
+    }
+  }
+}
+
+void ObjectMapper::tidy() {
+  const auto parted = landmarks_.splitMixed();
+  for (const auto& [first, second] : parted) shareSightings(first, second);
+  const auto merged = landmarks_.mergeDuplicates();
+  for (const auto& [removed, kept] : merged) {
+    associator_->merged(removed, kept);
+    for (auto& frame : frames_)
+      for (auto& decision : frame.decisions) rename(decision, removed, kept);
+  }
+  if (!merged.empty() || !parted.empty()) respan();
+}
+
+// A landmark became two: what was seen of it belongs to the nearer one.
+void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
+  const Eigen::Vector3d first_place = landmarks_.find(first)->position;
+  const Eigen::Vector3d second_place = landmarks_.find(second)->position;
+  for (auto& frame : frames_) {
+    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;  // poses have moved since
+    for (auto& decision : frame.decisions) {
+      if (decision.landmark != first) continue;
+      const Eigen::Vector3d place =
+          (world_from_camera * decision.seen.measurement.proposal.camera_from_object).translation();
+      if ((place - second_place).norm() < (place - first_place).norm()) rename(decision, first, second);
+    }
+  }
+}
+
+std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() const {
+  std::vector<std::vector<WorldMeasurement>> out;
+  for (const auto& frame : frames_) {
+    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+    out.emplace_back();
+    for (const auto& decision : frame.decisions)
+      out.back().push_back(
+          measurementInWorld(decision.seen.measurement, frame.camera, world_from_camera, pose_sigma_m_));
+  }
+  return out;
+}
+
+bool ObjectMapper::reassociate() {
+  const AssociationModel* model = associator_->model();
+  if (!model || frames_.empty()) return false;
+  const auto by_frame = measurementsInWorld();
+  const Reassociation result =
+      roomgraph::reassociate(by_frame, landmarks_.landmarks(), *model, landmarks_.rules());
+  landmarks_.adopt(by_frame, result);
+  bool changed = false;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
+      ObjectDecision& decision = frames_[f].decisions[k];
+      const BatchDecision& now = result.decisions[f][k];
+      changed |= decision.landmark != now.landmark;
+      decision = {by_frame[f][k], now.association, now.landmark};
+    }
+  }
+  respan();
+  return changed;
+}
+
+void ObjectMapper::move(const PathShift& shift) {
+  for (const auto& [id, span] : spans_)
+    if (span.first >= shift.since_t) landmarks_.move(id, shift.new_from_old);
+}
+
+ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const BackendOptions& options) const {
+  const AssociationModel* model = associator_->model();
+  const auto& landmarks = landmarks_.landmarks();
+  return {landmarks,
+          objectFactors(frames_, poses_, landmarks, database, options, model ? &model->measurement : nullptr)};
+}
+
+void ObjectMapper::apply(const LandmarkEstimates& estimates) {
+  for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks()))
+    if (const auto found = estimates.find(landmark.id); found != estimates.end())
+      landmarks_.correct(landmark.id, found->second.position, found->second.yaw, landmark.covariance);
+}
+
+void ObjectMapper::respan() {
+  spans_.clear();
+  for (const auto& frame : frames_) span(frame);
+}
+
+void ObjectMapper::span(const ObjectFrame& frame) {
+  for (const auto& decision : frame.decisions)
+    spans_.try_emplace(decision.landmark, SeenSpan{frame.t, frame.t}).first->second.last = frame.t;
+}
+
+}  // namespace roomgraph

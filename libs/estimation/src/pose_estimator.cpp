@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Window marginalisation, schedule of full optimisations, levelling, and reconnection across gaps.
+#include "roomgraph/estimation/pose_estimator.h"
+
+#include <algorithm>
+
+namespace roomgraph {
+namespace {
+constexpr int kLiveIterations = 10;  // a run must not stand still for long; the next optimisation goes on
+}
+
+PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
+    : options_(options), motion_(motion), poses_(motion) {
+  measurements_.planar = false;
+}
+
+bool PoseEstimator::advance(double t) {
+  if (poses_.empty()) {
+    poses_.add(t, Pose3::Identity());
+    return true;
+  }
+  const KeyPose& last = poses_.nodes().back();
+  if (t <= last.t) return false;
+  const Pose3 moved = poses_.offset(last, t);
+  // A source goes on after a gap that none saw across: where it goes on is unknown, and a pose of its own.
+  const KeyPose here{.t = t};
+  const bool resumed = connected(motion_, here, here) && !connected(motion_, last, here);
+  const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
+                   rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
+  if (!far) return false;
+  poses_.add(t, last.world_from_robot * moved);
+  ++nodes_since_optimization_;
+  return true;
+}
+
+bool PoseEstimator::surprising(const RelativePose& closure) const {
+  const Pose3 expected = poses_.at(closure.t_a).inverse() * poses_.at(closure.t_b);
+  const Pose3 difference = closure.a_from_b.inverse() * expected;
+  return difference.translation().norm() > options_.urgent_closure_m ||
+         rotationAngle(difference) > options_.urgent_closure_rad;
+}
+
+// Far from the solution a robust closure pulls too weakly: bring the unconnected part there first.
+std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
+  const auto& nodes = poses_.nodes();
+  const double early = std::min(closure.t_a, closure.t_b), late = std::max(closure.t_a, closure.t_b);
+  for (std::size_t i = nodes.size(); i-- > 1;) {
+    if (nodes[i].t > late || nodes[i - 1].t < early || connected(motion_, nodes[i - 1], nodes[i])) continue;
+    const Pose3 b_now = poses_.at(closure.t_b), a_now = poses_.at(closure.t_a);
+    const Pose3 move = closure.t_a < closure.t_b ? a_now * closure.a_from_b * b_now.inverse()
+                                                 : b_now * closure.a_from_b.inverse() * a_now.inverse();
+    poses_.moveFrom(nodes[i].id, move);
+    restartWindow();
+    return PathShift{nodes[i].t, move};
+  }
+  return std::nullopt;
+}
+
+std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose>& closures) {
+  std::vector<PathShift> shifts;
+  for (const auto& closure : closures) {
+    if (surprising(closure)) {
+      surprised_ = true;
+      if (const auto shift = reconnect(closure)) shifts.push_back(*shift);
+    }
+    measurements_.closures.push_back(closure);
+  }
+  return shifts;
+}
+
+void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robot_from_camera) {
+  if (planar()) return;
+  if (!levelled_) {
+    const Pose3 world_from_camera = poses_.at(t) * robot_from_camera;
+    const Pose3 level_from_world = cameraFromGround(in_camera).inverse() * world_from_camera.inverse();
+    const Pose2 first = planarPart(level_from_world * poses_.nodes().front().world_from_robot);
+    transform(toPose3(first.inverse()) * level_from_world);
+    levelled_ = true;
+  }
+  const KeyPose& node = poses_.nodes().back();
+  if (node.t != t) return;
+  GroundFactor factor{.node = node.id,
+                      .normal_in_robot = robot_from_camera.linear() * in_camera.normal,
+                      .sigma_normal_rad = options_.ground_sigma_rad,
+                      .sigma_offset_m = options_.ground_sigma_m};
+  factor.offset_m = in_camera.offset - factor.normal_in_robot.dot(robot_from_camera.translation());
+  measurements_.grounds.push_back(factor);
+}
+
+// The pause grows with the graph, so that the work per key pose stays bounded on long runs.
+bool PoseEstimator::due() const {
+  const int nodes = static_cast<int>(poses_.nodes().size());
+  const int pause = surprised_ ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
+                               : std::max(options_.optimize_every_nodes, nodes / 10);
+  return nodes_since_optimization_ >= pause;
+}
+
+// The oldest pose leaves the window; what it and the measurements at it say of the others stays as a prior.
+void PoseEstimator::slideWindow() {
+  const auto& nodes = poses_.nodes();
+  if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
+  Variables keep{.nodes = window_.held};  // closures to them are added to the next window again
+  for (std::size_t i = first_ + 1; i + 1 < nodes.size(); ++i) keep.nodes.push_back(nodes[i].id);
+  prior_ = window_.graph.marginalize(keep);
+  ++first_;
+}
+
+// Poses were moved from elsewhere: they stand, and the window begins anew with the last of them.
+void PoseEstimator::restartWindow() {
+  first_ = poses_.nodes().size() - 1;
+  prior_.reset();
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+}
+
+void PoseEstimator::optimizeWindow() {
+  slideWindow();
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+  if (!window_.graph.optimize(options_.max_iterations).usable) return;
+  for (std::size_t i = first_; i < poses_.nodes().size(); ++i) {
+    const NodeId id = poses_.nodes()[i].id;
+    poses_.set(id, window_.graph.pose(id));
+  }
+}
+
+std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGraph& objects) {
+  return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
+}
+
+std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects) {
+  return optimize(objects, SolveOptions{options_.max_iterations});
+}
+
+std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until) {
+  if (poses_.empty()) return LandmarkEstimates{};
+  nodes_since_optimization_ = 0;
+  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_);
+  const SolveReport report = graph_.optimize(until);
+  surprised_ = surprised_ && report.usable && report.iterations >= until.max_iterations;
+  if (report.usable)
+    for (const auto& node : poses_.nodes()) poses_.set(node.id, graph_.pose(node.id));
+  restartWindow();
+  if (!report.usable) return std::nullopt;
+  LandmarkEstimates estimates;
+  for (const Landmark& landmark : objects.landmarks)
+    if (graph_.hasLandmark(landmark.id)) estimates.emplace(landmark.id, graph_.landmark(landmark.id));
+  return estimates;
+}
+
+void PoseEstimator::transform(const Pose3& new_from_old) {
+  if (poses_.empty()) return;
+  poses_.moveFrom(poses_.nodes().front().id, new_from_old);
+  restartWindow();
+}
+
+}  // namespace roomgraph

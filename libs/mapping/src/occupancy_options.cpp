@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Declaration of the occupancy grid's parameters, with defaults and ranges.
+#include "roomgraph/mapping/occupancy_options.h"
+
+namespace roomgraph {
+
+void OccupancyOptions::declareParameters(ParameterVisitor& v) {
+  v.add("source", source,
+        {.doc = "What fills the grid; auto: the lidar when there is one, else the depth camera.",
+         .choices = {"auto", "lidar", "depth", "both"}});
+  v.add("resolution_m", resolution_m, {.doc = "Size of a cell.", .unit = "m", .min = 0.005, .max = 1});
+  v.add("max_range_m", max_range_m,
+        {.doc = "Farther returns only free the way up to here.", .unit = "m", .min = 0.5, .max = 200});
+  v.add("no_return_free_m", no_return_free_m,
+        {.doc = "Beams that met nothing within the lidar's range free the way up to here; 0: say nothing.",
+         .unit = "m",
+         .min = 0,
+         .max = 200});
+  v.add("hit_probability", hit_probability,
+        {.doc = "Probability that a cell with a return is occupied, for one scan.", .min = 0.5, .max = 0.99});
+  v.add("pass_probability", pass_probability,
+        {.doc = "Probability that a cell crossed by a beam is occupied, for one scan.",
+         .min = 0.01,
+         .max = 0.5});
+  v.add("min_move_m", min_move_m,
+        {.doc = "A scan is used when the robot has moved this far since the last used one …",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add("min_turn_rad", min_turn_rad,
+        {.doc = "… or turned this far …", .unit = "rad", .min = 0, .max = 3.2});
+  v.add("max_wait_s", max_wait_s,
+        {.doc = "… or this time has passed, so that what moved away is cleared.",
+         .unit = "s",
+         .min = 0,
+         .max = 1e6});
+  v.add("depth_min_height_m", slice.min_height_m,
+        {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
+         .unit = "m",
+         .min = 0.01,
+         .max = 2});
+  v.add("depth_max_height_m", slice.max_height_m,
+        {.doc = "Upper end of that band.", .unit = "m", .min = 0.05, .max = 5});
+  v.add("depth_max_range_m", slice.max_range_m,
+        {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
+  v.add("depth_step_px", slice.step_px,
+        {.doc = "Every n-th pixel is used.", .unit = "px", .min = 1, .max = 32});
+  v.add("depth_beam_rad", slice.beam_rad,
+        {.doc = "Width of a beam of the virtual scan.", .unit = "rad", .min = 0.001, .max = 0.2});
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// People and other things that are no landmarks: where the last frame saw them, for images and scans.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/lidar/dynamic_return_filter.h"
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/observations/proposal.h"
+#include "roomgraph/observations/scan.h"
+
+namespace roomgraph {
+
+/// Where people stand around the robot, as one frame saw them.
+struct PeopleInView {
+  double t = 0;
+  std::vector<DynamicWedge> wedges;  ///< in the robot's frame
+};
+
+/// Boxes, px, of those detections that are no landmarks.
+std::vector<Box2> boxesOfPeople(const std::vector<Detection>& detections, const ObjectDatabase& database);
+
+/// Wedges around the proposals that are no landmarks.
+PeopleInView peopleInView(const FrameProposals& proposals, const Pose3& robot_from_camera,
+                          const ObjectDatabase& database);
+
+/// Removes the returns of a scan inside the wedges, as long as those are not too old; returns how many
+/// (method.md sec. 5).
+int removePeople(Scan& scan, const PeopleInView& people);
+
+}  // namespace roomgraph

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Graph of a run: motion sources, closures, windows, ground factors and landmarks.
+#include "roomgraph/estimation/graph_builder.h"
+
+#include <gtest/gtest.h>
+
+#include "circle_drive.h"
+
+namespace roomgraph::test {
+namespace {
+
+struct Scenario {
+  Motion motion;
+  Measurements measurements;
+  ObjectsInGraph objects;
+  BackendOptions options;
+
+  // Key poses as dead reckoning of the best source would have them.
+  KeyPoses start() const {
+    KeyPoses poses(motion);
+    for (int i = 0; i < kNodes; ++i) poses.add(i, motion.movement(0, i, 0).value_or(Pose3::Identity()));
+    return poses;
+  }
+  double meanError() const {
+    const KeyPoses poses = start();
+    FactorGraph graph = buildGraph(poses, motion, measurements, objects, options);
+    EXPECT_TRUE(graph.optimize().usable);
+    double sum = 0;
+    for (int i = 0; i < kNodes; ++i)
+      sum += (graph.pose(NodeId{i}).translation() - truthAt(i).translation()).norm();
+    return sum / kNodes;
+  }
+};
+
+Scenario wheelsOnly() {
+  const MotionSource none(MotionNoise{}, true);
+  return {{drifting(1.05, 1.08, kWheelNoise), none, none}, {}, {}, {}};
+}
+
+TEST(GraphBuilder, ScansCorrectTheWheels) {
+  Scenario wheels = wheelsOnly(), both = wheels;
+  both.motion.lidar = drifting(1, 1.002, kScanNoise);
+  const double alone = wheels.meanError();
+  EXPECT_GT(alone, 0.15) << "wheels without drift prove nothing";
+  EXPECT_LT(both.meanError(), 0.03);
+}
+
+TEST(GraphBuilder, ClosureBetweenAnyTwoTimesPullsTheLoopShut) {
+  Scenario open = wheelsOnly(), closed = open;
+  // Times off the key poses: the sources of motion carry the closure there.
+  closed.measurements.closures = {closure(0.3, 38.6), closure(10.4, 38.6), closure(0.3, 20.5)};
+  EXPECT_LT(closed.meanError(), 0.5 * open.meanError());
+}
+
+TEST(GraphBuilder, WrongClosureIsShruggedOff) {
+  Scenario scenario = wheelsOnly();
+  scenario.motion.lidar = drifting(1, 1.002, kScanNoise);
+  RelativePose wrong = closure(2, 20);
+  wrong.a_from_b = Pose3::Identity();
+  scenario.measurements.closures = {wrong};
+  EXPECT_LT(scenario.meanError(), 0.06);
+  scenario.options.closure_robust_width = 0;
+  EXPECT_GT(scenario.meanError(), 0.2) << "a harmless closure proves nothing";
+}
+
+TEST(GraphBuilder, WithoutAnySourceThePosesStayTogether) {
+  const MotionSource none(MotionNoise{}, true);
+  const Scenario scenario{{none, none, none}, {}, {}, {}};
+  FactorGraph graph =
+      buildGraph(scenario.start(), scenario.motion, scenario.measurements, {}, scenario.options);
+  ASSERT_TRUE(graph.optimize().usable);
+  for (int i = 0; i < kNodes; ++i) EXPECT_LT(graph.pose(NodeId{i}).translation().norm(), 1e-6);
+}
+
+TEST(GraphBuilder, CountsOfPosesAndFactors) {
+  Scenario scenario = wheelsOnly();
+  scenario.measurements.closures = {closure(0, 30), closure(2, 5)};
+  const KeyPoses poses = scenario.start();
+  const FactorGraph whole =
+      buildGraph(poses, scenario.motion, scenario.measurements, scenario.objects, scenario.options);
+  EXPECT_EQ(whole.poses(), 40u);
+  EXPECT_EQ(whole.factors(), 39u + 39u + 2u);  // movements, planar, closures
+  const auto window = [&](std::size_t first) {
+    return buildWindow(poses, scenario.motion, scenario.measurements, scenario.options, first, std::nullopt)
+        .graph;
+  };
+  EXPECT_EQ(window(34).poses(), 6u);
+  EXPECT_EQ(window(34).factors(), 5u + 5u);  // closures are all older
+  EXPECT_EQ(window(28).poses(), 12u + 1u);   // and the pose that a closure reaches back to
+  EXPECT_EQ(window(28).factors(), 11u + 11u + 1u);
+}
+
+TEST(GraphBuilder, FirstPoseOfAWindowIsHeld) {
+  const Scenario scenario = wheelsOnly();
+  const KeyPoses poses = scenario.start();
+  FactorGraph graph = buildWindow(poses, scenario.motion, {}, scenario.options, 30, std::nullopt).graph;
+  ASSERT_TRUE(graph.optimize().usable);
+  EXPECT_TRUE(graph.pose(NodeId{30}).isApprox(poses.nodes()[30].world_from_robot, 1e-9));
+}
+
+TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
+  Scenario scenario = wheelsOnly();
+  const Eigen::Vector3d place(1, 1, 0);
+  for (int id : {0, 1}) {
+    Landmark landmark;
+    landmark.id = LandmarkId{id};
+    landmark.position = place + Eigen::Vector3d(0.4 * id, 0, 0);
+    scenario.objects.landmarks.push_back(landmark);
+  }
+  for (int i : {3, 7}) {
+    LandmarkFactor sighting{NodeId{i}, LandmarkId{1}};
+    sighting.position_in_robot = truthAt(i).inverse() * place;
+    sighting.covariance = 1e-4 * Eigen::Matrix4d::Identity();
+    scenario.objects.factors.sightings.push_back(sighting);
+  }
+  const KeyPoses poses = scenario.start();
+  FactorGraph graph =
+      buildGraph(poses, scenario.motion, scenario.measurements, scenario.objects, scenario.options);
+  EXPECT_EQ(graph.landmarks(), 1u);
+  EXPECT_TRUE(graph.hasLandmark(LandmarkId{1}));
+  ASSERT_TRUE(graph.optimize().usable);
+  EXPECT_LT((graph.landmark(LandmarkId{1}).position - place).norm(), 0.1);
+}
+
+// A handheld camera whose world is tilted: sightings of the floor level it; place and heading of the start
+// stay.
+TEST(GraphBuilder, FloorLevelsAHandheldCamera) {
+  Scenario scenario = wheelsOnly();
+  scenario.motion.odometry = MotionSource(MotionNoise{}, false);
+  scenario.measurements.planar = false;
+  const Pose3 tilt = poseFromYpr(0, 0, 0, 0, 0.15, -0.1), height = poseFromYpr(0, 0, 1.3, 0, 0, 0);
+  KeyPoses poses(scenario.motion);
+  for (int i = 0; i < 10; ++i) {
+    scenario.motion.visual.add(i, truthAt(i), 0, Matrix6d::Zero());
+    poses.add(i, tilt * truthAt(i));
+    scenario.measurements.grounds.push_back({.node = NodeId{i}, .offset_m = 1.3});
+  }
+  FactorGraph graph = buildGraph(poses, scenario.motion, scenario.measurements, {}, scenario.options);
+  ASSERT_TRUE(graph.optimize(100).usable);
+  for (int i = 0; i < 10; ++i) {
+    const Pose3 error = (height * truthAt(i)).inverse() * graph.pose(NodeId{i});
+    EXPECT_LT(error.translation().norm(), 0.03) << i;
+    EXPECT_LT(rotationAngle(error), 0.02) << i;
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph::test

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Motion sources: covariance models, segments and order of preference.
+#include "roomgraph/estimation/motion.h"
+
+#include <gtest/gtest.h>
+
+namespace roomgraph::test {
+namespace {
+
+const MotionNoise kNoise{
+    .floor_m = 0.01, .per_m = 0.02, .floor_rad = 0.003, .per_rad = 0.04, .rad_per_m = 0.01};
+
+TEST(MotionSource, CovarianceGrowsWithTheMovement) {
+  MotionSource source(kNoise, false);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, poseFromYpr(0, 2, 0, 0.5, 0, 0), 0, Matrix6d::Zero());
+  const auto movement = source.between(0, 1, 0);
+  ASSERT_TRUE(movement);
+  EXPECT_TRUE(movement->a_from_b.isApprox(poseFromYpr(0, 2, 0, 0.5, 0, 0), 1e-12));
+  const double sigma_m = 0.01 + 0.02 * 2, sigma_rad = 0.003 + 0.04 * 0.5 + 0.01 * 2;
+  Vector6d expected;
+  expected << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  EXPECT_LT((movement->covariance - Matrix6d(expected.cwiseAbs2().asDiagonal())).norm(), 1e-12);
+}
+
+TEST(MotionSource, PlanarSourceSaysNothingAboutHeightAndTilt) {
+  MotionSource source(kNoise, true);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, poseFromYpr(1, 0, 0, 0, 0, 0), 0, Matrix6d::Zero());
+  const Matrix6d covariance = source.between(0, 1, 0)->covariance;
+  for (int i : {2, 3, 4}) EXPECT_GE(covariance(i, i), 0.25);
+  for (int i : {0, 1, 5}) EXPECT_LT(covariance(i, i), 0.01);
+}
+
+TEST(MotionSource, StepCovariancesAreSummedOverTheSpan) {
+  MotionSource source(kNoise, false);
+  for (int i = 0; i <= 4; ++i) source.add(i, Pose3::Identity(), 0, 0.1 * i * Matrix6d::Identity());
+  const double model = 0.01 * 0.01;
+  EXPECT_NEAR(source.between(1, 3, 0)->covariance(0, 0), model + 0.2 + 0.3, 1e-12);
+  EXPECT_NEAR(source.between(3, 1, 0)->covariance(0, 0), model + 0.2 + 0.3, 1e-12);
+  EXPECT_NEAR(source.between(0, 4, 0)->covariance(0, 0), model + 1.0, 1e-12);
+}
+
+TEST(MotionSource, NothingAcrossALossAndOutsideTheData) {
+  MotionSource source(kNoise, false);
+  EXPECT_FALSE(source.between(0, 1, 10));
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(2, poseFromYpr(9, 0, 0, 0, 0, 0), 1, Matrix6d::Zero());
+  EXPECT_TRUE(source.between(0, 1, 0));
+  EXPECT_FALSE(source.between(0, 2, 0));
+  EXPECT_FALSE(source.between(1, 1.5, 0));
+  EXPECT_FALSE(source.between(2, 2.5, 0.1));
+  EXPECT_FALSE(source.between(-1, 1, 0.5));
+}
+
+TEST(MotionSource, StampMustComeAfterTheLast) {
+  MotionSource source(kNoise, false);
+  EXPECT_TRUE(source.add(1, Pose3::Identity(), 0, Matrix6d::Zero()));
+  EXPECT_FALSE(source.add(1, Pose3::Identity(), 0, Matrix6d::Zero()));
+  EXPECT_FALSE(source.add(0.5, Pose3::Identity(), 0, Matrix6d::Zero()));
+  EXPECT_EQ(source.poses().size(), 1u);
+}
+
+MotionSource movingBy(double metres) {
+  MotionSource source(kNoise, true);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, poseFromYpr(metres, 0, 0, 0, 0, 0), 0, Matrix6d::Zero());
+  return source;
+}
+
+TEST(Motion, ScansComeBeforeImagesBeforeWheels) {
+  const MotionSource none(kNoise, true);
+  const auto seen = [](const Motion& motion) { return motion.movement(0, 1, 0)->translation().x(); };
+  EXPECT_EQ(seen({movingBy(1), movingBy(2), movingBy(3)}), 3);
+  EXPECT_EQ(seen({movingBy(1), movingBy(2), none}), 2);
+  EXPECT_EQ(seen({movingBy(1), none, none}), 1);
+  EXPECT_FALSE((Motion{none, none, none}).movement(0, 1, 0));
+}
+
+TEST(MotionSource, RefinedPosesReplaceTheOld) {
+  MotionSource source = movingBy(1);
+  Trajectory better;
+  better.add(0, Pose3::Identity());
+  better.add(1, poseFromYpr(1.2, 0, 0, 0, 0, 0));
+  source.refine(better);
+  EXPECT_DOUBLE_EQ(source.between(0, 1, 0)->a_from_b.translation().x(), 1.2);
+}
+
+}  // namespace
+}  // namespace roomgraph::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Object factors: residual-free sightings, means, visits and sides; split of landmarks by time.
+#include "roomgraph/estimation/object_factors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_poses.h"
+#include "roomgraph/estimation/object_loop_closer.h"
+
+namespace roomgraph::test {
+namespace {
+
+// A sighting of a landmark must leave no residual when poses and landmark are the true ones.
+TEST(Sighting, AgreesWithThePosesItWasMadeFrom) {
+  Random random(4);
+  for (int i = 0; i < 30; ++i) {
+    Landmark landmark;
+    landmark.id = LandmarkId{3};
+    landmark.position = {random.uniform(-5, 5), random.uniform(-5, 5), 0};
+    landmark.yaw = random.uniform(-3, 3);
+    const KeyPose node{
+        NodeId{7}, 1,
+        poseFromYpr(random.uniform(-5, 5), random.uniform(-5, 5), 0, random.uniform(-3, 3), 0, 0)};
+    const Pose3 node_from_camera = random.pose(0.5);
+    ObjectDecision decision;
+    decision.seen.measurement.proposal.has_yaw = true;
+    decision.seen.measurement.proposal.score = 0.5;
+    decision.seen.measurement.confidence = 0.8;
+    decision.association.probability = 0.9;
+    Landmark seen = landmark;
+    if (i % 2) seen.yaw += M_PI;  // taken for its back
+    decision.seen.measurement.proposal.camera_from_object =
+        (node.world_from_robot * node_from_camera).inverse() * seen.worldFromObject();
+    const LandmarkFactor factor = sightingOf(decision, landmark, node, node_from_camera);
+    EXPECT_EQ(factor.node.value, 7);
+    EXPECT_EQ(factor.landmark.value, 3);
+    EXPECT_LT((node.world_from_robot * factor.position_in_robot - landmark.position).norm(), 1e-9);
+    EXPECT_NEAR(wrapAngle(planarPart(node.world_from_robot).yaw + factor.yaw_in_robot - landmark.yaw), 0,
+                1e-9);
+    EXPECT_NEAR(factor.weight, 0.9 * 0.8 * 0.5, 1e-12);
+  }
+}
+
+LandmarkFactor factorAt(double x, double yaw, double weight, double sigma_m, bool has_yaw = true) {
+  LandmarkFactor factor;
+  factor.position_in_robot = {x, 0, 0};
+  factor.yaw_in_robot = yaw;
+  factor.has_yaw = has_yaw;
+  factor.weight = weight;
+  factor.covariance = sigma_m * sigma_m * Eigen::Matrix4d::Identity();
+  return factor;
+}
+
+TEST(Sighting, MeanWeighsByScoreAndPrecisionButIsNoSurerThanOne) {
+  const auto mean = meanSighting({factorAt(1, 3.1, 0.8, 0.1), factorAt(2, -3.1, 0.4, 0.2)});
+  // Shares .8 / .01 and .4 / .04 stand 8 to 1.
+  EXPECT_NEAR(mean.position_in_robot.x(), 1 + 1.0 / 9, 1e-12);
+  EXPECT_NEAR(mean.covariance(0, 0), (8 * 0.01 + 0.04) / 9, 1e-12);
+  EXPECT_EQ(mean.weight, 0.8);
+  EXPECT_NEAR(std::abs(wrapAngle(mean.yaw_in_robot - 3.1)), 2 * (M_PI - 3.1) / 9, 1e-3)
+      << "the short way round";
+  EXPECT_FALSE(meanSighting({factorAt(1, 0, 1, 0.1, false)}).has_yaw);
+}
+
+const Eigen::Vector3d kChair(3, 1, 0);
+
+// Key poses on a short way towards the chair, twice, and one behind it in between.
+KeyPoses twoVisits(const Motion& motion) {
+  KeyPoses poses(motion);
+  for (int i = 0; i < 3; ++i) poses.add(i, poseFromYpr(0.3 * i, 0, 0, 0.2, 0, 0));
+  poses.add(50, poseFromYpr(5, 2, 0, -2, 0, 0));
+  for (int i = 0; i < 3; ++i) poses.add(100 + i, poseFromYpr(0.3 * i, 0.1, 0, 0.1, 0, 0));
+  return poses;
+}
+
+Landmark chair() {
+  Landmark out;
+  out.id = LandmarkId{4};
+  out.class_name = "swivel_chair";
+  out.position = kChair;
+  return out;
+}
+
+// The chair as every key pose sees it: from the front 0.1 m too far along x, from behind too near.
+std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
+  std::vector<ObjectFrame> frames;
+  for (const auto& node : poses.nodes()) {
+    const double error = node.t == 50 ? -0.1 : 0.1;
+    ObjectDecision decision;
+    decision.landmark = LandmarkId{4};
+    decision.association.probability = 0.8;
+    decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
+    auto& measurement = decision.seen.measurement;
+    measurement.confidence = measurement.proposal.score = 1;
+    measurement.proposal.class_name = "swivel_chair";
+    measurement.proposal.camera_from_object =
+        node.world_from_robot.inverse() * poseFromYpr(kChair.x() + error, kChair.y(), 0, 0, 0, 0);
+    frames.push_back({.frame = {}, .t = node.t, .camera = {}, .decisions = {decision}, .features = {}});
+  }
+  return frames;
+}
+
+TEST(ObjectFactors, AVisitOfASideCountsOnceAndTheNextOneMeasuresTheSameSide) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  const BackendOptions options;
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);
+  ASSERT_EQ(factors.sightings.size(), poses.nodes().size());
+  for (const auto& sighting : factors.sightings)
+    EXPECT_NEAR(sighting.weight, 0.8 * options.landmark_information_share, 1e-12);
+  ASSERT_EQ(factors.sides.size(), 1u) << "what was seen from behind was not seen again";
+  ASSERT_EQ(factors.visits.size(), 2u);
+  std::vector<std::int64_t> nodes;
+  for (const auto& sighting : factors.visits) {
+    const Pose3& pose = poses.node(sighting.node).world_from_robot;
+    EXPECT_LT((pose * sighting.position_in_robot - kChair - 0.1 * Eigen::Vector3d::UnitX()).norm(), 1e-9);
+    EXPECT_EQ(sighting.landmark, factors.sides.begin()->first);
+    EXPECT_NEAR(sighting.weight, 0.8, 1e-12);
+    EXPECT_TRUE(sighting.covariance.isApprox(0.01 * Eigen::Matrix4d::Identity(), 1e-9));
+    nodes.push_back(sighting.node.value);
+  }
+  EXPECT_EQ(nodes, (std::vector<std::int64_t>{1, 5})) << "the middle of both visits";
+}
+
+TEST(ObjectFactors, StandingStillIsOneVisit) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  KeyPoses poses(motion);
+  for (int i = 0; i < 4; ++i) poses.add(5 * i, Pose3::Identity());
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, BackendOptions{});
+  EXPECT_EQ(factors.sightings.size(), 4u);
+  EXPECT_TRUE(factors.sides.empty());
+}
+
+TEST(ObjectFactors, VisitsThatWeighNothingMakeNoSide) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  auto frames = framesOf(poses);
+  for (auto& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0;
+  EXPECT_TRUE(objectFactors(frames, poses, {chair()}, {}, BackendOptions{}).sides.empty());
+}
+
+Landmark trusted(std::int64_t id) {
+  Landmark landmark;
+  landmark.id = LandmarkId{id};
+  landmark.existence = 0.9;
+  landmark.observations = 10;
+  return landmark;
+}
+
+TEST(PartByTime, TheTwoVisitsShareNoLandmark) {
+  const std::vector<Landmark> landmarks{trusted(0), trusted(1), trusted(2), trusted(3), trusted(4)};
+  const std::map<LandmarkId, SeenSpan> spans{{LandmarkId{0}, {0, 20}},
+                                             {LandmarkId{1}, {5, 22}},
+                                             {LandmarkId{2}, {18, 90}},  // seen in both
+                                             {LandmarkId{3}, {80, 95}},
+                                             {LandmarkId{4}, {85, 99}}};
+  const auto visits = partByTime(landmarks, spans, 100, 40, 2);
+  ASSERT_EQ(visits.size(), 1u);
+  ASSERT_EQ(visits[0].recent.size(), 2u);
+  EXPECT_EQ(visits[0].recent[0].id.value, 3);
+  ASSERT_EQ(visits[0].old.size(), 2u);
+  EXPECT_EQ(visits[0].old[1].id.value, 1);
+  EXPECT_TRUE(partByTime(landmarks, spans, 100, 40, 3).empty());
+  EXPECT_TRUE(partByTime(landmarks, spans, 100, 10, 2).empty()) << "the parting lies too far back";
+  auto doubtful = landmarks;
+  doubtful[3].existence = 0.2;
+  EXPECT_TRUE(partByTime(doubtful, spans, 100, 40, 2).empty());
+}
+
+}  // namespace
+}  // namespace roomgraph::test

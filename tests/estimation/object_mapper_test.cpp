@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ObjectMapper: sightings follow a landmark that is split in two.
+#include "roomgraph/estimation/object_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "roomgraph/association/register_classes.h"
+#include "roomgraph/core/class_registry.h"
+#include "roomgraph/core/config.h"
+
+namespace roomgraph::test {
+namespace {
+
+const Motion& standing() {
+  static const MotionNoise noise;
+  static const Motion motion{MotionSource(noise, true), MotionSource(noise, false),
+                             MotionSource(noise, true)};
+  return motion;
+}
+
+// A camera 1 m above the floor that looks along x.
+Frame frameAt(int i, double t) {
+  Frame frame;
+  frame.id = FrameId{i};
+  frame.t = t;
+  frame.camera = {320, 240, 260, 260, 159.5, 119.5, {}};
+  frame.robot_from_camera = poseFromYpr(0, 0, 1, 0, 0, 0);
+  frame.robot_from_camera.linear() = bodyFromOptical();
+  return frame;
+}
+
+ObjectMeasurement chairAt(const Frame& frame, double x, double y) {
+  ObjectMeasurement out;
+  out.frame = frame.id;
+  out.t = frame.t;
+  out.proposal.class_name = out.proposal.model = "swivel_chair";
+  out.proposal.shape = {ShapeKind::kCylinder, 0.6, 0.6, 0.9};
+  out.proposal.camera_from_object = frame.robot_from_camera.inverse() * poseFromYpr(x, y, 0, 0, 0, 0);
+  out.proposal.covariance = 0.01 * Eigen::Matrix4d::Identity();
+  out.proposal.score = 0.9;
+  out.detection.class_name = "swivel_chair";
+  out.detection.score = 0.9;
+  return out;
+}
+
+std::shared_ptr<Associator> generousAssociator() {
+  association::registerClasses();
+  std::shared_ptr<Associator> out = createStage<Associator>("NearestNeighborAssociator", "test");
+  Config::fromText("[association]\nmax_distance_ratio = 5\n", "test").read("association", *out);
+  return out;
+}
+
+// Two chairs .8 m apart, in view one at a time; the associator takes them for one.
+TEST(ObjectMapper, WhenALandmarkIsSplitItsSightingsAre) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(generousAssociator(), {}, 0.03, poses);
+  for (int i = 0; i < 20; ++i) {
+    const Frame frame = frameAt(i, 0.5 * i);
+    const auto decisions = mapper.associate({chairAt(frame, 3, i % 2 ? 0.4 : -0.4)}, frame, {});
+    ASSERT_EQ(decisions.size(), 1u);
+  }
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  const SeenSpan both = mapper.seenSpans().begin()->second;
+  EXPECT_EQ(both.first, 0);
+  EXPECT_EQ(both.last, 9.5);
+  // The world moves: what was remembered of it then must move along.
+  const Pose3 moved = poseFromYpr(5, -3, 0, 2, 0, 0);
+  poses.set(NodeId{0}, moved);
+  mapper.move({0, moved});
+  mapper.tidy();
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
+  std::set<LandmarkId> left, right;
+  for (const auto& frame : mapper.frames())
+    (frame.frame.value % 2 ? left : right).insert(frame.decisions.at(0).landmark);
+  ASSERT_EQ(left.size(), 1u);
+  ASSERT_EQ(right.size(), 1u);
+  const auto seenAt = [&](const std::set<LandmarkId>& ids) {
+    return (moved.inverse() * mapper.landmarks().find(*ids.begin())->position).y();
+  };
+  EXPECT_NEAR(seenAt(left), 0.4, 0.05);
+  EXPECT_NEAR(seenAt(right), -0.4, 0.05);
+  ASSERT_EQ(mapper.seenSpans().size(), 2u);
+  const SeenSpan at_left = mapper.seenSpans().at(*left.begin()),
+                 at_right = mapper.seenSpans().at(*right.begin());
+  EXPECT_EQ(at_left.first, 0.5);
+  EXPECT_EQ(at_left.last, 9.5);
+  EXPECT_EQ(at_right.first, 0);
+  EXPECT_EQ(at_right.last, 9);
+}
+
+}  // namespace
+}  // namespace roomgraph::test

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PoseEstimator: sliding window with prior against the whole graph.
+#include "roomgraph/estimation/pose_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include "circle_drive.h"
+
+namespace roomgraph::test {
+namespace {
+
+// Wheels that drift, driven once round the circle; the whole graph is never due.
+struct Estimation {
+  explicit Estimation(int window_nodes) {
+    options.window_nodes = window_nodes;
+    options.optimize_every_nodes = 1000;
+    options.urgent_closure_m = options.urgent_closure_rad = 1;
+    estimator.setPlanar();
+  }
+  void close(const RelativePose& closure) {
+    closures.push_back(closure);
+    EXPECT_TRUE(estimator.addClosures({closure}).empty()) << "wheels saw all of the way";
+  }
+  // From one key pose to the next; a closure with the start comes with the last but two.
+  void drive(bool closed) {
+    for (int t = 0; t < kNodes; ++t) {
+      ASSERT_TRUE(estimator.advance(t));
+      if (closed && t == kNodes - 3) close(closure(0, t));
+      ASSERT_FALSE(estimator.due());
+      estimator.optimizeWindow();
+    }
+  }
+  // What the least squares of everything at once say.
+  Pose3 lastOfBatch() const {
+    FactorGraph graph = buildGraph(estimator.poses(), motion, {.closures = closures}, {}, options);
+    EXPECT_TRUE(graph.optimize(200).usable);
+    return graph.pose(NodeId{kNodes - 1});
+  }
+  Pose3 last() const { return estimator.poses().nodes().back().world_from_robot; }
+
+  MotionSource none{MotionNoise{}, true};
+  Motion motion{drifting(1.03, 1.04, kWheelNoise), none, none};
+  BackendOptions options;
+  PoseEstimator estimator{options, motion};
+  std::vector<RelativePose> closures;
+};
+
+double distance(const Pose3& a, const Pose3& b) {
+  return (a.translation() - b.translation()).norm();
+}
+
+// A closure no surer than the wheels comes early: every slide of the window must leave it the weight of one.
+TEST(PoseEstimator, AClosureCountsOnceHoweverOftenTheWindowSlides) {
+  for (const int nodes : {6, 10, 100}) {
+    Estimation run(nodes);
+    for (int t = 0; t < kNodes; ++t) {
+      ASSERT_TRUE(run.estimator.advance(t));
+      if (t == kNodes - 20) {
+        RelativePose vague = closure(0, t);
+        vague.covariance = 0.01 * Matrix6d::Identity();
+        run.close(vague);
+      }
+      run.estimator.optimizeWindow();
+    }
+    EXPECT_LT(distance(run.last(), run.lastOfBatch()), 0.01) << "window of " << nodes;
+  }
+}
+
+// The closure reaches back behind the window: only the prior knows how far the window may have drifted.
+TEST(PoseEstimator, WindowWithItsPriorEndsWhereTheWholeGraphDoes) {
+  for (const int nodes : {4, 8, 100}) {
+    Estimation open(nodes), closed(nodes);
+    open.drive(false);
+    closed.drive(true);
+    ASSERT_GT(distance(open.last(), truthAt(kNodes - 1)), 0.2) << "wheels without drift prove nothing";
+    EXPECT_LT(distance(open.last(), open.lastOfBatch()), 1e-6);
+    EXPECT_LT(distance(closed.last(), closed.lastOfBatch()), 0.01) << "window of " << nodes;
+    EXPECT_LT(distance(closed.last(), truthAt(kNodes - 1)), 0.05) << "window of " << nodes;
+  }
+}
+
+TEST(PoseEstimator, PosesThatLeftTheWindowStay) {
+  Estimation run(5);
+  run.drive(false);
+  const std::vector<KeyPose> before = run.estimator.poses().nodes();
+  run.close(closure(2, kNodes - 2));
+  run.estimator.optimizeWindow();
+  const auto& after = run.estimator.poses().nodes();
+  for (std::size_t i = 0; i + 5 < before.size(); ++i)
+    EXPECT_TRUE(after[i].world_from_robot.matrix() == before[i].world_from_robot.matrix()) << i;
+  EXPECT_GT(distance(after.back().world_from_robot, before.back().world_from_robot), 0.05);
+}
+
+// The prior is in the old frame then.
+TEST(PoseEstimator, AMovedWorldDoesNotMoveBack) {
+  Estimation run(5);
+  run.drive(false);
+  const Pose3 moved = poseFromYpr(3, -2, 0, 1, 0, 0), before = run.last();
+  run.estimator.transform(moved);
+  run.estimator.optimizeWindow();
+  EXPECT_LT(distance(run.last(), moved * before), 1e-6);
+}
+
+TEST(PoseEstimator, EverythingAtOnceIsTheWholeGraph) {
+  Estimation run(5);
+  run.drive(true);
+  const Pose3 batch = run.lastOfBatch();
+  EXPECT_TRUE(run.estimator.optimizeAll({}));
+  EXPECT_LT(distance(run.last(), batch), 1e-4);
+}
+
+// The wheels stop for a while, and nothing saw the way: a closure says where the robot went on.
+TEST(PoseEstimator, AClosureOverAGapMovesWhatCameAfterIt) {
+  BackendOptions options;
+  const MotionSource none{MotionNoise{}, true};
+  Motion motion{MotionSource{kWheelNoise, true}, none, none};
+  for (int i = 0; i <= 10; ++i) motion.odometry.add(i, poseFromYpr(0.1 * i, 0, 0, 0, 0, 0), 0, Matrix6d::Zero());
+  for (int i = 50; i <= 60; ++i)
+    motion.odometry.add(i, poseFromYpr(0.1 * (i - 50), 0, 0, 0, 0, 0), 1, Matrix6d::Zero());
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  for (const double t : {0.0, 10.0, 50.0, 60.0}) ASSERT_TRUE(estimator.advance(t)) << t;
+  const Pose3 before = estimator.poses().nodes()[3].world_from_robot;
+  RelativePose closure;
+  closure.t_a = 0;
+  closure.t_b = 50;
+  closure.a_from_b = poseFromYpr(4, 2, 0, 1, 0, 0);
+  closure.covariance = 1e-4 * Matrix6d::Identity();
+  const auto shifts = estimator.addClosures({closure});
+  ASSERT_EQ(shifts.size(), 1u);
+  EXPECT_EQ(shifts[0].since_t, 50);
+  const auto& nodes = estimator.poses().nodes();
+  EXPECT_LT(distance(nodes[2].world_from_robot, closure.a_from_b), 1e-9);
+  EXPECT_LT(distance(nodes[3].world_from_robot, shifts[0].new_from_old * before), 1e-9);
+  EXPECT_EQ(nodes[1].world_from_robot.translation().x(), 1) << "what lies before the gap stays";
+}
+
+// A camera held in the hand 1.3 m above the floor, pitched and rolled: the first sight of the floor puts z up.
+TEST(PoseEstimator, TheFloorLevelsAHandheldWorldOnce) {
+  const BackendOptions options;
+  const MotionSource none{MotionNoise{}, false};
+  const Motion motion{none, none, none};
+  PoseEstimator estimator(options, motion);
+  ASSERT_TRUE(estimator.advance(0));
+  Pose3 level_from_camera = poseFromYpr(0, 0, 1.3, 0.4, 0, 0);
+  level_from_camera.linear() = level_from_camera.linear() * poseFromYpr(0, 0, 0, 0, 0.3, -0.2).linear() *
+                               bodyFromOptical();
+  EXPECT_FALSE(estimator.levelled());
+  estimator.addFloor(0, groundInCamera(level_from_camera), Pose3::Identity());
+  EXPECT_TRUE(estimator.levelled());
+  const Pose3 world_from_camera = estimator.poses().at(0);
+  const Plane floor = groundInCamera(world_from_camera), seen = groundInCamera(level_from_camera);
+  EXPECT_LT((floor.normal - seen.normal).norm(), 1e-9);
+  EXPECT_NEAR(floor.offset, seen.offset, 1e-9);
+  EXPECT_LT(world_from_camera.translation().head<2>().norm(), 1e-9) << "the start keeps its place";
+}
+
+TEST(PoseEstimator, ARobotOnTheFloorNeedsNoLevelling) {
+  const BackendOptions options;
+  const MotionSource none{MotionNoise{}, true};
+  const Motion motion{none, none, none};
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  ASSERT_TRUE(estimator.advance(0));
+  estimator.addFloor(0, groundInCamera(poseFromYpr(0, 0, 1.3, 0, 0.3, -0.2)), Pose3::Identity());
+  EXPECT_FALSE(estimator.levelled());
+  EXPECT_TRUE(estimator.poses().at(0).isApprox(Pose3::Identity()));
+}
+
+}  // namespace
+}  // namespace roomgraph::test
