@@ -57,21 +57,21 @@ class SubmapLoopCloser : public ScanLoopCloser {
   RelativePose toRelativePose(const Closure& closure) const;
 
   SubmapSettings submap_settings_{.keep_distance_m = 0.2,
-                                  .keep_angle_rad = 0.175,
+                                  .keep_angle_rad = 0.17453,
                                   .keep_time_s = 10,
                                   .max_points = 150,
                                   .min_points = 40};
   double min_path_m_ = 4;
   double near_m_ = 3, max_near_m_ = 12;
-  double drift_per_m_ = 0.03, drift_rad_per_m_ = 0.00873;
-  double window_m_ = 0.3, window_rad_ = 0.14, max_window_m_ = 6, max_window_rad_ = 1.05;
+  double drift_per_m_ = 0.03, drift_rad_per_m_ = 0.0087266;
+  double window_m_ = 0.3, window_rad_ = 0.13963, max_window_m_ = 6, max_window_rad_ = 1.0472;
   double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
   double ambiguity_ratio_ = 0.93;
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
   double agreeing_path_m_ = 1;
   int max_candidates_ = 2, max_matches_per_search_ = 12;
-  double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.00524;
+  double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.005236;
 
   std::unique_ptr<ActiveSubmaps> active_;
   std::vector<StoredSubmap> submaps_;
