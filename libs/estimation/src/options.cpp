@@ -29,6 +29,32 @@ void MotionNoise::declare(ParameterVisitor& v) {
 
 namespace {
 
+// When key poses are made, and when which of them are optimised.
+void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
+  v.add("node_distance_m", o.node_distance_m,
+        {.doc = "A new key pose is made after this movement.", .unit = "m", .min = 0.01, .max = 10});
+  v.add("node_angle_rad", o.node_angle_rad,
+        {.doc = "A new key pose is made after this turn.", .unit = "rad", .min = 0.01, .max = 3.2});
+  v.add("node_interval_s", o.node_interval_s,
+        {.doc = "A new key pose is made after this time.", .unit = "s", .min = 0.1, .max = 1000});
+  v.add("window_nodes", o.window_nodes,
+        {.doc = "Key poses in the sliding window, which is optimised with every new one.",
+         .min = 2,
+         .max = 100});
+  v.add("optimize_every_nodes", o.optimize_every_nodes,
+        {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
+  v.add("urgent_closure_m", o.urgent_closure_m,
+        {.doc = "After a loop closure that differs more from the estimate the whole graph is optimised soon.",
+         .unit = "m",
+         .min = 0,
+         .max = 100});
+  v.add("urgent_closure_rad", o.urgent_closure_rad,
+        {.doc = "After a loop closure that differs more from the estimate the whole graph is optimised soon.",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
+}
+
 void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
   v.add("object_boxes", o.object_boxes,
         {.doc = "Whether the boxes of objects and their usual sizes are factors of the graph."});
@@ -62,28 +88,7 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
 }  // namespace
 
 void BackendOptions::declareParameters(ParameterVisitor& v) {
-  v.add("node_distance_m", node_distance_m,
-        {.doc = "A new key pose is made after this movement.", .unit = "m", .min = 0.01, .max = 10});
-  v.add("node_angle_rad", node_angle_rad,
-        {.doc = "A new key pose is made after this turn.", .unit = "rad", .min = 0.01, .max = 3.2});
-  v.add("node_interval_s", node_interval_s,
-        {.doc = "A new key pose is made after this time.", .unit = "s", .min = 0.1, .max = 1000});
-  v.add("window_nodes", window_nodes,
-        {.doc = "Key poses in the sliding window, which is optimised with every new one.",
-         .min = 2,
-         .max = 100});
-  v.add("optimize_every_nodes", optimize_every_nodes,
-        {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
-  v.add("urgent_closure_m", urgent_closure_m,
-        {.doc = "After a loop closure that differs more from the estimate the whole graph is optimised soon.",
-         .unit = "m",
-         .min = 0,
-         .max = 100});
-  v.add("urgent_closure_rad", urgent_closure_rad,
-        {.doc = "After a loop closure that differs more from the estimate the whole graph is optimised soon.",
-         .unit = "rad",
-         .min = 0,
-         .max = 3.2});
+  declareKeyPoses(*this, v);
   v.add("max_iterations", max_iterations,
         {.doc = "Iterations of one optimisation at most.", .min = 1, .max = 1000});
   v.add(

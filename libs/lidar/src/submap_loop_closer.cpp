@@ -23,8 +23,8 @@ Pose2 movement(const WayPoint& a, const WayPoint& b) {
 }
 }  // namespace
 
-void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
-  submap_settings_.declare(v);
+// Where is searched, and how far around.
+void SubmapLoopCloser::declareSearch(ParameterVisitor& v) {
   v.add("min_path_m", min_path_m_,
         {.doc = "A submap is searched only when the path since its last scan is at least this long.",
          .unit = "m",
@@ -64,6 +64,11 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
          .unit = "rad",
          .min = 0,
          .max = 3.2});
+}
+
+void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
+  submap_settings_.declare(v);
+  declareSearch(v);
   v.add("min_search_score", min_search_score_,
         {.doc = "The refinement starts only when the mean occupancy at the returns is at least this.",
          .min = 0,

@@ -28,6 +28,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::optional<RelativePose> verify(const RelativePose& proposed) override;
 
  private:
+  void declareSearch(ParameterVisitor& v);
   struct KeptScan {
     double t = 0;
     Points2 points;  ///< robot frame, thinned

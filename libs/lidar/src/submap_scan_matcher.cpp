@@ -17,8 +17,7 @@ constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 }  // namespace
 
-void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
-  submap_settings_.declare(v);
+void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
   v.add("window_m", window_m_,
         {.doc = "Half width of the search for the translation around a measured movement.",
          .unit = "m",
@@ -69,6 +68,11 @@ void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
          .unit = "1/m^2",
          .min = 0.1,
          .max = 1e+06});
+}
+
+void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
+  submap_settings_.declare(v);
+  declareSearch(v);
   v.add("min_score", min_score_,
         {.doc = "Least share of the returns that the local map must explain.", .min = 0, .max = 1});
   v.add("max_lost_scans", max_lost_scans_,

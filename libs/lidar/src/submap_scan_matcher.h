@@ -23,6 +23,7 @@ class SubmapScanMatcher : public ScanMatcher {
   Trajectory trajectory() const override { return trajectory_; }
 
  private:
+  void declareSearch(ParameterVisitor& v);
   Pose2 predict(double t, const std::optional<Pose2>& previous_from_current) const;
   /// If the robot goes on as it went between the last two scans.
   Pose2 steadyPose(double t) const;

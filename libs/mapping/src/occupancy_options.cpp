@@ -3,6 +3,31 @@
 #include "roomgraph/mapping/occupancy_options.h"
 
 namespace roomgraph {
+namespace {
+
+void declare(DepthSlice& slice, ParameterVisitor& v) {
+  v.add("depth_min_height_m", slice.min_height_m,
+        {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
+         .unit = "m",
+         .min = 0.01,
+         .max = 2});
+  v.add("depth_max_height_m", slice.max_height_m,
+        {.doc = "Upper end of the band of heights that counts as an obstacle in depth images.",
+         .unit = "m",
+         .min = 0.05,
+         .max = 5});
+  v.add("depth_max_range_m", slice.max_range_m,
+        {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
+  v.add("depth_step_px", slice.step_px,
+        {.doc = "Every n-th pixel of a depth image is used.", .unit = "px", .min = 1, .max = 32});
+  v.add("depth_beam_rad", slice.beam_rad,
+        {.doc = "Width of a beam of the virtual scan that depth images are turned into.",
+         .unit = "rad",
+         .min = 0.001,
+         .max = 0.2});
+}
+
+}  // namespace
 
 void OccupancyOptions::declareParameters(ParameterVisitor& v) {
   v.add("source", source,
@@ -46,25 +71,7 @@ void OccupancyOptions::declareParameters(ParameterVisitor& v) {
        .unit = "s",
        .min = 0,
        .max = 1e6});
-  v.add("depth_min_height_m", slice.min_height_m,
-        {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
-         .unit = "m",
-         .min = 0.01,
-         .max = 2});
-  v.add("depth_max_height_m", slice.max_height_m,
-        {.doc = "Upper end of the band of heights that counts as an obstacle in depth images.",
-         .unit = "m",
-         .min = 0.05,
-         .max = 5});
-  v.add("depth_max_range_m", slice.max_range_m,
-        {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
-  v.add("depth_step_px", slice.step_px,
-        {.doc = "Every n-th pixel of a depth image is used.", .unit = "px", .min = 1, .max = 32});
-  v.add("depth_beam_rad", slice.beam_rad,
-        {.doc = "Width of a beam of the virtual scan that depth images are turned into.",
-         .unit = "rad",
-         .min = 0.001,
-         .max = 0.2});
+  declare(slice, v);
 }
 
 }  // namespace roomgraph
