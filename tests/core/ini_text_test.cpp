@@ -6,7 +6,7 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
@@ -56,6 +56,12 @@ TEST(IniText, LastLineNeedsNoNewline) {
   EXPECT_EQ(parseIni("[a]\nk = 1", "c.ini").at(0).value, "1");
 }
 
+TEST(IniText, AByteOrderMarkIsNoSection) {
+  const auto entries = parseIni("\xef\xbb\xbf[a]\nk = 1\n", "c.ini");
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].section, "a");
+}
+
 TEST(IniText, DuplicatesNameBothPlaces) {
   const auto message =
       messageOf<ConfigError>([] { parseIni("[a]\nk = 1\n[b]\nk = 1\n[a]\nk = 2\n", "c.ini"); });
@@ -69,7 +75,7 @@ TEST(IniText, LinesThatAreNothing) {
 }
 
 TEST(IniText, Files) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("a.ini", "[a]\nk = 1\n");
   EXPECT_EQ(parseIniFile(file).at(0).place, file.string() + ":2");
   EXPECT_THAT(messageOf<InputError>([&] { parseIniFile(folder.path() / "none.ini"); }),

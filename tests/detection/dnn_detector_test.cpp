@@ -101,7 +101,7 @@ TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
 
 TEST_F(DnnDetectorTest, UnknownFormatListsTheKnown) {
   EXPECT_THAT(messageOf<ConfigError>("models = a.onnx:nanodett"),
-              AllOf(HasSubstr("nanodett"), HasSubstr("nanodet, yolox, darknet, ade20k")));
+              AllOf(HasSubstr("nanodett"), HasSubstr("known: auto, ade20k, darknet, nanodet, yolox")));
 }
 
 TEST_F(DnnDetectorTest, MadeByClassName) {
@@ -119,9 +119,8 @@ TEST_F(DnnDetectorTest, KnownNetworksRun) {
                            "yolo-fastest-1.1-xl/yolo-fastest-1.1-xl.weights",
                            "deeplabv3-mnv2-ade20k/deeplabv3_mnv2_ade20k_256x256.onnx"}) {
     SCOPED_TRACE(file);
-    prepare("every_nth_frame = 2\nmodels = " + (modelFolder() / file).string());
-    EXPECT_TRUE(detector_.detect(frame(2)));
-    EXPECT_THAT(detector_.detect(frame(1)).reason(), HasSubstr("once in 2 frames"));
+    prepare("models = " + (modelFolder() / file).string());
+    EXPECT_TRUE(detector_.detect(frame(1)));
     Frame gray = frame(0);
     gray.color.release();
     EXPECT_THAT(detector_.detect(gray).reason(), HasSubstr("no colour image"));

@@ -70,7 +70,7 @@ TEST(ShapeGenerators, OneFromAPlugInMakesTheShapesOfItsClass) {
       return generator;
     }));
     stage.prepare();
-    return stage.generate(frame, detections, {GroundEstimate{ground, Eigen::Matrix4d::Zero(), true}, ""}).proposals;
+    return stage.generate(frame, detections, {GroundEstimate{.plane = ground, .from_depth = true}, ""}).proposals;
   };
   const auto found = sourcesOf("[shape_generators]\nnear_share = 0.1\n");
   ASSERT_GE(found.size(), 2u);

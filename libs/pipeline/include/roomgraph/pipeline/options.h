@@ -8,7 +8,6 @@
 
 #include "roomgraph/association/landmark_options.h"
 #include "roomgraph/core/parameters.h"
-#include "roomgraph/detection/box_tracker.h"
 #include "roomgraph/estimation/options.h"
 #include "roomgraph/mapping/occupancy_options.h"
 
@@ -57,7 +56,9 @@ struct OdometryOptions : Configurable {
 struct DetectionStageOptions : Configurable {
   bool enabled = true;
   std::string detector = "auto";
-  BoxTrackerOptions tracker;
+  int every_nth_frame = 1;
+  bool track_boxes = true;
+  int max_carried_frames = 5;
   void declareParameters(ParameterVisitor& v) override;
 };
 
