@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nanoflann.hpp>
 #include <tuple>
@@ -185,7 +186,8 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
 std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
                                     double focal_px, int max_count) {
   std::vector<DepthMask> out;
-  const double ceiling = model.height_m + 3 * model.height_sigma_m + 0.1;
+  const double ceiling = model.rests_on_ground ? model.height_m + 3 * model.height_sigma_m + 0.1
+                                               : std::numeric_limits<double>::infinity();
   std::vector<MaskPoint> standing;
   std::vector<double> ranges;
   for (const auto& p : all.points) {

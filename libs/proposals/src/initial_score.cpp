@@ -12,6 +12,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kFullArea = 0.08;  // of the image: boxes from here on have the full area part
+constexpr double kAreaWeight = 0.4, kEdgeWeight = 0.25, kDepthWeight = 0.35;  // method.md sec. 1.5
 
 }  // namespace
 
@@ -29,7 +30,7 @@ InitialScore initialScore(const BoxEvidence& evidence) {
       std::min(1.0, std::sqrt(box.area() / (kFullArea * evidence.camera.width * evidence.camera.height)));
   out.edges = std::min(1.0, totalLength(evidence.segments) / (2 * (box.width() + box.height())));
   out.depth = std::clamp(evidence.mask.valid_ratio, 0.0, 1.0);
-  out.value = 0.4 * out.area + 0.25 * out.edges + 0.35 * out.depth;
+  out.value = kAreaWeight * out.area + kEdgeWeight * out.edges + kDepthWeight * out.depth;
   return out;
 }
 

@@ -8,7 +8,7 @@ namespace roomgraph {
 
 /// Standard deviations, saturations and weights of the fit. A saturation is the number of standard deviations at which
 /// a residual levels off (Geman-McClure), so that a side cut by an unseen occluder or a wrong depth point cannot pull
-/// without bound. Chosen on rendered scenes and on lab_a (docs/results_notes.md), with true boxes and with detected ones.
+/// without bound. Chosen by hand; `roomgraph bench proposals` shows what a change does.
 struct FitWeights {
   double box_side_px = 4, box_side_share = 0.03;  ///< sigma of a box side: constant, and share of the box's extent
   double box_side_saturation = 5;
