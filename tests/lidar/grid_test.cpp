@@ -60,6 +60,15 @@ TEST(ProbabilityGrid, OneBeamHitsItsEndAndClearsTheWay) {
   EXPECT_NEAR(p(1.05), 2.25 / 3.25, 1e-6);
 }
 
+TEST(ProbabilityGrid, OneScanChangesACellOnce) {
+  ProbabilityGrid grid(0.1);
+  // Two returns in one cell, and a beam that passes through it.
+  grid.insert({{0.05, 0.05}, {{1.04, 0.05}, {1.06, 0.05}, {2.05, 0.05}}}, {}, {0.6, 0.4});
+  const Eigen::Vector2i hit = grid.cellOf({1.05, 0.05}), passed = grid.cellOf({0.55, 0.05});
+  EXPECT_NEAR(grid.at(hit.x(), hit.y()), 0.6, 1e-6);
+  EXPECT_NEAR(grid.at(passed.x(), passed.y()), 0.4, 1e-6);
+}
+
 TEST(ProbabilityGrid, GrowthKeepsWhatWasThere) {
   ProbabilityGrid grid(0.1);
   grid.insert({{0.05, 0.05}, {{1.05, 0.05}}}, {}, {0.6, 0.4});

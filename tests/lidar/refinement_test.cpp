@@ -38,6 +38,7 @@ TEST(SurfaceCurvature, OneWallHoldsItsNormalAndItsTurnOnly) {
 TEST(SurfaceCurvature, LonelyPointsSayNothing) {
   const Eigen::Matrix3d grid = Eigen::Vector3d(3, 5, 7).asDiagonal();
   EXPECT_EQ(surfaceCurvature({{1, 0}, {5, 5}, {-4, 2}}, {}, grid), grid);
+  EXPECT_EQ(surfaceCurvature({{1, 0}, {1.05, 0}, {1.1, 0.01}}, {}, grid), grid) << "three are too few";
   Points2 wall = lineOfPoints(2, 4);
   const Eigen::Matrix3d before = surfaceCurvature(wall, {}, grid);
   wall.emplace_back(0, -9);

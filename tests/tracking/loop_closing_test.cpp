@@ -39,6 +39,8 @@ TEST(LoopClosing, FullTurnClosesALoopWithTheTrueRelativePose) {
   for (const auto& closure : closures) {
     EXPECT_GT(closure.t_b - closure.t_a, 8);
     EXPECT_EQ(closure.source, "tracking");
+    EXPECT_GE(closure.covariance(0, 0), 0.02 * 0.02) << "floors: 2 cm and 0.01 rad";
+    EXPECT_GE(closure.covariance(4, 4), 0.01 * 0.01);
     const Pose3 expected = looking(step * closure.t_a).inverse() * looking(step * closure.t_b);
     EXPECT_LT((expected.inverse() * closure.a_from_b).translation().norm(), 0.02);
     EXPECT_LT(rotationAngle(expected.inverse() * closure.a_from_b), 0.01);

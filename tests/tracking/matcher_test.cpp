@@ -50,8 +50,9 @@ TEST(Matcher, DescriptorMatchesAreThoseOfBruteForce) {
   std::vector<Descriptor> a, b;
   for (int i = 0; i < 40; ++i) {
     a.push_back(randomDescriptor(random));
-    b.push_back(flipped(a.back(), static_cast<int>(random() % 100), random));
-    if (i % 5 == 0) b.push_back(flipped(a.back(), 30, random));  // ambiguous
+    const int bits = static_cast<int>(random() % 100);
+    b.push_back(flipped(a.back(), bits, random));
+    if (i % 5 == 0) b.push_back(flipped(a.back(), bits + 1, random));  // ambiguous
     if (i % 7 == 0) a.push_back(flipped(a.back(), 20, random));  // two of a want one of b
   }
   // Every a asks for its nearest b, which must be clearly nearer than the second; of several the nearest a gets it.

@@ -16,10 +16,11 @@ namespace roomgraph {
 inline constexpr const char* kStampIsWrong =
     "time stamp is more than a minute from those before and after it";
 
-/// Records on their way, in the order of the file. Finds the one whose damaged time stamp lies far from those
-/// before and after it, which would make every later record of its sensor "older than the one before". A gap
-/// in the recording is no damage: what comes after it agrees. Records wait only while that is not known, one
-/// or two of their sensor, at most kLongest in all.
+/// Look-ahead buffer of records in file order that detects single corrupt time stamps: those far from the
+/// stamps before and after. Believed, one would make every later record of its sensor "older than the one
+/// before". After a gap in the recording, in contrast, the following stamps agree with each other.
+/// Records are buffered only until this is decided: for one or two more of their sensor, and at most
+/// kLongest in all.
 template <class T>
 class StampQueue {
  public:

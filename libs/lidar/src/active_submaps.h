@@ -9,7 +9,8 @@
 
 namespace roomgraph {
 
-/// Decides which scans are worth keeping: those that moved, turned or waited enough since the last one kept.
+/// Motion filter: keeps a scan when translation, rotation or time since the last one kept reaches its
+/// threshold.
 struct MotionFilter {
   double distance_m = 0.2, angle_rad = 0.17, time_s = 5;
   bool moved(double t_last, const Pose2& last, double t, const Pose2& pose) const;

@@ -8,31 +8,32 @@
 
 namespace roomgraph {
 
-/// A scan b recognised at the place of a scan a.
+/// Loop closure: scan b was matched to the submap around scan a.
 struct Closure {
   int a = 0, b = 0;  ///< numbers of kept scans
   Pose2 a_from_b;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in frame a
-  double path_m = 0;  ///< path length between the two scans, as known before the closure
+  double path_m = 0;  ///< path length between the two before this closure; drift is taken to grow with it
 };
 
-/// Where a kept scan stands along the path.
+/// Pose of a kept scan in odometry, and its position along the trajectory.
 struct WayPoint {
   Pose2 odom_from_robot;
-  double path_m = 0;  ///< path length so far
+  double path_m = 0;  ///< path length from the start
   int segment = 0;
 };
 
-/// When several closures found one after the other count as one confirmed return to a place.
+/// When several consistent closures together count as a confirmed loop.
 struct ConfirmationRule {
   int agreeing = 3;        ///< closures that must agree, the new one included
-  double travelled_m = 1;  ///< path length their scans must span: from one spot alone, look-alikes agree too
-  double reach_m = 8;  ///< path length over which the matcher's own movement is trusted for the comparison
+  double travelled_m = 1;  ///< path length their scans must span: from a single pose aliased places agree
+  double reach_m = 8;      ///< path length over which the odometry is trusted for the consistency check
   double tolerance_m = 0.15, tolerance_rad = 0.05;
-  double tolerance_per_m = 0.02;  ///< more tolerance, in m and rad/10, per metre of path compared over
+  double tolerance_per_m = 0.02;  ///< additional tolerance, m and rad/10, per metre of path between the compared scans
 };
 
-/// Holds back closures that would join far-apart ends of the path until enough of them agree with each other.
+/// Pairwise consistency check: holds back loop closures after a long path until enough of them agree with
+/// each other.
 class ClosureConfirmation {
  public:
   /// Adds one; returns those now confirmed, the new one among them, or nothing.
@@ -43,7 +44,8 @@ class ClosureConfirmation {
   std::vector<Closure> waiting_;
 };
 
-/// Whether two closures describe the same return: each follows from the other and the movements in between.
+/// Whether two closures are consistent: composed with the odometry between their scans they form the
+/// identity, within the rule's tolerance.
 bool agree(const Closure& first, const Closure& second, const std::vector<WayPoint>& way,
            const ConfirmationRule& rule);
 

@@ -9,8 +9,9 @@
 
 namespace roomgraph {
 
-/// Kept scans in a row, joined where closures were found. Its shortest paths tell how much drift may lie
-/// between two scans, and the movement along them.
+/// Graph of the kept scans: odometry edges between successive ones, and loop closures. The length of the
+/// shortest path between two scans bounds the drift between them; the edges along it give their relative
+/// pose.
 class ClosureGraph {
  public:
   struct Reached {

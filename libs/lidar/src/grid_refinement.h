@@ -6,11 +6,11 @@
 
 namespace roomgraph {
 
-/// How far to trust the expected pose against the scan.
+/// Gaussian prior on the pose, as weights relative to the scan's residual.
 struct PosePrior {
   Pose2 pose;
   double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
-  /// More weight along directions the scan fixes badly; x, y only.
+  /// Additional weight along directions that the scan constrains badly; x, y only.
   Eigen::Matrix2d extra_weight_per_m2 = Eigen::Matrix2d::Zero();
 };
 
@@ -35,15 +35,15 @@ GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose
                   const PosePrior& prior);
 
 /// Mean over the points of J^T N J, J the derivative of the point by (x, y, yaw) of the pose and N the
-/// projection on the normal of the surface around it (rounder where they form no line, none where they stand
-/// alone). Free of the cells' texture, which a grid's own curvature mistakes for hold along a corridor.
-/// Scaled to the trace in (x, y) of `grid_curvature`.
+/// projection on the normal of the surface around it (closer to isotropic the less its neighbours form a line, zero
+/// for an isolated point). Unlike the grid's own Gauss-Newton matrix it is not affected by the
+/// discretisation into cells, which looks like a constraint along a corridor. Scaled so that its trace in
+/// (x, y) is that of `grid_curvature`.
 Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_scan,
                                  const Eigen::Matrix3d& grid_curvature);
 
-/// `most_per_m2` along directions the points do not fix at all, nothing where the curvature of their mean
-/// cost by translation (yaw free) reaches `enough_per_m2`: the cells' own texture must not hold a scan back
-/// in a corridor.
+/// Prior weight for unobservable directions: `most_per_m2` along eigenvectors of the translational
+/// curvature (yaw marginalised) with eigenvalue 0, falling linearly to nothing at `enough_per_m2`.
 Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, double most_per_m2,
                                     double enough_per_m2);
 

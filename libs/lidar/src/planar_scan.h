@@ -20,8 +20,8 @@ struct PlanarScan {
 /// Returns nearer than `min_range_m` (the robot itself) or beyond `max_range_m` are left out.
 PlanarScan toPlanarScan(const Scan& scan, double min_range_m, double max_range_m);
 
-/// First point of every square cell of `cell_m`, in the order of the beams: dense near surfaces count no more
-/// than far ones.
+/// Grid subsampling: the first point, in the order of the beams, of every square cell of `cell_m`. Near
+/// surfaces, with many returns per metre, then weigh no more than far ones.
 Points2 thinned(const Points2& points, double cell_m);
 /// Thinned with the finest of the cells `cell_m`, 1.4 `cell_m`, 2 `cell_m` … that leaves at most
 /// `max_points`.

@@ -12,8 +12,9 @@
 namespace roomgraph {
 
 /// Scan-to-submap matching: a correlative search around the predicted pose, then a refinement on the
-/// interpolated grid with a prior on the prediction. After Hess et al. 2016 (Cartographer) and Olson 2009.
-/// Wheels slip: where the given movement jumps away from a steady one, the scan decides between the two.
+/// interpolated grid with a prior on the prediction. After Hess et al. 2016 (Cartographer) and Olson
+/// 2009. Wheel slip: where the odometry deviates from constant velocity by more than the search window,
+/// the scan is matched from both predictions, and the one that explains clearly more returns is taken.
 class SubmapScanMatcher : public ScanMatcher {
   DEFINE_MRPT_OBJECT(SubmapScanMatcher, roomgraph)
  public:

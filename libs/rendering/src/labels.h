@@ -17,8 +17,9 @@ struct Label {
   Box2 place;                    ///< where placeLabels put it
 };
 
-/// Puts every label beside its object so that labels keep off each other, off objects, and inside `area`:
-/// each in turn takes the best of the places around its object (below first), near ones before far ones.
+/// Greedy label placement: each label in turn takes the candidate position around its object with the
+/// least overlap with earlier labels, with objects and with the outside of `area`; below the object and
+/// near to it are preferred.
 void placeLabels(std::vector<Label>& labels, const Box2& area);
 
 }  // namespace roomgraph

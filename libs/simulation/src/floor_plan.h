@@ -14,7 +14,7 @@ using PlanBox = Eigen::AlignedBox2d;
 PlanBox doorwayHole(const World& world, const Room& room, const Doorway& doorway);
 /// Frame of a doorway or poster: origin on the inner face of the wall at the floor, x into the room.
 Pose3 wallFrame(const Room& room, Side side, double at_m);
-/// Rooms and doorways: where one can be.
+/// Free space of the plan: rooms and doorways.
 std::vector<PlanBox> freeAreas(const World& world);
 /// Is the disc inside the union of the areas?
 bool discIsFree(const std::vector<PlanBox>& areas, const Eigen::Vector2d& center, double radius);

@@ -21,14 +21,14 @@ struct ObjectView {
   double median_depth_m = 0;  ///< of the visible pixels
 };
 
-/// The exact picture: what lies behind the centre of every pixel, and how far.
+/// Noise-free depth and object identity at the centre of every pixel.
 struct IdImage {
   cv::Mat depth;                  ///< CV_32F, m along the optical axis, 0: nothing
   cv::Mat object;                 ///< CV_16S, index of Scene::objects(), -1: building or nothing
   std::vector<ObjectView> views;  ///< of all objects with a visible pixel, by object
 };
 
-/// Scan conversion of all triangles with a depth buffer. The result does not depend on the number of threads.
+/// Rasterises all triangles with a z-buffer. The result does not depend on the number of threads.
 IdImage rasterize(const Scene& scene, const std::vector<Pose3>& world_from_part,
                   const Pose3& world_from_camera, const PinholeCamera& camera);
 

@@ -12,7 +12,7 @@
 
 namespace roomgraph {
 
-/// What the truth says about one object; poses are in the world = frame of the robot's first pose.
+/// Ground truth of one object. The world frame is the robot's first pose.
 struct SceneObject {
   int id = 0;  ///< from 1
   std::string class_name, kind, model;
@@ -31,7 +31,7 @@ struct ScenePart {
   double radius = 0;
 };
 
-/// The world made solid. Immutable.
+/// Geometry, true object poses and motion of a simulated world. Immutable.
 class Scene {
  public:
   explicit Scene(const World& world);

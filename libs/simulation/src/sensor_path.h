@@ -9,8 +9,9 @@
 
 namespace roomgraph {
 
-/// The true movement: a smooth curve through the given points, driven within the speed, turning and
-/// acceleration limits, or a hand-held camera's path. Poses are in the plan's frame.
+/// Ground-truth trajectory: a smooth spline near the given points with a time law that respects the
+/// limits of speed, turn rate and acceleration, for a robot or a hand-held camera. Poses are in the
+/// plan's frame.
 class SensorPath {
  public:
   explicit SensorPath(const RobotPathSpec& spec);

@@ -15,9 +15,10 @@
 
 namespace roomgraph {
 
-/// What a structured-light depth camera makes of the exact depth (CV_32F, m): CV_16U, mm, 0 = no measurement.
-/// Noise sigma = 0.0012 + 0.0019 (z - 0.4)^2 m (Nguyen et al. 2012), alike within some pixels; disparity in
-/// steps; missing beyond the range, in the projector's shadow and at many depth edges.
+/// Measurement model of a structured-light depth camera, from exact depth (CV_32F, m) to CV_16U, mm, 0 =
+/// no measurement. Noise sigma = 0.0012 + 0.0019 (z - 0.4)^2 m (Nguyen et al. 2012), alike within some
+/// pixels; disparity in steps; missing beyond the range, in the projector's shadow and at many depth
+/// edges.
 cv::Mat measureDepth(const cv::Mat& depth, const CameraSpec& spec, Random random);
 
 /// Exposure, vignetting and noise of a cheap colour camera; `light` as ambientLight() gives it.
@@ -51,8 +52,8 @@ mrpt::obs::CObservation2DRangeScan measureScan(const std::vector<double>& distan
 /// Wheel odometry: pose in the drifting frame that starts at 0, one per instant of `truth`.
 std::vector<Pose2> measureOdometry(const std::vector<Pose2>& truth, const OdometrySpec& spec, Random random);
 
-/// What a detector might say about the objects in the picture: boxes with jitter, misses, false alarms and
-/// wrong labels (COCO names).
+/// Model of an object detector: bounding boxes with jitter, missed detections, false positives and wrong
+/// labels (COCO names).
 CObservationDetections measureDetections(const std::vector<ObjectView>& views, const Scene& scene,
                                          const PinholeCamera& camera, const DetectionsSpec& spec,
                                          Random random);

@@ -127,7 +127,7 @@ class LocalProblem {
       Keyframe& keyframe = map_.keyframe(index);
       const Pose3 refined = fromBlock(poses_[index]);
       const Pose3 shift = refined * keyframe.odom_from_camera.inverse();
-      // Points that only this keyframe saw hang on its pose.
+      // A point that was not optimised and that this keyframe created moves rigidly with it.
       for (const auto id : keyframe.points)
         if (id >= 0 && !problem.HasParameterBlock(map_.point(id).position.data()) &&
             map_.point(id).sightings.front().keyframe == index)

@@ -6,9 +6,10 @@
 
 namespace roomgraph::tracking {
 
-/// Windowed bundle adjustment around keyframe `index`: it and the keyframes that share most points with it
-/// move, with all points they see; further keyframes that see these points hold them. Sightings that do not
-/// fit are removed.
+/// Windowed bundle adjustment around keyframe `index`. Free: its pose, the poses of the keyframes most
+/// covisible with it, and all points these see. Fixed: further keyframes that see these points, which
+/// removes the gauge freedom. Sightings whose reprojection error exceeds the 95 % bound afterwards are
+/// removed.
 void adjustLocally(LocalMap& map, int index, const TrackingParameters& parameters);
 
 }  // namespace roomgraph::tracking

@@ -25,7 +25,7 @@ struct MapPoint {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, from the camera that saw it last
   int octave = 0;                                       ///< level and distance (m) at which it was seen then
   double distance = 0;
-  int visible = 0, found = 0;  ///< frames that should have, and have, matched it
+  int visible = 0, found = 0;  ///< frames in whose view it was predicted, and those that matched it
   bool erased = false;
   std::vector<Sighting> sightings;
 };
@@ -42,7 +42,8 @@ struct Keyframe {
   Observation observation(int feature, const TrackingParameters& parameters) const;
 };
 
-/// Keyframes and points of all segments. Keeps both directions of "keyframe sees point" consistent.
+/// Keyframes and map points of all segments. Invariant: a keyframe's feature names a point exactly when
+/// the point lists that sighting.
 struct LocalMap {
   std::vector<Keyframe> keyframes;
   std::vector<MapPoint> points;
@@ -57,7 +58,7 @@ struct LocalMap {
   void addSighting(std::int64_t point, int keyframe, int feature);
   void removeSighting(std::int64_t point, int keyframe);
   void erase(std::int64_t point);
-  /// (shared points, keyframe) of all keyframes that saw any of these points, most first.
+  /// (number of these points seen, keyframe) of all keyframes that saw any, in descending order.
   std::vector<std::pair<int, int>> covisible(const std::vector<std::int64_t>& ids) const;
   /// Valid points of these keyframes, ascending, each once.
   std::vector<std::int64_t> pointsOf(const std::vector<int>& keyframe_indices) const;

@@ -15,12 +15,13 @@ struct PointMatch {
   int feature = -1;
 };
 
-/// Points and features found by projecting points with a predicted pose and comparing descriptors nearby.
+/// Guided matching: map points are projected with a predicted pose and compared with the features around
+/// that pixel.
 struct ProjectionSearch {
   const LocalMap& map;
   const PinholeCamera& camera;
   const Pose3& camera_from_odom;
-  double radius_px = 10;  ///< on the finest level; grows with the level
+  double radius_px = 10;  ///< search radius on pyramid level 0; times scale_factor^level on the others
 
   /// Matches of the given points to features whose entry in `taken` is -1. Each point and each feature occurs
   /// at most once. `in_view`, when given, gets the points that were expected in the image.
@@ -31,7 +32,10 @@ struct ProjectionSearch {
 
 int hammingDistance(const Descriptor& a, const Descriptor& b);
 
-/// (index in a, index in b) of mutually best descriptor matches that pass the ratio test.
+/// (index in a, index in b), ascending in b, by nearest neighbour search from a to b: the Hamming
+/// distance is at most max_hamming and at most match_ratio times that of the second nearest in b (Lowe's
+/// ratio test). Of several a with the same nearest b only the closest is kept. The reverse search, from b
+/// to a, is not made. Nothing when either list has fewer than two descriptors.
 std::vector<std::pair<int, int>> matchDescriptors(const std::vector<Descriptor>& a,
                                                   const std::vector<Descriptor>& b,
                                                   const TrackingParameters& parameters);

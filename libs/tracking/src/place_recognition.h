@@ -16,7 +16,7 @@ namespace roomgraph::tracking {
 cv::Mat makeThumbnail(const cv::Mat& gray);
 double similarity(const cv::Mat& thumbnail_a, const cv::Mat& thumbnail_b);
 
-/// A view found again in a keyframe, by descriptors, PnP and refinement.
+/// Relocalisation of an image against one keyframe: descriptor matching, PnP with RANSAC, refinement.
 struct Recognition {
   PoseSolution solution;                 ///< camera_from_world is camera_from_keyframe
   std::vector<PointMatch> known_points;  ///< inliers whose keyframe feature has a map point

@@ -47,7 +47,7 @@ Matrix6d turned(const Matrix6d& covariance, const Pose3& a_from_b) {
   return turn * covariance * turn.transpose();
 }
 
-/// Errors that no residual shows: calibration, depth bias, wrong but consistent matches.
+/// Lower bound for errors that the residuals do not show: calibration, depth bias, consistent mismatches.
 Matrix6d floorCovariance(double sigma_m, double sigma_rad) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
