@@ -91,5 +91,19 @@ TEST(ObjectMapper, WhenALandmarkIsSplitItsSightingsAre) {
   EXPECT_EQ(at_right.last, 9);
 }
 
+// Of the features of a frame, those with depth on an object are kept for the graph.
+TEST(ObjectMapper, RemembersFeaturesThatLieOnObjects) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(generousAssociator(), {}, 0.03, poses);
+  const Frame frame = frameAt(0, 0);
+  ObjectMeasurement chair = chairAt(frame, 3, 0);
+  chair.features = {5, 7};
+  mapper.associate({chair}, frame, {{{10, 10}, 5, 3.0}, {{20, 10}, 6, 3.0}, {{30, 10}, 7, 0}});
+  ASSERT_EQ(mapper.frames().size(), 1u);
+  ASSERT_EQ(mapper.frames()[0].features.size(), 1u);
+  EXPECT_EQ(mapper.frames()[0].features[0].point, 5);
+}
+
 }  // namespace
 }  // namespace roomgraph::test

@@ -2,6 +2,8 @@
 // Factors made of exact measurements of a shipped class: which ones, how many, with what weight, and without error.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "roomgraph/association/measurement_model.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/estimation/object_factors.h"
@@ -161,6 +163,30 @@ TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   };
   EXPECT_LT(weightOf(&model), 0.1 * weightOf(nullptr));
   EXPECT_GT(weightOf(nullptr), 0);
+}
+
+// A closure in the plane knows nothing of height, roll and pitch, whatever its covariance says of them.
+TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  KeyPoses poses(motion);
+  poses.add(0, Pose3::Identity());
+  poses.add(1, poseFromYpr(1, 0, 0.5, 0, 0.3, 0));
+  const auto chiSquared = [&](bool planar) {
+    RelativePose closure;
+    closure.t_b = 1;
+    closure.a_from_b = poseFromYpr(1, 0, 0, 0, 0, 0);
+    closure.covariance = 1e-6 * Matrix6d::Identity();
+    closure.planar = planar;
+    BackendOptions options;
+    options.closure_robust_width = 0;
+    const Measurements without{.planar = false}, with{{closure}, {}, false};
+    return buildGraph(poses, motion, with, {}, options).chiSquared() -
+           buildGraph(poses, motion, without, {}, options).chiSquared();
+  };
+  // 0.5 m and twice the sine of half of 0.3 rad, each against a standard deviation of 0.5.
+  EXPECT_NEAR(chiSquared(true), (0.5 * 0.5 + std::pow(2 * std::sin(0.15), 2)) / 0.25, 1e-6);
+  EXPECT_GT(chiSquared(false), 1e4);
 }
 
 // A robot that looks along world y: the error ahead of it is the one along y.
