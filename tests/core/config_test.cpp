@@ -8,7 +8,7 @@
 #include "example_stages.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/mentioned_files.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
@@ -147,7 +147,7 @@ class Files : public Configurable {
 
 // A relative name is meant from where it was written: in a file its folder, on the command line here.
 TEST(Config, NamesOfFilesAreCompleted) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   auto config = Config::fromFile(folder.write("c.ini", "[s]\none = ../x.onnx\nmore = y, /z\ntext = ../x\n"));
   Files read;
   config.read("s", read);
@@ -160,7 +160,7 @@ TEST(Config, NamesOfFilesAreCompleted) {
 }
 
 TEST(Config, MissingFile) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(Config::fromFile(folder.path() / "none.ini"), InputError);
 }
 

@@ -161,13 +161,14 @@ TEST_F(Doubts, BeamsThroughASofaCountOncePerPlace) {
   scan.max_range_m = 12;
   scan.robot_from_lidar.translation().z() = 0.25;
   const double before = existence(decisions[0]);
-  mapper_.observe(scan, Pose3::Identity());
+  const auto database = ObjectDatabase::fromText("[sofa]\nlabels = couch\nsolid_share = 0.4\n");
+  mapper_.observe(scan, Pose3::Identity(), database);
   const double once = existence(decisions[0]);
   // Within 0.2 m of the middle: asin(.2 / 3) = 3.8 degrees, 7 beams.
   EXPECT_NEAR(once, after(before, std::exp(-7 * LandmarkOptions{}.ray_gain)), 1e-12);
-  mapper_.observe(scan, poseFromYpr(0.1, 0, 0, 0.1, 0, 0));
+  mapper_.observe(scan, poseFromYpr(0.1, 0, 0, 0.1, 0, 0), database);
   EXPECT_EQ(existence(decisions[0]), once) << "the robot stands still";
-  mapper_.observe(scan, poseFromYpr(0.3, 0, 0, 0, 0, 0));
+  mapper_.observe(scan, poseFromYpr(0.3, 0, 0, 0, 0, 0), database);
   EXPECT_LT(existence(decisions[0]), once);
 }
 

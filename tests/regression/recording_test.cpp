@@ -5,11 +5,11 @@
 #include <signal.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "data_folder.h"
 #include "program.h"
 #include "rawlog_maker.h"
 #include "roomgraph/datasets/rawlog_reader.h"
@@ -24,8 +24,7 @@ using nlohmann::json;
 const fs::path kRoomToRecord = fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
 
 fs::path modelFolder() {
-  const char* env = std::getenv("ROOMGRAPH_DATA");
-  return (env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data") / "models";
+  return dataFolder() / "models";
 }
 
 /// Detections in a rawlog, by time.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "generators.h"
+#include "quantile.h"
 
 namespace roomgraph {
 namespace {

@@ -57,7 +57,9 @@ struct OdometryOptions : Configurable {
 struct DetectionStageOptions : Configurable {
   bool enabled = true;
   std::string detector = "auto";
-  BoxTrackerOptions tracker;
+  int every_nth_frame = 1;
+  bool track_boxes = true;
+  int max_carried_frames = 5;
   void declareParameters(ParameterVisitor& v) override;
 };
 
@@ -77,6 +79,7 @@ struct Options {
   LidarOptions lidar;
   StageChoice scan_loop_closing{"SubmapLoopCloser"};
   DetectionStageOptions detection;
+  StageChoice ground{"DepthGroundDetector"};
   StageChoice proposals{"GeometricProposalGenerator"}, selection{"CrfSelector"}, association{"SoftAssociator"};
   LandmarkOptions landmarks;
   ObjectLoopOptions object_loops;
