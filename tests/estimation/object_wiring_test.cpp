@@ -150,7 +150,7 @@ TEST_F(SofaSeenFromFourPlaces, AnotherLabelSaysNothingOfThePlace) {
   EXPECT_TRUE(factors.boxes.empty());
 }
 
-// A place 1.5 m behind the sofa on the ray, with a score of 0: hardly a measurement of where the sofa stands.
+// A place 1.5 m behind the sofa on the ray, with a score of 0.1: its depth is rather that of something else.
 TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   const MeasurementModel model;
   auto& seen = frames_[0].decisions[0].seen;
@@ -161,7 +161,10 @@ TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   const auto weightOf = [&](const MeasurementModel* trusted) {
     return objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_, trusted).sightings[0].weight;
   };
-  EXPECT_LT(weightOf(&model), 0.1 * weightOf(nullptr));
+  const double trust = model.depthTrust(seen, sofa_);
+  EXPECT_LT(trust, 0.5);
+  EXPECT_GT(trust, 0);
+  EXPECT_NEAR(weightOf(&model), trust * weightOf(nullptr), 1e-12);
   EXPECT_GT(weightOf(nullptr), 0);
 }
 
