@@ -95,6 +95,20 @@ TEST(ExclusiveAssignment, ExtremeRatiosStayFinite) {
   EXPECT_EQ(std::count(joint.best.begin(), joint.best.end(), -1), 0);
 }
 
+// Two groups of seven, one weak link between them: fourteen are too many at once, and the weak link goes.
+TEST(ExclusiveAssignment, TooLargeAProblemFallsApartAtItsWeakestLink) {
+  Random random(6);
+  const Eigen::MatrixXd first = randomRatios(random, 7, 7, 1), second = randomRatios(random, 7, 7, 1);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(14, 14);
+  all.topLeftCorner(7, 7) = first;
+  all.bottomRightCorner(7, 7) = second;
+  all(3, 10) = 1e-6;
+  const JointAssignment joint = solveExclusive(all), one = solveExclusive(first), two = solveExclusive(second);
+  EXPECT_LT((joint.marginal.topLeftCorner(7, 7) - one.marginal).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((joint.marginal.bottomRightCorner(7, 7) - two.marginal).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(joint.marginal(3, 10), 0);
+}
+
 TEST(ExclusiveAssignment, NothingToAssign) {
   EXPECT_TRUE(solveExclusive(Eigen::MatrixXd(0, 0)).best.empty());
   const auto joint = solveExclusive(Eigen::MatrixXd(2, 0));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "chordal.h"
 #include "data_folder.h"
 #include "errors_of.h"
 #include "roomgraph/backend/g2o_file.h"
@@ -179,6 +180,20 @@ TEST(G2oReader, ChordalStartSolvesAnExactSpatialGraphAlone) {
       EXPECT_TRUE(graph.pose(NodeId{i}).isApprox(truth[static_cast<std::size_t>(i)], 1e-9))
           << "seed " << seed;
   }
+}
+
+// Half turns about all three axes: their mean is the mirror image -1/3 I, and no rotation is near it.
+TEST(Chordal, ContradictingMovementsStillGiveARotation) {
+  const std::map<NodeId, Pose3> start{{NodeId{0}, Pose3::Identity()}, {NodeId{1}, Pose3::Identity()}};
+  std::vector<RelativeEdge> edges;
+  for (int axis = 0; axis < 3; ++axis) {
+    RelativeEdge edge{NodeId{0}, NodeId{1}};
+    edge.a_from_b.linear() = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+    edges.push_back(edge);
+  }
+  const auto poses = chordalPoses(start, NodeId{0}, edges);
+  ASSERT_TRUE(poses);
+  EXPECT_NEAR(poses->at(NodeId{1}).linear().determinant(), 1, 1e-9);
 }
 
 TEST(G2oReader, CommentsBlankLinesAndUnknownTags) {

@@ -2,6 +2,7 @@
 // Box, point and size factors: exact measurements give back pose, size and points.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "errors_of.h"
@@ -140,6 +141,25 @@ TEST(CameraPoint, HuberBoundsTheInfluenceOfAWrongMatch) {
   };
   EXPECT_GT(errorWith(0), 0.05) << "the wrong match is harmless: the test proves nothing";
   EXPECT_LT(errorWith(2.5), 0.2 * errorWith(0));
+}
+
+// A pixel ten standard deviations off: 2 w 10 - w^2 with Huber's loss, w^2 log(1 + (10 / w)^2) with Cauchy's.
+TEST(CameraPoint, LossIsTheOneThatWasAskedFor) {
+  const Eigen::Vector3d point(0.2, 0.3, 0.5);
+  const auto chiSquared = [&](RobustLoss loss, double width) {
+    FactorGraph graph;
+    graph.addPoint(PointId{0}, point);
+    graph.addPose(NodeId{0}, viewer(0), true);
+    CameraPointFactor f = pointFrom(0, point, PointId{0}, false);
+    f.pixel.x() += 10 * f.sigma_px;
+    f.loss = loss;
+    f.robust_width = width;
+    graph.add(f);
+    return graph.chiSquared();
+  };
+  EXPECT_NEAR(chiSquared(RobustLoss::kHuber, 2.5), 2 * 2.5 * 10 - 2.5 * 2.5, 1e-6);
+  EXPECT_NEAR(chiSquared(RobustLoss::kCauchy, 2.5), 2.5 * 2.5 * std::log(1 + 16), 1e-6);
+  EXPECT_NEAR(chiSquared(RobustLoss::kHuber, 0), 100, 1e-6);
 }
 
 TEST(PointLandmark, PullsALandmarkOverItsPoints) {

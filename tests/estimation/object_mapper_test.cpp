@@ -91,5 +91,63 @@ TEST(ObjectMapper, WhenALandmarkIsSplitItsSightingsAre) {
   EXPECT_EQ(at_right.last, 9);
 }
 
+// Of the features of a frame, those with depth on an object are kept for the graph.
+TEST(ObjectMapper, RemembersFeaturesThatLieOnObjects) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(generousAssociator(), {}, 0.03, poses);
+  const Frame frame = frameAt(0, 0);
+  ObjectMeasurement chair = chairAt(frame, 3, 0);
+  chair.features = {5, 7};
+  mapper.associate({chair}, frame, {{{10, 10}, 5, 3.0}, {{20, 10}, 6, 3.0}, {{30, 10}, 7, 0}});
+  ASSERT_EQ(mapper.frames().size(), 1u);
+  ASSERT_EQ(mapper.frames()[0].features.size(), 1u);
+  EXPECT_EQ(mapper.frames()[0].features[0].point, 5);
+}
+
+}  // namespace
+
+// Makes two landmarks of the first two measurements and is of two minds about the third.
+class Undecided : public Associator {
+  DEFINE_MRPT_OBJECT(Undecided, roomgraph::test)
+ public:
+  std::vector<Association> associate(const std::vector<WorldMeasurement>&,
+                                     const std::vector<Landmark>& landmarks) override {
+    Association out;
+    if (landmarks.size() == 2) {
+      out.landmark = landmarks[0].id;
+      out.probability = 0.5;
+      out.posterior = {{landmarks[0].id, 0.5}, {landmarks[1].id, 0.3}, {LandmarkId{}, 0.2}};
+    }
+    return {out};
+  }
+};
+IMPLEMENTS_MRPT_OBJECT(Undecided, roomgraph::Associator, roomgraph::test)
+
+namespace {
+
+// Two landmarks .2 m apart are one chair: what was said of the one is said of the other.
+TEST(ObjectMapper, MergedLandmarksShareTheirPosterior) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(std::make_shared<Undecided>(), {}, 0.03, poses);
+  for (int i = 0; i < 3; ++i) {
+    const Frame frame = frameAt(i, 0.5 * i);
+    mapper.associate({chairAt(frame, 3, i == 0 ? 0.1 : -0.1)}, frame, {});
+  }
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
+  mapper.tidy();
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  const LandmarkId kept = mapper.landmarks().landmarks()[0].id;
+  double share = 0, all = 0;
+  for (const auto& [id, probability] : mapper.frames()[2].decisions[0].association.posterior) {
+    share += id == kept ? probability : 0;
+    all += probability;
+  }
+  EXPECT_NEAR(share, 0.8, 1e-12);
+  EXPECT_NEAR(all, 1, 1e-12);
+  for (const auto& frame : mapper.frames()) EXPECT_EQ(frame.decisions[0].landmark, kept);
+}
+
 }  // namespace
 }  // namespace roomgraph::test

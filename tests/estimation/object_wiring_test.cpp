@@ -2,6 +2,8 @@
 // Factors made of exact measurements of a shipped class: which ones, how many, with what weight, and without error.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "roomgraph/association/measurement_model.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/estimation/object_factors.h"
@@ -148,7 +150,7 @@ TEST_F(SofaSeenFromFourPlaces, AnotherLabelSaysNothingOfThePlace) {
   EXPECT_TRUE(factors.boxes.empty());
 }
 
-// A place 1.5 m behind the sofa on the ray, with a score of 0: hardly a measurement of where the sofa stands.
+// A place 1.5 m behind the sofa on the ray, with a score of 0.1: its depth is rather that of something else.
 TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   const MeasurementModel model;
   auto& seen = frames_[0].decisions[0].seen;
@@ -159,8 +161,35 @@ TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   const auto weightOf = [&](const MeasurementModel* trusted) {
     return objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_, trusted).sightings[0].weight;
   };
-  EXPECT_LT(weightOf(&model), 0.1 * weightOf(nullptr));
+  const double trust = model.depthTrust(seen, sofa_);
+  EXPECT_LT(trust, 0.5);
+  EXPECT_GT(trust, 0);
+  EXPECT_NEAR(weightOf(&model), trust * weightOf(nullptr), 1e-12);
   EXPECT_GT(weightOf(nullptr), 0);
+}
+
+// A closure in the plane knows nothing of height, roll and pitch, whatever its covariance says of them.
+TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  KeyPoses poses(motion);
+  poses.add(0, Pose3::Identity());
+  poses.add(1, poseFromYpr(1, 0, 0.5, 0, 0.3, 0));
+  const auto chiSquared = [&](bool planar) {
+    RelativePose closure;
+    closure.t_b = 1;
+    closure.a_from_b = poseFromYpr(1, 0, 0, 0, 0, 0);
+    closure.covariance = 1e-6 * Matrix6d::Identity();
+    closure.planar = planar;
+    BackendOptions options;
+    options.closure_robust_width = 0;
+    const Measurements without{.planar = false}, with{{closure}, {}, false};
+    return buildGraph(poses, motion, with, {}, options).chiSquared() -
+           buildGraph(poses, motion, without, {}, options).chiSquared();
+  };
+  // 0.5 m and twice the sine of half of 0.3 rad, each against a standard deviation of 0.5.
+  EXPECT_NEAR(chiSquared(true), (0.5 * 0.5 + std::pow(2 * std::sin(0.15), 2)) / 0.25, 1e-6);
+  EXPECT_GT(chiSquared(false), 1e4);
 }
 
 // A robot that looks along world y: the error ahead of it is the one along y.

@@ -43,6 +43,7 @@ TEST(Iou3d, ClosedForms) {
   EXPECT_NEAR(iou3d(box, home, box, upright(0, 1, 0, 0)), 1.0 / 3, 1e-9);
   EXPECT_NEAR(iou3d(box, home, box, upright(0, 0, 0.5, 0)), 1.0 / 3, 1e-9);
   EXPECT_EQ(iou3d(box, home, box, upright(5, 0, 0, 0)), 0);
+  EXPECT_EQ(iou3d(box, home, box, upright(0, 0, 1.5, 0)), 0) << "one above the other";
   EXPECT_EQ(iou3d(box, home, box, upright(0, 0, 1, 0)), 0);
   // Two squares turned by 45 deg share a regular octagon: area 2 (sqrt 2 - 1) of a unit square.
   const ObjectShape cube{ShapeKind::kCuboid, 1, 1, 1};

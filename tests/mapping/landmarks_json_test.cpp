@@ -136,6 +136,8 @@ TEST(LandmarksJson, ErrorsNameFileEntryAndField) {
               HasSubstr("field 'x' is not a number"));
   EXPECT_THAT(broken(R"({"id": 1, "class": "sofa", "x": 0, "y": 0, "z": 0, "size_wdh": [1, 1]})"),
               HasSubstr("field 'size_wdh' is not a list of 3"));
+  EXPECT_THAT(broken(R"({"id": 1, "class": "sofa", "x": 0, "y": 0, "z": 0, "size_wdh": [1, -1, 1]})"),
+              HasSubstr("field 'size_wdh' is negative"));
   EXPECT_THAT(broken(R"({"id": 1, "class": 4, "x": 0, "y": 0, "z": 0, "size_wdh": [1, 1, 1]})"),
               HasSubstr("field 'class' is not a text"));
 }

@@ -140,6 +140,8 @@ TEST(MapFile, ValuesThatCannotBeAreNamed) {
               HasSubstr("probability of a class"));
   EXPECT_THAT(errorFor([](auto& map) { map.world_from_robot[3].pose.linear() *= 2; }), HasSubstr("a pose"));
   EXPECT_THAT(errorFor([](auto& map) { map.world_from_robot[3].t = 0; }), HasSubstr("order of time"));
+  EXPECT_THAT(errorFor([](auto& map) { map.world_from_robot[3].t = map.world_from_robot[2].t; }),
+              HasSubstr("order of time"));
 }
 
 // A count, or a side of the grid, larger than the file: no memory is taken for it.

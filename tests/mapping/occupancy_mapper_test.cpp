@@ -150,6 +150,8 @@ TEST(OccupancyMapper, ReturnsBeyondTheRangeOnlyFree) {
     for (unsigned x = 0; x < grid->getSizeX(); ++x)
       if (grid->getCell(static_cast<int>(x), static_cast<int>(y)) < 0.4f) {
         EXPECT_LT(std::hypot(grid->idx2x(x) - lidar.x(), grid->idx2y(y) - lidar.y()), 1.35);
+        EXPECT_LT(std::min(std::abs(grid->idx2x(x) - kWest), std::abs(grid->idx2y(y) - kSouth)), 0.08)
+            << "a wall where beams were cut";
       }
   EXPECT_GT(occupied, 0) << "the wall 1.1 m away must still be there";
 }

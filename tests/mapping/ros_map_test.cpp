@@ -54,6 +54,20 @@ TEST(RosMap, RoundTrip) {
     for (int x = 0; x < 4; ++x) EXPECT_NEAR(again.getCell(x, y), grid.getCell(x, y), 0.02) << x << " " << y;
 }
 
+// In an image with `negate`, white is occupied.
+TEST(RosMap, NegatedImagesMeanTheOpposite) {
+  const TemporaryFolder folder;
+  folder.write("n.pgm", std::string("P5\n2 1\n255\n") + '\xff' + '\x00');
+  for (const bool negate : {false, true}) {
+    const auto yaml = folder.write("n.yaml", "image: n.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: " +
+                                                 std::to_string(negate) +
+                                                 "\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+    const auto grid = loadOccupancyRos(yaml);
+    EXPECT_EQ(grid.getCell(0, 0) > 0.9F, !negate);
+    EXPECT_EQ(grid.getCell(1, 0) > 0.9F, negate);
+  }
+}
+
 TEST(RosMap, ErrorsNameTheCause) {
   const TemporaryFolder folder;
   EXPECT_THROW(saveOccupancyRos(smallGrid(), folder.file("missing/map")), RunError);

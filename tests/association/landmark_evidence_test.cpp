@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LandmarkMap: outliers, carried boxes, limits of beams, votes and doubts through corrections, moves and hindsight.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "roomgraph/association/landmark_map.h"
+#include "sightings.h"
+
+namespace roomgraph::test {
+namespace {
+
+// Variance of a Kalman filter's measurement that moves an estimate of variance p from 0 to x when it says z.
+double impliedVariance(double p, double z, double x) {
+  return p * z / x - p;
+}
+
+TEST(LandmarkEvidence, ASightingFarOffIsDoubtedWithTheFourthPowerOfItsDistance) {
+  const double variance = 0.01;
+  for (const double z : {0.5, 1.0, 2.0}) {
+    LandmarkMap map;
+    const LandmarkId id = map.update(sightingAt(0, 0), belongsTo({}));
+    map.update(sightingAt(z, 0), belongsTo(id));
+    const double squared = z * z / (2 * variance);  // Mahalanobis; 16 and less are no outliers
+    const double doubt = squared > 16 ? std::pow(squared / 16, 2) : 1;
+    EXPECT_NEAR(impliedVariance(variance, z, map.find(id)->position.x()), doubt * variance, 1e-9) << z;
+  }
+}
+
+TEST(LandmarkEvidence, ACarriedBoxMeasuresThePlaceWithLessInformation) {
+  LandmarkMap map;
+  const LandmarkId id = map.update(sightingAt(0, 0), belongsTo({}));
+  WorldMeasurement carried = sightingAt(0.2, 0);
+  carried.measurement.detection.carried = true;
+  map.update(carried, belongsTo(id));
+  EXPECT_NEAR(impliedVariance(0.01, 0.2, map.find(id)->position.x()), 0.01 / 0.3, 1e-9);
+}
+
+// Something stands there, which need not be this object: the odds grow by a factor of e at most.
+TEST(LandmarkEvidence, BeamsThatEndInsideConvinceOnlySoFar) {
+  LandmarkOptions options;
+  options.rules.birth_existence = 0.5;
+  LandmarkMap map(options);
+  const LandmarkId id = map.update(sightingAt(0, 0), belongsTo({}));
+  map.supported(id, 6);
+  EXPECT_NEAR(map.find(id)->existence, 1 / (1 + std::exp(-0.6)), 1e-12);
+  for (int scan = 0; scan < 3; ++scan) map.supported(id, 1000);
+  EXPECT_NEAR(map.find(id)->existence, 1 / (1 + std::exp(-1.0)), 1e-12);
+}
+
+TEST(LandmarkEvidence, AMovedLandmarkTakesItsCovarianceAlong) {
+  LandmarkMap map;
+  WorldMeasurement seen = sightingAt(2, 1, 0.4);
+  seen.covariance.diagonal() << 0.09, 0.01, 0.0004, 0.2;
+  seen.covariance(0, 1) = seen.covariance(1, 0) = 0.02;
+  const LandmarkId id = map.update(seen, belongsTo({}));
+  map.move(id, poseFromYpr(5, -3, 0, M_PI / 2, 0, 0));
+  const Landmark& landmark = *map.find(id);
+  EXPECT_LT((landmark.position - Eigen::Vector3d(4, -1, 0)).norm(), 1e-12);
+  EXPECT_NEAR(landmark.yaw, 0.4 + M_PI / 2, 1e-12);
+  EXPECT_NEAR(landmark.covariance(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(landmark.covariance(1, 1), 0.09, 1e-12);
+  EXPECT_NEAR(landmark.covariance(0, 1), -0.02, 1e-12);
+  EXPECT_NEAR(landmark.covariance(3, 3), 0.2, 1e-12);
+}
+
+// Three sightings said that the front is at 0. The graph turned the landmark round: the next one outvotes that.
+TEST(LandmarkEvidence, ATurnedLandmarkKeepsTheVotesOfItsSightings) {
+  LandmarkMap map;
+  const LandmarkId id = map.update(sightingAt(0, 0), belongsTo({}));
+  for (int i = 0; i < 2; ++i) map.update(sightingAt(0, 0), belongsTo(id));
+  const Landmark before = *map.find(id);
+  map.correct(id, before.position, M_PI, before.covariance);
+  map.update(sightingAt(0, 0), belongsTo(id));
+  EXPECT_NEAR(std::abs(map.find(id)->yaw), 0, 1e-6);
+}
+
+// Seen once, missed sixty times, seen three times again. In hindsight the evidence is weighed in this order: the
+// existence falls to its floor of .01, and three sightings of score .9 lift the odds by exp(5 (.9 - .3)) each.
+TEST(LandmarkEvidence, HindsightWeighsDoubtsAtTheirTime) {
+  LandmarkMap map;
+  std::vector<std::vector<WorldMeasurement>> frames;
+  LandmarkId id;
+  for (int frame = 0; frame < 4; ++frame) {
+    WorldMeasurement seen = sightingAt(1, 1);
+    seen.measurement.frame = FrameId{frame};
+    seen.measurement.t = frame;
+    seen.measurement.proposal.score = 0.9;
+    frames.push_back({seen});
+    id = map.update(seen, belongsTo(id));
+    if (frame == 0)
+      for (int i = 0; i < 60; ++i) map.miss(id);
+  }
+  const double odds = 0.01 / 0.99 * std::exp(3 * 5 * (0.9 - 0.3));
+  EXPECT_NEAR(map.find(id)->existence, odds / (1 + odds), 1e-9);
+  const Reassociation result = reassociate(frames, map.landmarks(), AssociationModel{}, map.rules());
+  ASSERT_EQ(result.landmarks.size(), 1u);
+  map.adopt(frames, result);
+  EXPECT_NEAR(map.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9);
+}
+
+}  // namespace
+}  // namespace roomgraph::test
