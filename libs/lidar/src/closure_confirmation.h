@@ -13,7 +13,7 @@ struct Closure {
   int a = 0, b = 0;  ///< numbers of kept scans
   Pose2 a_from_b;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in frame a
-  double drift_m = 0;  ///< length of the way known between the two before
+  double path_m = 0;  ///< length of the path between the two, from the trajectory before
 };
 
 /// Where a kept scan stands along the way.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid_refinement.h"
+#include "roomgraph/geometry/covariance.h"
 #include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
@@ -51,8 +52,10 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
   v.add(
       "ambiguity_ratio", ambiguity_ratio_,
       {.doc = "A second place scoring this share of the best makes a match ambiguous.", .min = 0, .max = 1});
-  v.add("trusted_drift_m", trusted_drift_m_,
-        {.doc = "Way up to which a closure needs no confirmation by others.", .unit = "m", .min = 0});
+  v.add("trusted_path_m", trusted_path_m_,
+        {.doc = "Length of the path between two scans up to which a closure needs no confirmation by others.",
+         .unit = "m",
+         .min = 0});
   v.add("agreeing_closures", agreeing_closures_,
         {.doc = "Scans that must agree on a closure after a longer way.", .min = 1});
   v.add("agreeing_travel_m", agreeing_travel_m_,
@@ -87,7 +90,7 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
     const int first = submap.first_insertion, last = first + submap.insertions - 1;
     if (a < first || a > last || b <= last) continue;
     // Just beyond what is trusted: the match must be unambiguous.
-    const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_drift_m_ + 1};
+    const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
     const std::optional<Closure> found = match(candidate, b);
     if (!found) continue;
     graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);
@@ -151,7 +154,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
       const std::optional<Closure> closure = match(candidate, b);
       if (!closure) continue;
       std::vector<Closure> confirmed{*closure};
-      if (closure->drift_m > trusted_drift_m_) confirmed = confirmation_.add(*closure, way_, rule);
+      if (closure->path_m > trusted_path_m_) confirmed = confirmation_.add(*closure, way_, rule);
       for (const Closure& c : confirmed) {
         graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
         found.push_back(toRelativePose(c));
@@ -191,22 +194,22 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
     Candidate c{s, a, reach.start_from_node.inverse(), 0, reach.length_m};
     // Over a short way the composed movement is the better guess: the world may not know the last closures
     // yet.
-    if (reach.length_m > trusted_drift_m_) {
+    if (reach.length_m > trusted_path_m_) {
       if (!world[at(a)] || !world[at(b)]) continue;
       c.a_from_b = world[at(a)]->inverse() * *world[at(b)];
     }
     c.distance_m = std::hypot(c.a_from_b.x, c.a_from_b.y);
     if (!best || c.distance_m < best->distance_m) best = c;
   }
-  if (!best || best->distance_m > std::min(max_near_m_, near_m_ + drift_per_m_ * best->drift_m))
+  if (!best || best->distance_m > std::min(max_near_m_, near_m_ + drift_per_m_ * best->path_m))
     return std::nullopt;
   return best;
 }
 
-SearchWindow SubmapLoopCloser::windowFor(double drift_m) const {
+SearchWindow SubmapLoopCloser::windowFor(double path_m) const {
   SearchWindow window;
-  window.linear_m = std::min(max_window_m_, window_m_ + drift_per_m_ * drift_m);
-  window.angular_rad = kDegree * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * drift_m);
+  window.linear_m = std::min(max_window_m_, window_m_ + drift_per_m_ * path_m);
+  window.angular_rad = kDegree * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * path_m);
   window.min_score = min_search_score_;
   return window;
 }
@@ -218,23 +221,21 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   const Points2& points = scans_[static_cast<std::size_t>(b)].points;
   const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
   const Pose2 expected = odom_from_a * candidate.a_from_b;
-  const SearchWindow window = windowFor(candidate.drift_m);
+  const SearchWindow window = windowFor(candidate.path_m);
   const auto coarse = correlativeSearch(stored.pyramid, points, expected, window);
   if (!coarse) return std::nullopt;
   const GridRefinement fine =
       refineOnGrid(grid, points, coarse->grid_from_scan, PosePrior{coarse->grid_from_scan});
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
-  if (candidate.drift_m > trusted_drift_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
+  if (candidate.path_m > trusted_path_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
     return std::nullopt;
 
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
   model.floor_sigma_rad = floor_sigma_deg_ * kDegree;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-odom_from_a.yaw).toRotationMatrix();
   return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,
-                 turn * poseCovariance(fine, model) * turn.transpose(), candidate.drift_m};
+                 rotateCovariance(poseCovariance(fine, model), -odom_from_a.yaw), candidate.path_m};
 }
 
 bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
@@ -250,9 +251,7 @@ RelativePose SubmapLoopCloser::toRelativePose(const Closure& closure) const {
   out.t_a = scans_[static_cast<std::size_t>(closure.a)].t;
   out.t_b = scans_[static_cast<std::size_t>(closure.b)].t;
   out.a_from_b = toPose3(closure.a_from_b);
-  const int axes[3] = {0, 1, 5};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out.covariance(axes[i], axes[j]) = closure.covariance(i, j);
+  out.covariance = planarCovariance(closure.covariance, 1);
   out.planar = true;
   out.source = "lidar";
   return out;

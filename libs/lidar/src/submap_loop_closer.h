@@ -41,7 +41,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
     int a = 0;              ///< kept scan of the submap next to the scan
     Pose2 a_from_b;         ///< expected
     double distance_m = 0;  ///< between the two
-    double drift_m = 0;     ///< way between the two
+    double path_m = 0;      ///< length of the path between the two
   };
 
   void store(std::shared_ptr<Submap> submap);
@@ -49,7 +49,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::optional<Candidate> nearestIn(std::size_t submap, int b,
                                      const std::vector<ClosureGraph::Reached>& reached,
                                      const std::vector<std::optional<Pose2>>& world) const;
-  SearchWindow windowFor(double drift_m) const;
+  SearchWindow windowFor(double path_m) const;
   std::optional<Closure> match(const Candidate& candidate, int b);
   int nearestScan(double t) const;
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
@@ -64,7 +64,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double window_m_ = 0.3, window_deg_ = 8, max_window_m_ = 6, max_window_deg_ = 60;
   double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
   double ambiguity_ratio_ = 0.93;
-  double trusted_drift_m_ = 8;
+  double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
   double agreeing_travel_m_ = 1;
   int max_candidates_ = 2, max_matches_per_search_ = 12;

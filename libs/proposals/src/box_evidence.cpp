@@ -143,11 +143,4 @@ double halfAngleOf(const BoxEvidence& e) {
   return std::abs(wrapAngle(azimuth(e, e.box.u_min) - azimuth(e, e.box.u_max))) / 2;
 }
 
-double quantile(std::vector<double> values, double ratio) {
-  if (values.empty()) return 0;
-  const auto index = static_cast<std::ptrdiff_t>(ratio * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + index, values.end());
-  return values[index];
-}
-
 }  // namespace roomgraph

@@ -6,15 +6,12 @@
 
 #include "box_edges.h"
 #include "depth_mask.h"
+#include "roomgraph/core/order_statistics.h"
+#include "roomgraph/geometry/box_sides.h"
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
-
-/// A flag for every side of a box.
-struct BoxSides {
-  bool left = false, top = false, right = false, bottom = false;
-};
 
 /// What a generator knows about one detection.
 struct BoxEvidence {
@@ -68,8 +65,6 @@ std::optional<Eigen::Vector2d> contactPoint(const BoxEvidence& evidence);
 /// Direction of the box's middle on the ground, rad, and the half angle between its sides.
 double bearingOf(const BoxEvidence& evidence);
 double halfAngleOf(const BoxEvidence& evidence);
-/// Quantile (ratio in [0, 1]) of the values; 0 for none.
-double quantile(std::vector<double> values, double ratio);
 
 /// Generators of method.md sec. 1.A to 1.C: best hypotheses first, at most `max_count`, none with a box IoU
 /// below `min_iou`.
