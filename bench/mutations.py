@@ -26,6 +26,7 @@ The report is rewritten after every fault and stays valid when the program is in
 every fault that was built and has no `why` is caught, 1 when one is not, 2 for unusable input, 130 when interrupted.
 """
 import argparse
+import fcntl
 import json
 import os
 import pathlib
@@ -38,141 +39,12 @@ import sys
 import threading
 import time
 
+from mutation_list import SWITCH, BadInput, chosen, load_faults, programs_for, switched, test_programs
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-KEYS = {"name", "file", "find", "replace"}
-SWITCH = "ROOMGRAPH_FAULT"
-# C++ that is put into files with switched faults; `%s` in the wrappers: name, replacement, original.
-HEAD = f"""#include <cstdlib>
-#include <cstring>
-#define {SWITCH}(name) ([] {{ \\
-  static const bool on = std::getenv("{SWITCH}") && !std::strcmp(std::getenv("{SWITCH}"), name); \\
-  return on; }}())
-"""
-WRAPPED = {"expression": "(ROOMGRAPH_FAULT(\"%s\") ? (%s) : (%s))",
-           "statement": "{ if (ROOMGRAPH_FAULT(\"%s\")) { %s } else { %s } }"}
 LEAST_TIMEOUT_S, SLOWER = 60, 10
 FAILED = re.compile(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", re.MULTILINE)
 STARTED = re.compile(r"^\[ RUN      \] (\S+)", re.MULTILINE)
-LIBRARY = re.compile(r"\broomgraph::(\w+)")
-PROGRAM = re.compile(r"\broomgraph_add_test\(\s*(\w+)")
-
-
-class BadInput(Exception):
-    pass
-
-
-# --- the list of faults ---
-
-def checked_fault(root, source, library, fault):
-    """The fault with its library; BadInput says what is wrong with it."""
-    place = f"{source.relative_to(root)}: fault '{fault.get('name', '?')}'"
-    missing = KEYS - fault.keys()
-    unknown = fault.keys() - KEYS - {"why", "kind"}
-    if missing or unknown:
-        raise BadInput(f"{place}: missing {sorted(missing)}, unknown {sorted(unknown)}")
-    try:
-        text = (root / fault["file"]).read_text(encoding="utf-8")
-    except OSError:
-        raise BadInput(f"{place}: there is no {fault['file']}") from None
-    count = text.count(fault["find"]) if fault["find"] else 0
-    if count != 1:
-        raise BadInput(f"{place}: `find` occurs {count} times in {fault['file']}, not once: {fault['find']!r}")
-    if fault["find"] == fault["replace"]:
-        raise BadInput(f"{place}: it changes nothing")
-    if fault.get("kind", "statement") not in WRAPPED:
-        raise BadInput(f"{place}: `kind` is neither {' nor '.join(sorted(WRAPPED))}")
-    if set(fault["name"]) & set('"\\\n'):
-        raise BadInput(f"{place}: a name must do inside a C++ string")
-    return {"library": library, **fault}
-
-
-def load_faults(root):
-    """All faults of bench/mutations/*.json. Every fault that is not usable is named in one BadInput."""
-    faults, names, problems = [], {}, []
-    for source in sorted((root / "bench" / "mutations").glob("*.json")):
-        try:
-            content = json.loads(source.read_text(encoding="utf-8"))
-            library, entries = content["library"], content["faults"]
-        except (ValueError, KeyError, TypeError) as error:
-            raise BadInput(f"{source.relative_to(root)}: {error!r}") from None
-        if not (root / "libs" / library).is_dir():
-            problems.append(f"{source.relative_to(root)}: there is no library '{library}'")
-        for entry in entries:
-            try:
-                faults.append(checked_fault(root, source, library, entry))
-            except BadInput as error:
-                problems.append(str(error))
-                continue
-            if entry["name"] in names:
-                problems.append(f"{source.relative_to(root)}: '{entry['name']}' is in {names[entry['name']]} already")
-            names[entry["name"]] = source.relative_to(root)
-    if problems:
-        raise BadInput("\n".join(problems))
-    if not faults:
-        raise BadInput("bench/mutations holds no faults")
-    return faults
-
-
-def chosen(faults, libraries, names):
-    for wanted, known in ((libraries, {f["library"] for f in faults}), (names, {f["name"] for f in faults})):
-        for unknown in set(wanted or []) - known:
-            raise BadInput(f"no such library or fault: {unknown}")
-    return [f for f in faults if f["library"] in (libraries or [f["library"]]) and f["name"] in (names or [f["name"]])]
-
-
-def switched(root, faults):
-    """{path: text} of the files in which all faults with a `kind` stand behind switches."""
-    files = {}
-    for path in sorted({f["file"] for f in faults if "kind" in f}):
-        text, end = (root / path).read_text(encoding="utf-8"), None
-        places = sorted(((text.index(f["find"]), f) for f in faults if f["file"] == path and "kind" in f),
-                        key=lambda place: place[0], reverse=True)
-        for begin, fault in places:
-            if end is not None and begin + len(fault["find"]) > end:
-                raise BadInput(f"{path}: fault '{fault['name']}' overlaps the next one; leave out the `kind` of one")
-            wrapped = WRAPPED[fault["kind"]] % (fault["name"], fault["replace"], fault["find"])
-            text, end = text[:begin] + wrapped + text[begin + len(fault["find"]):], begin
-        files[path] = HEAD + text
-    return files
-
-
-# --- which tests see a library ---
-
-def text_of(root, *parts):
-    path = root.joinpath(*parts, "CMakeLists.txt")
-    return path.read_text(encoding="utf-8") if path.exists() else ""
-
-
-def links(root, text):
-    """Libraries that a CMakeLists.txt links, directly or not; with the program, when it needs that."""
-    if "roomgraph_app" in text:
-        text += text_of(root, "apps", "roomgraph")
-    found, open_names = set(), set(LIBRARY.findall(text))
-    while open_names:
-        name = open_names.pop()
-        found.add(name)
-        open_names |= set(LIBRARY.findall(text_of(root, "libs", name))) - found
-    return found
-
-
-def test_programs(root):
-    """[(folder, program, libraries)], lowest level first: the order of tests/CMakeLists.txt."""
-    order = re.findall(r"[\w]+", re.search(r"foreach\(folder ([^)]*)\)", text_of(root, "tests")).group(1))
-    programs = []
-    for folder in order:
-        text = text_of(root, "tests", folder)
-        programs += [(folder, program, links(root, text)) for program in PROGRAM.findall(text)]
-    return programs
-
-
-def programs_for(programs, library, only):
-    """Names of the test programs that can notice a fault in the library: its own first."""
-    own = [p for folder, p, _ in programs if folder == library]
-    above = [p for folder, p, used in programs if folder != library and library in used]
-    names = [p for p in own + above if not only or p in only]
-    if not names:
-        raise BadInput(f"no test program for library '{library}'")
-    return names
 
 
 # --- copies of the tree ---
@@ -354,6 +226,17 @@ def work(copy, needed, changed, programs_of, todo, report, problems, ended):
         ended.put(copy)
 
 
+def lock(folder):
+    """An open file that keeps others from working in the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = open(folder / "lock", "w")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise BadInput(f"another call works in {folder}") from None
+    return file
+
+
 def run_all(root, faults, options):
     programs = test_programs(root)
     libraries = {f["library"] for f in faults}
@@ -412,7 +295,8 @@ def main(argv):
                 print(f"{fault['library']:13} {fault['name']:36} {fault['file']}{note}")
             print(f"{len(faults)} faults")
             return 0
-        report = run_all(options.root, faults, options)
+        with lock(options.build):
+            report = run_all(options.root, faults, options)
     except BadInput as error:
         print(f"mutations.py: {error}", file=sys.stderr)
         return 2
@@ -427,5 +311,6 @@ def main(argv):
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for number in (signal.SIGINT, signal.SIGTERM):  # a shell lets background jobs ignore the first
+        signal.signal(number, signal.default_int_handler)
     sys.exit(main(sys.argv[1:]))

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "roomgraph/core/plugin.h"
+
+ROOMGRAPH_PLUGIN()
+
 namespace example {
 
 IMPLEMENTS_MRPT_OBJECT(GreedyNearestAssociator, roomgraph::Associator, example)

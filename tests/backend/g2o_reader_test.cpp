@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "data_folder.h"
 #include "errors_of.h"
 #include "roomgraph/backend/g2o_file.h"
 #include "roomgraph/core/errors.h"
@@ -241,10 +240,7 @@ TEST(G2oReader, InformationThatIsLostOnTheWayToACovarianceIsNoInformation) {
 }
 
 std::filesystem::path dataFile(const std::string& name) {
-  const char* data = std::getenv("ROOMGRAPH_DATA");
-  return (data ? std::filesystem::path(data)
-               : std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "../shared/data") /
-         "posegraph" / name;
+  return dataFolder() / "posegraph" / name;
 }
 
 TEST(G2oReader, ManhattanReachesItsPublishedOptimum) {

@@ -13,8 +13,29 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Greeter, Stage, roomgraph)
 IMPLEMENTS_MRPT_OBJECT(PoliteGreeter, Greeter, roomgraph)
 IMPLEMENTS_MRPT_OBJECT(CurtGreeter, Greeter, roomgraph)
 
+/// An interface whose two implementations have one name in different namespaces.
+class Farewell : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(Farewell)
+};
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Farewell, Stage, roomgraph)
+
+namespace english {
+class Goodbye : public Farewell {
+  DEFINE_MRPT_OBJECT(Goodbye, roomgraph::english)
+};
+IMPLEMENTS_MRPT_OBJECT(Goodbye, Farewell, roomgraph::english)
+}  // namespace english
+
+namespace shouted {
+class Goodbye : public Farewell {
+  DEFINE_MRPT_OBJECT(Goodbye, roomgraph::shouted)
+};
+IMPLEMENTS_MRPT_OBJECT(Goodbye, Farewell, roomgraph::shouted)
+}  // namespace shouted
+
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using test::messageOf;
@@ -55,6 +76,18 @@ TEST_F(ClassRegistry, TheInterfaceItselfAndStrangersAreNoImplementations) {
   EXPECT_THROW(createStage<Greeter>("Greeter", "test"), ConfigError);
   EXPECT_THROW(createStage<Greeter>("Stage", "test"), ConfigError);
   EXPECT_THROW(createStage<Greeter>("", "test"), ConfigError);
+}
+
+TEST_F(ClassRegistry, OneNameInTwoNamespacesIsAnErrorThatNamesBoth) {
+  mrpt::rtti::registerClass(CLASS_ID(Farewell));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(Goodbye, roomgraph::english));
+  EXPECT_THAT(implementationsOf(CLASS_ID(Farewell)), ElementsAre("Goodbye"));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(Goodbye, roomgraph::shouted));
+  const auto both = AllOf(HasSubstr("two classes have the name 'Goodbye'"),
+                          HasSubstr("roomgraph::english::Goodbye"), HasSubstr("roomgraph::shouted::Goodbye"));
+  EXPECT_THAT(messageOf<ConfigError>([] { createStage<Farewell>("Goodbye", "test"); }), both);
+  EXPECT_THAT(messageOf<ConfigError>([] { implementationsOf(CLASS_ID(Farewell)); }), both);
+  EXPECT_NO_THROW(createStage<Greeter>("CurtGreeter", "test")) << "other interfaces are not concerned";
 }
 
 TEST_F(ClassRegistry, MissingPluginIsAConfigError) {

@@ -8,7 +8,7 @@
 #include "example_stages.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/mentioned_files.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
@@ -135,7 +135,7 @@ TEST(Config, MentionedFilesAreTextsAndItems) {
 }
 
 TEST(Config, MissingFile) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_THROW(Config::fromFile(folder.path() / "none.ini"), InputError);
 }
 

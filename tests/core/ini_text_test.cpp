@@ -6,7 +6,7 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
@@ -69,7 +69,7 @@ TEST(IniText, LinesThatAreNothing) {
 }
 
 TEST(IniText, Files) {
-  const test::TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder.write("a.ini", "[a]\nk = 1\n");
   EXPECT_EQ(parseIniFile(file).at(0).place, file.string() + ":2");
   EXPECT_THAT(messageOf<InputError>([&] { parseIniFile(folder.path() / "none.ini"); }),

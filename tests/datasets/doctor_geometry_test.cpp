@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "data_folder.h"
 #include "rawlog_maker.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/rawlog_report.h"
@@ -198,10 +199,9 @@ std::vector<Object> recordsOf(const std::filesystem::path& file, std::size_t mos
 class DoctorOnRecordings : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(DoctorOnRecordings, WrongDepthUnitIsFoundAndTheRightOneIsNot) {
-  const char* data = std::getenv("ROOMGRAPH_DATA");
-  const std::filesystem::path source(ROOMGRAPH_SOURCE_DIR), shared = data ? data : source / "../shared/data";
-  const auto file = GetParam() == "lab_a" ? shared / "lab/lab_a/lab_a.rawlog"
-                                          : source / "rawlogs" / (GetParam() + ".rawlog");
+  const auto file = GetParam() == "lab_a"
+                        ? dataFolder() / "lab/lab_a/lab_a.rawlog"
+                        : std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / (GetParam() + ".rawlog");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
   TemporaryFolder folder;
   for (const float factor : {1.f, 5.f, 0.2f}) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "data_folder.h"
 #include "rawlog_maker.h"
 #include "roomgraph/core/errors.h"
 
@@ -261,10 +262,7 @@ TEST_F(Doctor, ActionFormat) {
 }
 
 TEST(DoctorOnRealData, LabRecordingIsWell) {
-  const char* data = std::getenv("ROOMGRAPH_DATA");
-  const std::filesystem::path file =
-      (data ? std::filesystem::path(data) : std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "../shared/data") /
-      "lab/lab_a/lab_a.rawlog";
+  const auto file = dataFolder() / "lab/lab_a/lab_a.rawlog";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
   const auto report = inspectRawlog(file);
   EXPECT_THAT(report.findings, Each(Field(&Finding::severity, Severity::kNote)));

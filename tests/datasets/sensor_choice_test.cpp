@@ -111,6 +111,52 @@ TEST_F(SensorChoiceTest, LabelsChoose) {
   EXPECT_EQ(content.statistics.skipped.at("CObservation2DRangeScan 'FRONT': another sensor was chosen"), 3);
 }
 
+// Two cameras on one robot, one looking ahead and one to the left: what comes out is one of them, where it is.
+TEST_F(SensorChoiceTest, ACameraComesWithItsOwnMount) {
+  const mrpt::poses::CPose3D ahead(0.1, 0, 1.2, 0, 0, 0), left(0, 0.2, 0.8, M_PI / 2, 0, 0);
+  std::vector<Object> objects;
+  for (int i = 0; i < 3; ++i) {
+    objects.push_back(imagesOf("AHEAD", i));
+    std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(objects.back())->sensorPose = ahead;
+    objects.push_back(imagesOf("LEFT", i + 0.01));
+    std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(objects.back())->sensorPose = left;
+  }
+  writeRawlog(file, objects);
+  const auto optical = toPose3(makeImages(0)->relativePoseIntensityWRTDepth);
+  for (const auto& [label, mount] : {std::pair{"AHEAD", ahead}, std::pair{"LEFT", left}}) {
+    const Content content = read({.rgbd_label = label});
+    ASSERT_EQ(content.frames.size(), 3u) << label;
+    for (const Frame& frame : content.frames) {
+      EXPECT_EQ(frame.sensor_label, label);
+      EXPECT_TRUE(frame.robot_from_camera.isApprox(toPose3(mount) * optical, 1e-9)) << label;
+    }
+  }
+}
+
+TEST_F(SensorChoiceTest, TwoCamerasWithOneLabelAreNotMixed) {
+  const auto other = [](double t) {
+    auto images = makeImages(t);
+    images->cameraParams.setIntrinsicParamsFromValues(21, 21, 7.5, 5.5);  // 20 px; 2 % of 16 px is 0.32 px
+    images->cameraParamsIntensity = images->cameraParams;
+    return images;
+  };
+  const auto recalibrated = [](double t) {
+    auto images = makeImages(t);
+    images->cameraParams.setIntrinsicParamsFromValues(20.1, 20.1, 7.5, 5.5);
+    images->cameraParamsIntensity = images->cameraParams;
+    return images;
+  };
+  writeRawlog(file, {makeImages(1), other(1.1), makeImages(2), other(2.1), recalibrated(3), makeImages(4, 32, 24)});
+  const Content content = read();
+  ASSERT_EQ(content.frames.size(), 3u);
+  for (const Frame& frame : content.frames) EXPECT_NEAR(frame.camera.fx, 20, 0.2);
+  EXPECT_EQ(content.frames[2].id.value, 2) << "frames are numbered as they come out";
+  EXPECT_THAT(content.statistics.skipped,
+              ElementsAre(Pair("CObservation3DRangeScan 'KINECT': not the camera of the first image: several "
+                               "cameras have this label",
+                               3)));
+}
+
 TEST_F(SensorChoiceTest, WhatHasNoLabelCannotBeChosen) {
   const auto advice = [&](const std::vector<Object>& objects) {
     writeRawlog(file, objects);

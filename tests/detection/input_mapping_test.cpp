@@ -32,16 +32,17 @@ TEST(InputMapping, StretchScalesEachAxis) {
   EXPECT_DOUBLE_EQ(box.v_max, 480);
 }
 
-TEST(InputMapping, RoundTrip) {
-  const Box2 box{12.25, 80, 333, 470.5};
-  for (const InputFit fit : {InputFit::kStretch, InputFit::kLetterboxTopLeft}) {
-    const InputMapping mapping = mappingFor({640, 480}, {416, 320}, fit);
-    const Box2 back = mapping.toImage(mapping.toInput(box));
-    EXPECT_NEAR(back.u_min, box.u_min, 1e-9);
-    EXPECT_NEAR(back.v_min, box.v_min, 1e-9);
-    EXPECT_NEAR(back.u_max, box.u_max, 1e-9);
-    EXPECT_NEAR(back.v_max, box.v_max, 1e-9);
-  }
+// The corners of the picture inside the input are the corners of the image.
+TEST(InputMapping, CornersOfTheInputAreCornersOfTheImage) {
+  const Box2 letterboxed =
+      mappingFor({640, 480}, {416, 320}, InputFit::kLetterboxTopLeft).toImage({0, 0, 416, 312});
+  EXPECT_NEAR(letterboxed.u_max, 640, 1e-9);
+  EXPECT_NEAR(letterboxed.v_max, 480, 1e-9);
+  const Box2 inner = mappingFor({640, 480}, {320, 320}, InputFit::kStretch).toImage({80, 160, 240, 200});
+  EXPECT_NEAR(inner.u_min, 160, 1e-9);
+  EXPECT_NEAR(inner.v_min, 240, 1e-9);
+  EXPECT_NEAR(inner.u_max, 480, 1e-9);
+  EXPECT_NEAR(inner.v_max, 300, 1e-9);
 }
 
 }  // namespace

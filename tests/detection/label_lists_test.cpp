@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <set>
 
+#include "data_folder.h"
 #include "dnn_detector.h"
 #include "errors_of.h"
 #include "roomgraph/core/config.h"
@@ -22,8 +22,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 fs::path modelFolder() {
-  const char* env = std::getenv("ROOMGRAPH_DATA");
-  return (env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data") / "models";
+  return dataFolder() / "models";
 }
 
 std::vector<std::string> linesOf(const fs::path& file) {

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 struct Outcome {
   int exit_code = -1;
@@ -26,7 +26,7 @@ std::string contentOf(const std::filesystem::path& file) {
   return text.str();
 }
 
-Outcome run(const TempFolder& folder, const std::string& arguments) {
+Outcome run(const TemporaryFolder& folder, const std::string& arguments) {
   const auto out = folder.path() / "stdout", err = folder.path() / "stderr";
   const std::string command = "cd '" + folder.path().string() + "' && '" ROOMGRAPH_APP "' evaluate " +
                               arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
@@ -35,7 +35,7 @@ Outcome run(const TempFolder& folder, const std::string& arguments) {
 }
 
 TEST(EvaluateCommand, TrajectoryTableAndJson) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("truth.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n");
   folder.write("moved.txt", "0 5 5 0\n1 6 5 0\n1 6 5 0\n2 6 6 0\n");
   const auto result = run(folder, "trajectory truth.tum moved.txt --json ate.json");
@@ -55,7 +55,7 @@ TEST(EvaluateCommand, TrajectoryTableAndJson) {
 }
 
 TEST(EvaluateCommand, Relations) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.relations", "0 1 1 0 0 0 0 0\n1 9 0 0 0 0 0 0\n");
   folder.write("e.tum", "0 0 0 0\n1 1.5 0 0\n");
   const auto result = run(folder, "relations a.relations e.tum --json r.json");
@@ -67,7 +67,7 @@ TEST(EvaluateCommand, Relations) {
 }
 
 TEST(EvaluateCommand, ObjectsAlignedByTrajectories) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write(
       "t.json",
       R"({"objects": [{"id": 1, "class": "sofa", "x": 2, "y": 0, "z": 0, "yaw": 0, "size_wdh": [1, 1, 1]}]})");
@@ -87,7 +87,7 @@ TEST(EvaluateCommand, ObjectsAlignedByTrajectories) {
 }
 
 TEST(EvaluateCommand, ObjectsWithAssociations) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write(
       "t.json",
       R"({"objects": [{"id": 1, "class": "sofa", "x": 2, "y": 0, "z": 0, "yaw": 0, "size_wdh": [1, 1, 1]}]})");
@@ -122,7 +122,7 @@ TEST(EvaluateCommand, ObjectsWithAssociations) {
 }
 
 TEST(EvaluateCommand, Detections) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write(
       "boxes.jsonl",
       R"({"frame": 0, "t": 0, "objects": [{"id": 1, "class": "sofa", "bbox": [0, 0, 90, 90], "visible": 1}]})");
@@ -149,7 +149,7 @@ TEST(EvaluateCommand, Detections) {
 }
 
 TEST(EvaluateCommand, MapAlignedByTrajectories) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string header = "P5\n4 1\n255\n",
                     rest = "resolution: 0.5\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
   folder.write("t.pgm", header + "\xfe\xfe\xfe" + std::string(1, '\0'));
@@ -172,7 +172,7 @@ TEST(EvaluateCommand, MapAlignedByTrajectories) {
 }
 
 TEST(EvaluateCommand, ExitCodes) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   folder.write("a.tum", "0 0 0 0\n1 1 0 0\n");
   folder.write("late.tum", "100 0 0 0\n");
   folder.write("bad.tum", "0 0 0 0\n1 x 0 0\n");

@@ -6,17 +6,17 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
 using test::messageOf;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 TEST(FrameFiles, ReadsTrueBoxes) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto frames = readTrueFrames(folder.write("boxes.jsonl",
                                                   R"({"frame": 0, "t": 10.5, "objects": []}
 
@@ -32,7 +32,7 @@ TEST(FrameFiles, ReadsTrueBoxes) {
 }
 
 TEST(FrameFiles, ReadsDetections) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto frames = readDetections(folder.write(
       "d.jsonl", R"({"timestamp": 7, "boxes": [{"class": "sofa", "score": 0.5, "bbox": [0.5, 1, 2, 3]}]})"));
   ASSERT_EQ(frames.size(), 1u);
@@ -43,7 +43,7 @@ TEST(FrameFiles, ReadsDetections) {
 }
 
 TEST(FrameFiles, ProbabilityOfTheDecisionIsTakenFromThePosterior) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto frames = readAssociations(folder.write(
       "a.jsonl",
       R"({"timestamp": 1, "measurements": [ {"class": "sofa", "bbox": [0,0,1,1], "landmark": 3, "new": false, "posterior": [{"landmark": 3, "p": 0.7}, {"landmark": "new", "p": 0.3}]}, {"class": "sofa", "bbox": [0,0,1,1], "landmark": 9, "new": true, "posterior": [{"landmark": 3, "p": 0.2}, {"landmark": "new", "p": 0.8}]}, {"class": "sofa", "bbox": [0,0,1,1], "landmark": 9, "new": false, "posterior": [{"landmark": 3, "p": 1}]}]})"));
@@ -57,7 +57,7 @@ TEST(FrameFiles, ProbabilityOfTheDecisionIsTakenFromThePosterior) {
 }
 
 TEST(FrameFiles, EmptyRunsAreFineEmptyTruthIsNot) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto empty = folder.write("e.jsonl", "\n");
   EXPECT_TRUE(readDetections(empty).empty());
   EXPECT_TRUE(readAssociations(empty).empty());
@@ -65,7 +65,7 @@ TEST(FrameFiles, EmptyRunsAreFineEmptyTruthIsNot) {
 }
 
 TEST(FrameFiles, BadLinesNameFileAndLine) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto short_box = folder.write("s.jsonl", R"({"timestamp": 1, "boxes": []}
 {"timestamp": 2, "boxes": [{"class": "sofa", "score": 1, "bbox": [1, 2, 3]}]})");
   EXPECT_THAT(messageOf<InputError>([&] { readDetections(short_box); }),

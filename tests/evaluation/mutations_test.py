@@ -17,6 +17,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOL = ROOT / "bench" / "mutations.py"
+sys.path.insert(0, str(TOOL.parent))
 SPEC = importlib.util.spec_from_file_location("mutations", TOOL)
 mutations = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(mutations)
@@ -54,7 +55,8 @@ FILES = {
     "libs/low/CMakeLists.txt": "roomgraph_add_library(low)\n",
     "libs/high/CMakeLists.txt": "roomgraph_add_library(high PUBLIC roomgraph::low)\n",
     "libs/low/src/low.cpp": "int one() {\n  volatile int i = 1;\n  while (i < 0) {\n  }\n  return i + 0;\n}\n"
-                            "int two() { return 2; }\nint spare() {\n  int s = 3;\n  s = s + 1;\n  return s;\n}\n",
+                            "int two() { return 2; }\n"
+                            "int spare() {\n  int s = 3;\n  s = s + 1;\n  return s;  // unseen\n}\n",
     "libs/high/src/high.cpp": "int one();\nint two();\nint sum() { return one() + two(); }\n",
     "tests/low/low_test.cpp": TEST.format(declared="int one();", checks='check("one", one(), 1)', suite="Low"),
     "tests/high/high_test.cpp": TEST.format(declared="int one();\nint sum();", suite="High",
@@ -68,7 +70,7 @@ UNSEEN = {"name": "unseen", "file": SOURCE, "find": "int s = 3", "replace": "int
 BROKEN = {"name": "broken", "file": SOURCE, "find": "s + 1", "replace": "s +"}
 ENDLESS = {"name": "endless", "file": SOURCE, "find": "i < 0", "replace": "i > 0"}
 TERM = {"name": "term", "file": SOURCE, "kind": "expression", "find": "i + 0", "replace": "i + 4"}
-STEP = {"name": "step", "file": SOURCE, "kind": "statement", "find": "return s;", "replace": "return -s;"}
+STEP = {"name": "step", "file": SOURCE, "kind": "statement", "find": "return s;  // unseen", "replace": "return -s;"}
 SUM = {"name": "sum", "file": "libs/high/src/high.cpp", "kind": "expression", "find": "one() + two()",
        "replace": "one() - two()"}
 LOW, HIGH = [OWN, ABOVE, UNSEEN, BROKEN, TERM, STEP], [SUM]
@@ -198,6 +200,12 @@ class Mutations(unittest.TestCase):
         self.assertIn("overlaps the next one", self.call()[2])
         self.write("bench/mutations/low.json", "{")
         self.assertIn("bench/mutations/low.json: JSONDecodeError", self.call("--list")[2])
+
+    def test_two_calls_do_not_share_a_copy(self):
+        with mutations.lock(self.root / "build" / "mutations"):
+            code, _, err = self.call("--only", "own")
+        self.assertEqual(code, 2)
+        self.assertIn("another call works in", err)
 
     def test_an_interrupted_run_leaves_a_valid_report_and_a_clean_tree(self):
         self.list("low", [ENDLESS, TERM])

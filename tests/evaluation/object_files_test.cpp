@@ -4,12 +4,11 @@
 
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-
+#include "data_folder.h"
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/evaluation/object_error.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
@@ -17,10 +16,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using test::messageOf;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 TEST(ObjectFiles, ReadsTruthAndMap) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto truth = readObjects(folder.write("objects.json", R"({"frame": "world", "objects": [
       {"id": 4, "class": "other", "kind": "wooden chair", "x": 1, "y": 2, "z": 0.5, "yaw": -1.5, "size_wdh": [1, 2, 3]}]})"));
   ASSERT_EQ(truth.size(), 1u);
@@ -45,7 +44,7 @@ TEST(ObjectFiles, ReadsTruthAndMap) {
 }
 
 TEST(ObjectFiles, BadFilesNameThePlace) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {
     const auto file = folder.write("bad.json", text);
     return messageOf<InputError>([&] { readObjects(file); });
@@ -70,7 +69,7 @@ std::string view(int id, double visible, double height, double depth) {
 }
 
 TEST(ObjectFiles, SeenNeedsEnoughGoodFrames) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   std::string text;
   for (int frame = 0; frame < 3; ++frame) {
     text += R"({"frame": 0, "t": 0, "objects": [)";
@@ -95,10 +94,7 @@ TEST(ObjectFiles, SeenNeedsEnoughGoodFrames) {
 }
 
 TEST(ObjectFiles, LabHasTheObjectsItsReadmeNames) {
-  const char* from_environment = std::getenv("ROOMGRAPH_DATA");
-  const std::filesystem::path data =
-      from_environment ? from_environment : std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "../shared/data";
-  const auto lab = data / "lab/lab_a";
+  const auto lab = test::dataFolder() / "lab/lab_a";
   if (!std::filesystem::exists(lab / "boxes.jsonl")) GTEST_SKIP() << "needs " << lab / "boxes.jsonl";
   const auto truth = readObjects(lab / "objects.json");
   ObjectOptions options;

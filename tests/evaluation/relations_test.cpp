@@ -8,17 +8,17 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
 using test::messageOf;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 TEST(Relations, ReadsAnglesInTheOrderRollPitchYaw) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto relations = readRelations(folder.write("a.relations", "# c\n1 2 .5 -1 2 0.1 0.2 0.3\n"));
   ASSERT_EQ(relations.size(), 1u);
   EXPECT_EQ(relations[0].t1, 1);
@@ -27,7 +27,7 @@ TEST(Relations, ReadsAnglesInTheOrderRollPitchYaw) {
 }
 
 TEST(Relations, BadLinesAndEmptyFiles) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   EXPECT_THAT(messageOf<InputError>([&] { readRelations(folder.write("a", "1 2 3 4 5 6 7 8\n1 2 3\n")); }),
               HasSubstr("a:2: expected 8 columns"));
   EXPECT_THAT(messageOf<InputError>([&] { readRelations(folder.write("b", "\n")); }),

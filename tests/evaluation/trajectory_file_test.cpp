@@ -6,17 +6,17 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
-#include "temp_file.h"
+#include "temporary_folder.h"
 
 namespace roomgraph {
 namespace {
 
 using ::testing::HasSubstr;
 using test::messageOf;
-using test::TempFolder;
+using test::TemporaryFolder;
 
 TEST(TrajectoryFile, ReadsTumFormatWithCommentsAndSeparators) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.write("a.txt",
                                  "# timestamp tx ty tz qx qy qz qw\n\n"
                                  "10.5 1 2 3 0 0 0.70710678 0.70710678\r\n"
@@ -34,7 +34,7 @@ TEST(TrajectoryFile, ReadsTumFormatWithCommentsAndSeparators) {
 }
 
 TEST(TrajectoryFile, ReadsFourColumnsAsPlanar) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto read = readTrajectory(folder.write("a.txt", "1 2 3 1.5707963267948966\n"));
   EXPECT_TRUE(read.planar);
   const Pose3& pose = read.trajectory.poses()[0].pose;
@@ -42,7 +42,7 @@ TEST(TrajectoryFile, ReadsFourColumnsAsPlanar) {
 }
 
 TEST(TrajectoryFile, SortsAndDropsRepeatedStamps) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const auto read = readTrajectory(folder.write("a.txt", "3 3 0 0\n1 1 0 0\n3 9 0 0\n2 2 0 0\n1 1 0 0\n"));
   ASSERT_EQ(read.trajectory.size(), 3u);
   EXPECT_FALSE(read.sorted);
@@ -68,7 +68,7 @@ TEST(TrajectoryFile, BadLinesAreInputErrorsWithFileAndLine) {
                {"1 2 3 0\n2 0 0 0 0 0 0 1\n", ":2", "has 8 columns"},
                {"1 0 0 0 0 0 0 0\n", ":1", "quaternion has norm"},
                {"1 0 0 0 1 1 1 1\n", ":1", "quaternion has norm 2"}};
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const auto& c : cases) {
     SCOPED_TRACE(c.text);
     const auto file = folder.write("bad.txt", c.text);
@@ -79,7 +79,7 @@ TEST(TrajectoryFile, BadLinesAreInputErrorsWithFileAndLine) {
 }
 
 TEST(TrajectoryFile, MissingFileAndFolderAreInputErrors) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   EXPECT_THAT(messageOf<InputError>([&] { readTrajectory(folder.path() / "none.txt"); }),
               HasSubstr("none.txt"));
   EXPECT_THAT(messageOf<InputError>([&] { readTrajectory(folder.path()); }), HasSubstr("cannot be opened"));

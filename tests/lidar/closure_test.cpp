@@ -2,6 +2,8 @@
 // Shortest paths over closures, and confirmation by agreeing closures.
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "closure_confirmation.h"
 #include "closure_graph.h"
 
@@ -26,6 +28,50 @@ TEST(ClosureGraph, UnconnectedSegmentsAreOutOfReach) {
   graph.addNode(false, {}, 0);
   graph.addNode(false, {}, 0);
   EXPECT_TRUE(std::isinf(graph.reachedFrom(1)[0].length_m));
+}
+
+// Floyd and Warshall's shortest paths over all pairs, with the movements composed along.
+TEST(ClosureGraph, ShortestPathsAreThoseOfAllPairs) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(-1, 1), length(0.5, 2);
+  constexpr int kNodes = 14;
+  ClosureGraph graph;
+  std::vector<std::vector<ClosureGraph::Reached>> all(kNodes, std::vector<ClosureGraph::Reached>(kNodes));
+  const auto join = [&](int a, int b, const Pose2& a_from_b, double way) {
+    auto &there = all[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)],
+         &back = all[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)];
+    if (way >= there.length_m) return;
+    there = {way, a_from_b};
+    back = {way, a_from_b.inverse()};
+  };
+  for (std::size_t i = 0; i < kNodes; ++i) all[i][i] = {0, {}};
+  for (int i = 0; i < kNodes; ++i) {
+    const Pose2 step{unit(random), unit(random), unit(random)};
+    const double way = length(random);
+    graph.addNode(i != 6, step, way);  // the run is cut before node 6
+    if (i > 0 && i != 6) join(i - 1, i, step, way);
+  }
+  for (const auto& [a, b] : {std::pair{0, 4}, {1, 9}, {7, 13}}) {
+    const Pose2 closure{unit(random), unit(random), unit(random)};
+    graph.addClosure(a, b, closure, 0.3);
+    join(a, b, closure, 0.3);
+  }
+  for (std::size_t k = 0; k < kNodes; ++k)
+    for (std::size_t i = 0; i < kNodes; ++i)
+      for (std::size_t j = 0; j < kNodes; ++j)
+        if (const double way = all[i][k].length_m + all[k][j].length_m; way < all[i][j].length_m - 1e-12)
+          all[i][j] = {way, all[i][k].start_from_node * all[k][j].start_from_node};
+  EXPECT_EQ(graph.size(), kNodes);
+  for (int i = 0; i < kNodes; ++i) {
+    const auto reached = graph.reachedFrom(i);
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      const auto& expected = all[static_cast<std::size_t>(i)][j];
+      EXPECT_NEAR(reached[j].length_m, expected.length_m, 1e-9) << i << " " << j;
+      EXPECT_NEAR(reached[j].start_from_node.x, expected.start_from_node.x, 1e-9);
+      EXPECT_NEAR(reached[j].start_from_node.y, expected.start_from_node.y, 1e-9);
+      EXPECT_NEAR(wrapAngle(reached[j].start_from_node.yaw - expected.start_from_node.yaw), 0, 1e-9);
+    }
+  }
 }
 
 class Confirmation : public ::testing::Test {
@@ -59,6 +105,38 @@ TEST_F(Confirmation, ContradictingOnesAreHeldBack) {
   EXPECT_FALSE(agree(right(1), wrong, way_, rule_));
   EXPECT_TRUE(confirmation.add(wrong, way_, rule_).empty());
   EXPECT_TRUE(confirmation.add(right(3), way_, rule_).empty());
+}
+
+TEST_F(Confirmation, AgreementFollowsFromTheMovementsInBetween) {
+  // Scans a and b of both passes in frames of their own; a2 and b2 stand elsewhere and turned.
+  const Pose2 drift{2, -1, 0.7}, a1{1, 2, 0.3}, a2{2.5, 2.2, 1.1}, a1_from_b1{0.2, -0.1, 0.4}, b1_from_b2{1, 0.5, -0.6};
+  const Pose2 b1 = drift * a1 * a1_from_b1, b2 = b1 * b1_from_b2;
+  const std::vector<WayPoint> way{{a1, 1, 0}, {a2, 3, 0}, {b1, 40, 0}, {b2, 42, 0}};
+  const Closure first{0, 2, a1_from_b1, Eigen::Matrix3d::Identity(), 40};
+  const Pose2 a2_from_b2 = a2.inverse() * (a1 * a1_from_b1 * b1_from_b2);
+  const auto second = [&](const Pose2& error) {
+    return Closure{1, 3, a2_from_b2 * error, Eigen::Matrix3d::Identity(), 40};
+  };
+  EXPECT_TRUE(agree(first, second({}), way, rule_));
+  // Compared over 4 m of way: 0.15 m + 4 * 0.02 m, and 0.05 rad + a tenth of that 0.08.
+  EXPECT_TRUE(agree(first, second({0.22, 0, 0}), way, rule_));
+  EXPECT_FALSE(agree(first, second({0.24, 0, 0}), way, rule_));
+  EXPECT_FALSE(agree(first, second({0, 0, 0.2}), way, rule_));
+  auto cut = way;
+  cut[3].segment = 1;
+  EXPECT_FALSE(agree(first, second({}), cut, rule_)) << "the movement between them is not known";
+  auto far = way;
+  far[1].path_m = 9.5;
+  EXPECT_FALSE(agree(first, second({}), far, rule_)) << "beyond the reach";
+}
+
+TEST_F(Confirmation, WhatWaitedTooLongDoesNotCount) {
+  for (auto& w : way_) w.odom_from_robot.yaw = 0;
+  ClosureConfirmation confirmation;
+  confirmation.add(right(0), way_, rule_);
+  EXPECT_TRUE(confirmation.add(right(9), way_, rule_).empty()) << "9 m later: the first one is given up";
+  EXPECT_TRUE(confirmation.add(right(8), way_, rule_).empty()) << "would agree with it";
+  EXPECT_EQ(confirmation.add(right(7), way_, rule_).size(), 3u);
 }
 
 TEST_F(Confirmation, OneSpotIsNotEnough) {

@@ -31,20 +31,35 @@ void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path
   EXPECT_EQ(first.size(), second.size());
 }
 
-TEST(Repeat, SameInputGivesTheSameBitsWhateverTheThreads) {
-  TemporaryFolder folder;
-  test::writeRawlog(folder.file("tiny.rawlog"), TinyRecording(30).records({}));
+// The files of three runs, one of them with one thread and one with four, are the same bits; returns their folder.
+std::filesystem::path expectSameBits(const TemporaryFolder& folder, const std::filesystem::path& recording) {
   const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", folder.file("tiny.rawlog").string(), "-o",
-                                       folder.file(output).string(), "--quiet"};
+    std::vector<std::string> arguments{"run", recording.string(), "-o", folder.file(output).string(), "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CallResult result = call(folder.path(), arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return folder.file(output);
   };
-  const auto first = run("first", {}), second = run("second", {}), single = run("single", {"--threads", "1"});
-  expectSameFiles(first, second);
+  const auto first = run("first", {}), single = run("single", {"--threads", "1"}),
+             four = run("four", {"--threads", "4"});
   expectSameFiles(first, single);
+  expectSameFiles(first, four);
+  return first;
+}
+
+TEST(Repeat, SameInputGivesTheSameBitsWhateverTheThreads) {
+  TemporaryFolder folder;
+  test::writeRawlog(folder.file("tiny.rawlog"), TinyRecording(30).records({}));
+  expectSameBits(folder, folder.file("tiny.rawlog"));
+}
+
+TEST(Repeat, SameObjectsWhateverTheThreads) {
+  TemporaryFolder folder;
+  const auto out =
+      expectSameBits(folder, std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog");
+  const auto landmarks = nlohmann::json::parse(contentOf(out / "landmarks.json")).at("landmarks");
+  EXPECT_GE(landmarks.size(), 3u) << "its recorded boxes were used";
+  EXPECT_GT(linesOf(contentOf(out / "associations.jsonl")).size(), 30u);
 }
 
 // Names of files that mean something in an INI file come back from the run's own config.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Replay of a span of a recording: counts, progress and interruption.
+#include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/pipeline/replay.h"
 
 #include <gtest/gtest.h>

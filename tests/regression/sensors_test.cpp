@@ -71,6 +71,39 @@ TEST_F(Sensors, ASecondLidarChangesNothingUnlessItIsChosen) {
   EXPECT_NE(result("rear", "map.pgm"), result("plain", "map.pgm"));
 }
 
+TEST_F(Sensors, ASecondCameraChangesNothingUnlessItIsChosen) {
+  // It looks backwards, and shows what the first one sees in a mirror.
+  const auto two = write("two.rawlog", [](const test::Object& record, auto& all) {
+    all.push_back(record);
+    const auto images = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(record);
+    if (!images) return;
+    auto rear = std::make_shared<mrpt::obs::CObservation3DRangeScan>(*images);
+    rear->sensorLabel = "BACK";
+    rear->sensorPose = mrpt::poses::CPose3D(-0.1, 0, 1, M_PI, 0, 0);
+    rear->intensityImage = mrpt::img::CImage(images->intensityImage, mrpt::img::DEEP_COPY);
+    rear->intensityImage.flipHorizontal();
+    all.push_back(rear);
+  });
+  const std::vector<std::string> only_images = {"--set", "lidar.enabled=false", "--set", "odometry.enabled=false"};
+  EXPECT_EQ(run(writePlain(), "plain", only_images).exit_code, 0);
+  const CallResult first = run(two, "first", only_images);
+  EXPECT_EQ(first.exit_code, 0);
+  EXPECT_THAT(first.err, AllOf(HasSubstr("'RGBD' is used, 'BACK' not"), HasSubstr("--set rgbd.label=BACK")));
+  EXPECT_THAT(first.out, HasSubstr("6 x CObservation3DRangeScan 'BACK': another sensor was chosen"));
+  EXPECT_EQ(result("first", "trajectory.tum"), result("plain", "trajectory.tum"));
+
+  std::vector<std::string> chosen = only_images;
+  chosen.insert(chosen.end(), {"--set", "rgbd.label=BACK"});
+  const CallResult back = run(two, "back", chosen);
+  EXPECT_EQ(back.exit_code, 0);
+  EXPECT_THAT(back.err, Not(HasSubstr("several")));
+  EXPECT_THAT(back.out, HasSubstr("6 x CObservation3DRangeScan 'RGBD': another sensor was chosen"));
+  EXPECT_NE(result("back", "trajectory.tum"), result("plain", "trajectory.tum"));
+
+  const CallResult info = call(folder.path(), {"info", two.string()});
+  EXPECT_THAT(info.out, AllOf(HasSubstr("'RGBD' is used, 'BACK' not"), HasSubstr("--set rgbd.label=BACK")));
+}
+
 TEST_F(Sensors, PoseOnTheCommandLineIsThatOfTheRecords) {
   const auto plain = writePlain();
   const auto moved = write("moved.rawlog", [](const test::Object& record, auto& all) {

@@ -229,6 +229,30 @@ TEST(CrfSelector, FormerFramesDecideBetweenLikeProposals) {
   EXPECT_GT(chosen.confidence, 1 - alone.confidence);  // it gained from the frames before
 }
 
+// Without common features frames are independent, so two frames of one proposal each have four choices; in a whole
+// window the one in which the object never appears is not among them.
+TEST(CrfSelector, InAWholeWindowTheObjectWasSeenForSure) {
+  constexpr double kTemperature = 0.5;
+  for (const bool whole : {false, true}) {
+    CrfSelector crf;
+    configure(crf, std::string("temperature = 0.5\nwindow_frames = ") + (whole ? "2" : "3"));
+    Random random(5);
+    std::vector<double> weights;
+    double confidence = 0;
+    for (int f = 0; f < 2; ++f) {
+      FrameContext context = viewFrom(0, 0, 0);
+      const FrameProposals frame = seenFrom(context, {chairAt(3, 0)}, 1, 0, random);
+      context.features.clear();
+      const auto chosen = crf.select(frame, context);
+      ASSERT_EQ(chosen.size(), 1u);
+      weights.push_back(std::exp(-chosen[0].energy.unary / kTemperature));
+      confidence = chosen[0].confidence;
+    }
+    const double newest = weights[1] * (1 + weights[0]), all = (1 + weights[0]) * (1 + weights[1]);
+    EXPECT_NEAR(confidence, newest / (whole ? all - 1 : all), 1e-12) << whole;
+  }
+}
+
 TEST(CrfSelector, CopesWithFramesWithoutDetectionsOrProposals) {
   CrfSelector selector;
   Random random(4);

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A library includes and links only strictly lower levels; heavy dependencies stay out of public headers, windows in gui/.
+The table of libraries in docs/architecture.md has the same levels.
 
 Usage: check_layers.py ROOT
 """
+import pathlib
 import re
 import sys
 
@@ -16,6 +18,8 @@ LEVELS = {"core": 0, "geometry": 1, "observations": 2,
 PRIVATE = re.compile(r"opencv2/(dnn|features2d|xfeatures2d|calib3d|video)\b|ceres/|nanoflann|CLI/|nlohmann/json\.hpp")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\broomgraph(?:::|_)(\w+)")
+TABLE = pathlib.Path("docs/architecture.md")
+ROW = re.compile(r"^\| (\d+) \| (\w+) \|", re.MULTILINE)
 WINDOWS = re.compile(r"\bmrpt(?:/|::|-)gui\b")
 
 
@@ -55,8 +59,23 @@ def check_links(path, text, library):
             yield check_use(library, match.group(1), f"{path}:{text[:match.start()].count(chr(10)) + 1}")
 
 
+def check_table(root, libraries):
+    """Rows "| level | library | ..." of the document against LEVELS and the folders of libs/."""
+    page = root / TABLE
+    if not page.exists():
+        return
+    rows = {name: int(level) for level, name in ROW.findall(page.read_text(encoding="utf-8"))}
+    for name in sorted(libraries | rows.keys()):
+        if name not in rows:
+            yield f"{TABLE}: library '{name}' is missing in the table"
+        elif name not in libraries:
+            yield f"{TABLE}: there is no library '{name}'"
+        elif rows[name] != LEVELS.get(name):
+            yield f"{TABLE}: '{name}' has level {rows[name]}, check_layers.py says {LEVELS.get(name)}"
+
+
 def check(root):
-    problems, checked = [], 0
+    problems, checked, libraries = [], 0, set()
     for path in source_files.files(root, {".h", ".cpp", "CMakeLists.txt"}):
         if path.parts[0] != "gui" and WINDOWS.search(source_files.read(root, path)):
             problems.append(f"{path}: only gui/ opens windows (mrpt-gui)")
@@ -64,11 +83,13 @@ def check(root):
             continue
         checked += 1
         library = path.parts[1]
+        libraries.add(library)
         if library not in LEVELS:
             problems.append(f"{path}: library '{library}' has no level; see LEVELS in check_layers.py")
             continue
         look = check_links if path.name == "CMakeLists.txt" else check_includes
         problems += [p for p in look(path, source_files.read(root, path), library) if p]
+    problems += check_table(pathlib.Path(root), libraries)
     return problems, checked
 
 

@@ -1,4 +1,4 @@
-# Run by ctest: cmake -DBUILD= -DSOURCE= -DCOMPILER= -DLIBDIR= -P install_test.cmake
+# Run by ctest: cmake -DBUILD= -DSOURCE= -DCOMPILER= -DLIBDIR= -DRAWLOG= -P install_test.cmake
 set(work "${BUILD}/install-test")
 file(REMOVE_RECURSE "${work}")
 
@@ -22,7 +22,8 @@ run(${work}/prefix/bin/roomgraph --version)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${work}/consumer -DCMAKE_PREFIX_PATH=${work}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${work}/consumer)
-run(${work}/consumer/consumer ${work}/prefix/share/roomgraph/objects.ini)
-if(NOT output MATCHES "swivel_chair is a cylinder")
+set(share ${work}/prefix/share/roomgraph)
+run(${work}/consumer/consumer ${share}/config.ini ${share}/objects.ini ${RAWLOG})
+if(NOT output MATCHES "swivel_chair at" OR NOT output MATCHES "41 frames")
   message(FATAL_ERROR "the consumer printed: ${output}")
 endif()

@@ -144,6 +144,16 @@ class Layers(TreeTest):
         (self.root / "libs/tracking/include/roomgraph/tracking/a.h").unlink()
         self.assertEqual(self.problems("libs/tracking/src/a.h", text), [])
 
+    def test_the_table_of_the_document_says_the_same(self):
+        self.write("docs/architecture.md", "| level | library |\n| --- | --- |\n| 0 | core | x |\n| 2 | lidar | y |\n| 9 | attic | z |\n")
+        self.write("libs/core/src/a.cpp", "")
+        self.write("libs/mapping/src/a.cpp", "")
+        found = self.problems("libs/lidar/src/a.cpp", "")
+        self.assertEqual(len(found), 3)
+        self.assertIn("there is no library 'attic'", found[0])
+        self.assertIn("'lidar' has level 2, check_layers.py says 3", found[1])
+        self.assertIn("'mapping' is missing", found[2])
+
     def test_links_follow_the_same_rule(self):
         found = self.problems("libs/backend/CMakeLists.txt", "roomgraph_add_library(backend SOURCES src/a.cpp\n"
                               "  PUBLIC roomgraph::observations roomgraph::mapping)\n")

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -11,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "data_folder.h"
 #include "feature_odometry.h"
 
 namespace roomgraph {
@@ -19,9 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path sequence() {
-  const char* data = std::getenv("ROOMGRAPH_DATA");
-  const fs::path root = data ? fs::path(data) : fs::path(ROOMGRAPH_SOURCE_DIR) / "../shared/data";
-  return root / "rgbd/7scenes_redkitchen_10hz";
+  return test::dataFolder() / "rgbd/7scenes_redkitchen_10hz";
 }
 
 /// True camera positions by time, rounded to ms.

@@ -1,63 +1,104 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lookup in MRPT's class registry by interface, and dlopen of plug-ins with a check for stages.
+// Lookup in MRPT's class registry by interface; dlopen of plug-ins with checks of version and content.
 #include "roomgraph/core/class_registry.h"
 
 #include <dlfcn.h>
-#include <mrpt/system/os.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
+#include "roomgraph/core/plugin.h"
 #include "roomgraph/core/suggest.h"
 
 namespace roomgraph {
 namespace {
+
+using ClassId = const mrpt::rtti::TRuntimeClassId*;
 
 std::string withoutNamespace(const std::string& name) {
   const auto colon = name.rfind("::");
   return colon == std::string::npos ? name : name.substr(colon + 2);
 }
 
-// Whether a registered stage lives in this shared library.
-bool holdsStage(const std::filesystem::path& library) {
-  const auto stages = mrpt::rtti::getAllRegisteredClassesChildrenOf(CLASS_ID(Stage));
-  return std::any_of(stages.begin(), stages.end(), [&](const mrpt::rtti::TRuntimeClassId* id) {
-    Dl_info home{};
-    std::error_code error;
-    return dladdr(id, &home) && std::filesystem::equivalent(home.dli_fname, library, error);
-  });
+// Classes that objects can be made of, by name without namespace. A class may be registered more than once.
+std::map<std::string, ClassId> classesByName(ClassId interface) {
+  std::map<std::string, ClassId> classes;
+  for (const ClassId id : mrpt::rtti::getAllRegisteredClassesChildrenOf(interface)) {
+    if (!id->ptrCreateObject) continue;
+    const auto [known, added] = classes.emplace(withoutNamespace(id->className), id);
+    if (!added && known->second != id)
+      throw ConfigError("two classes have the name '" + known->first + "': " + known->second->className + " and " +
+                        id->className + "; rename one of them");
+  }
+  return classes;
+}
+
+std::vector<std::string> keysOf(const std::map<std::string, ClassId>& classes) {
+  std::vector<std::string> names;
+  for (const auto& [name, id] : classes) names.push_back(name);
+  return names;
+}
+
+// All registered classes by full name.
+std::map<std::string, ClassId> registeredClasses() {
+  std::map<std::string, ClassId> classes;
+  for (const ClassId id : mrpt::rtti::getAllRegisteredClasses()) classes.emplace(id->className, id);
+  return classes;
+}
+
+bool livesIn(const std::filesystem::path& library, ClassId id) {
+  Dl_info home{};
+  std::error_code error;
+  return dladdr(id, &home) && std::filesystem::equivalent(home.dli_fname, library, error);
+}
+
+void checkVersion(void* library, const std::string& name) {
+  auto* const version =
+      reinterpret_cast<PluginInterfaceVersion*>(dlsym(library, kPluginVersionSymbol));
+  if (!version)
+    throw ConfigError(name + ": does not say which version of the interfaces it was compiled with: it is no " +
+                      "plug-in, or ROOMGRAPH_PLUGIN() is missing (roomgraph/core/plugin.h)");
+  if (version() != kPluginInterfaceVersion)
+    throw ConfigError(name + ": was compiled with version " + std::to_string(version()) +
+                      " of the interfaces, this program has version " + std::to_string(kPluginInterfaceVersion) +
+                      "; compile it again with the headers of this program");
 }
 
 }  // namespace
 
 std::vector<std::string> implementationsOf(const mrpt::rtti::TRuntimeClassId* interface) {
-  std::vector<std::string> names;
-  for (const auto* id : mrpt::rtti::getAllRegisteredClassesChildrenOf(interface))
-    if (id->ptrCreateObject) names.push_back(withoutNamespace(id->className));
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+  return keysOf(classesByName(interface));
 }
 
 std::shared_ptr<mrpt::rtti::CObject> createByName(const std::string& name,
                                                   const mrpt::rtti::TRuntimeClassId* interface,
                                                   const std::string& asked_by) {
-  for (const auto* id : mrpt::rtti::getAllRegisteredClassesChildrenOf(interface)) {
-    const bool matches = name == id->className || name == withoutNamespace(id->className);
-    if (matches && id->ptrCreateObject) return id->createObject();
-  }
-  const auto known = implementationsOf(interface);
+  const auto classes = classesByName(interface);
+  const auto found = classes.find(withoutNamespace(name));
+  if (found != classes.end() && (name == found->first || name == found->second->className))
+    return found->second->createObject();
+  const auto known = keysOf(classes);
   throw ConfigError(asked_by + ": no class '" + name + "' that is a " +
                     withoutNamespace(interface->className) + didYouMean(name, known) +
                     "; known: " + join(known));
 }
 
 void loadPlugin(const std::string& file) {
-  std::string error;
-  if (!mrpt::system::loadPluginModule(file, error)) throw ConfigError("plug-in " + file + ": " + error);
+  const std::string name = "plug-in " + file;
   mrpt::rtti::registerAllPendingClasses();
-  if (!holdsStage(file))
-    throw ConfigError("plug-in " + file + ": is a shared library, but registers no stage");
+  const auto before = registeredClasses();
+  // Never closed: objects of its classes live as long as the program.
+  void* const library = dlopen(file.c_str(), RTLD_LAZY);
+  if (!library) throw ConfigError(name + ": " + dlerror());
+  checkVersion(library, name);
+  mrpt::rtti::registerAllPendingClasses();
+  const auto after = registeredClasses();
+  for (const auto& [class_name, id] : before)
+    if (after.at(class_name) != id)
+      throw ConfigError(name + ": the class " + class_name + " is registered already, by another library");
+  const auto its_own = [&](const auto& entry) { return livesIn(file, entry.second); };
+  if (std::none_of(after.begin(), after.end(), its_own)) throw ConfigError(name + ": registers no class");
 }
 
 }  // namespace roomgraph

@@ -8,6 +8,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "record_source.h"
 #include "roomgraph/core/errors.h"
@@ -79,6 +80,13 @@ std::string listed(const std::vector<std::string>& labels) {
 
 std::string labelText(const std::string& label) {
   return "'" + label + "'";
+}
+
+bool mayBeOneCamera(const PinholeCamera& a, const PinholeCamera& b) {
+  const double tolerance_px = 0.02 * a.width;
+  const auto close = [&](double x, double y) { return std::abs(x - y) <= tolerance_px; };
+  return a.width == b.width && a.height == b.height && close(a.fx, b.fx) && close(a.fy, b.fy) &&
+         close(a.cx, b.cx) && close(a.cy, b.cy);
 }
 
 bool SensorChoice::takes(const std::string& label) {

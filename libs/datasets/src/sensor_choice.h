@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/geometry/camera.h"
 
 namespace roomgraph {
 
@@ -49,6 +50,10 @@ void placeSensor(mrpt::obs::CObservation& observation, const SensorPoses& poses)
 /// Throws ConfigError when a label that `options` name does not occur in the file, listing those that do.
 /// Reads no further than until all are found; not at all when none is named.
 void checkLabels(const std::filesystem::path& file, const ReadOptions& options);
+
+/// Whether two images may be of one camera: the same size, focal lengths and principal points that agree to 2 % of
+/// the image. Several cameras that were recorded with one label are told apart by it.
+bool mayBeOneCamera(const PinholeCamera& a, const PinholeCamera& b);
 
 /// A label as it stands in messages.
 std::string labelText(const std::string& label);

@@ -20,12 +20,12 @@ struct BoxMotion {
   Box2 apply(const Box2& box) const;
 };
 
-/// Scale and shift of point pairs by medians (bears almost half of them wrong); nothing with fewer than four
-/// pairs that agree to about 2 % of `size_px`.
+/// Scale and shift of point pairs by medians, right while more than half of the pairs are. Nothing with fewer
+/// than four pairs that agree to 2 % of `size_px`, the diagonal of the box, or to 2 px.
 std::optional<BoxMotion> fitMotion(const std::vector<cv::Point2f>& then, const std::vector<cv::Point2f>& now,
                                    double size_px);
 
-/// Depth of what a box shows: nearer than most of the valid pixels of its middle. 0 when there are none.
+/// Depth of what a box shows, m: that below which a third of the valid pixels in its middle lie. 0: none is valid.
 double objectDepth(const Box2& box, const Frame& frame);
 
 struct PlacedBox {

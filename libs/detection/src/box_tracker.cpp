@@ -14,14 +14,14 @@ namespace {
 
 const cv::Size kWindow(15, 15);
 constexpr int kPyramidLevels = 3;       // follows about 60 px from frame to frame
-constexpr float kBackwardError_px = 1;  // forward and backward again
+constexpr float kBackwardError_px = 1;  // of a corner followed forward and back again
 constexpr int kMostCorners = 40;
 constexpr double kCornerSpacing_px = 4;
-constexpr double kEnoughShare = 0.35;  // of the chosen corners; fewer: hidden
-constexpr double kRefreshShare = 0.6;  // fewer are left: choose new ones
-constexpr double kScoreDecay = 0.97;   // per frame
+constexpr double kEnoughShare = 0.35;  // of the chosen corners are needed to follow a box
+constexpr double kRefreshShare = 0.6;  // with fewer left new corners are chosen
+constexpr double kScoreDecay = 0.97;   // per frame: a carried box is less sure
 constexpr double kLeastVisibleShare = 0.2, kLeastSide_px = 6;
-constexpr double kDepthAgreement = 0.12;  // relative, of a box that the camera's movement places
+constexpr double kDepthAgreement = 0.12;  // relative, between expected and measured depth
 
 std::vector<cv::Mat> pyramidOf(const Frame& frame) {
   std::vector<cv::Mat> pyramid;
@@ -37,14 +37,6 @@ cv::Rect pixelsOf(const Box2& box, const Frame& frame) {
 
 }  // namespace
 
-void BoxTrackerOptions::declareParameters(ParameterVisitor& v) {
-  v.add("track_boxes", enabled,
-        {.doc = "on frames on which the detector does not run (or that have no record) the boxes are carried "
-                "on by tracking them in the image"});
-  v.add("max_carried_frames", max_carried_frames,
-        {.doc = "a box is carried over at most this many frames", .min = 0, .max = 1000});
-}
-
 bool BoxTracker::moves(const Detection& detection) const {
   const ObjectModel* model = database_->find(detection.class_name);
   return model && !model->landmark;
@@ -52,10 +44,8 @@ bool BoxTracker::moves(const Detection& detection) const {
 
 void BoxTracker::start(const std::vector<Detection>& detections, const Frame& frame) {
   tracks_.clear();
-  age_ = 0;
-  last_t_ = frame.t;
-  active_ = options_.enabled && options_.max_carried_frames > 0 && !frame.gray.empty();
-  if (!active_) return;
+  pyramid_.clear();
+  if (frame.gray.empty()) return;
   for (const Detection& detection : detections) {
     Track track;
     track.detection = detection;
@@ -172,13 +162,13 @@ bool BoxTracker::settle(Track& track, const Frame& frame) const {
   return true;
 }
 
-std::vector<Detection> BoxTracker::advance(const Frame& frame,
-                                           const std::optional<Pose3>& previous_from_current) {
-  active_ = active_ && ++age_ <= options_.max_carried_frames && !frame.gray.empty() &&
-            frame.gray.size() == pyramid_[0].size();
-  last_t_ = frame.t;
-  if (!active_) tracks_.clear();
-  if (!active_) return {};
+std::optional<std::vector<Detection>> BoxTracker::advance(const Frame& frame,
+                                                          const std::optional<Pose3>& previous_from_current) {
+  if (pyramid_.empty() || frame.gray.empty() || frame.gray.size() != pyramid_[0].size()) {
+    tracks_.clear();
+    pyramid_.clear();
+    return std::nullopt;
+  }
   std::vector<cv::Mat> pyramid = pyramidOf(frame);
   const Flow flow = follow(pyramid);
   std::vector<char> moved;

@@ -10,6 +10,7 @@
 #include "network.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/detection/detection_record.h"
+#include "suppress.h"
 
 namespace roomgraph {
 
@@ -50,9 +51,9 @@ cv::Mat maskOver(const Box2& box, const cv::Mat& cells) {
 
 void DnnDetector::declareParameters(ParameterVisitor& v) {
   v.add("models", models_,
-        {.doc = "network files, each path[:format] with format auto, nanodet, yolox, darknet or "
-                "ade20k; all run on each image and their boxes are merged; Darknet .weights need "
-                "the .cfg of the same name beside them",
+        {.doc = "network files, each path[:format] with format auto, nanodet, yolox, darknet, "
+                "ade20k or that of a plug-in; all run on each image and their boxes are merged; Darknet "
+                ".weights need the .cfg of the same name beside them",
          .file = true});
   v.add(
       "labels_file", labels_file_,
@@ -74,8 +75,6 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
                 "their geometry decides",
          .min = 0,
          .max = 1});
-  v.add("every_nth_frame", every_nth_frame_,
-        {.doc = "1: every frame; 4: every fourth", .min = 1, .max = 1000});
 }
 
 void DnnDetector::prepare() {
@@ -99,8 +98,6 @@ DetectorIdentity DnnDetector::identity() const {
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
   if (networks_.empty() || !database_) return Result::failure(kNoNetwork);
-  if (frame.id.valid() && frame.id.value % every_nth_frame_ != 0)
-    return Result::failure("the networks run once in " + std::to_string(every_nth_frame_) + " frames");
   if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");
 
   std::vector<RawBox> boxes;

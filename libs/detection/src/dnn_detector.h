@@ -33,7 +33,6 @@ class DnnDetector : public Detector {
   double score_threshold_ = 0.35;
   double nms_threshold_ = 0.5;
   double twin_threshold_ = 1;
-  int every_nth_frame_ = 1;
 
   const ObjectDatabase* database_ = nullptr;
   std::vector<std::shared_ptr<Network>> networks_;

@@ -12,10 +12,6 @@ Box2 InputMapping::toImage(const Box2& input) const {
   return {input.u_min / scale_x, input.v_min / scale_y, input.u_max / scale_x, input.v_max / scale_y};
 }
 
-Box2 InputMapping::toInput(const Box2& image) const {
-  return {image.u_min * scale_x, image.v_min * scale_y, image.u_max * scale_x, image.v_max * scale_y};
-}
-
 InputMapping mappingFor(cv::Size image, cv::Size input, InputFit fit) {
   const double x = static_cast<double>(input.width) / image.width;
   const double y = static_cast<double>(input.height) / image.height;

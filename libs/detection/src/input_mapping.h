@@ -5,21 +5,14 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
-#include "roomgraph/geometry/box.h"
+#include "roomgraph/detection/network_decoder.h"
 
 namespace roomgraph {
 
-/// How a camera image fills a network's square or rectangular input.
-enum class InputFit {
-  kStretch,           ///< each axis scaled on its own
-  kLetterboxTopLeft,  ///< one scale, image in the top left corner, rest padded
-};
-
-/// Image pixel = input pixel / scale, per axis (the image always starts at the input's top left corner).
+/// Image pixel = input pixel / scale, per axis: the image always starts at the input's top left corner.
 struct InputMapping {
   double scale_x = 1, scale_y = 1;
   Box2 toImage(const Box2& input) const;
-  Box2 toInput(const Box2& image) const;
 };
 
 InputMapping mappingFor(cv::Size image, cv::Size input, InputFit fit);

@@ -4,8 +4,6 @@
 
 #include <array>
 
-#include "decoders.h"
-
 namespace roomgraph {
 namespace {
 

@@ -17,4 +17,7 @@ struct LabelList {
 /// first, 32 for the background and the 31 most frequent classes).
 const std::vector<LabelList>& labelLists();
 
+/// Name of a COCO class index ("person" … "toothbrush"); empty when it is not in [0, 80).
+const char* cocoLabel(int index);
+
 }  // namespace roomgraph

@@ -2,39 +2,16 @@
 // Parsing of network specifications, label files and Darknet .cfg files.
 #include "network_files.h"
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <utility>
 
+#include "network_decoders.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/core/trim.h"
 
 namespace roomgraph {
-namespace {
-
-const std::array<std::pair<NetworkFormat, const char*>, 5> kFormats{{{NetworkFormat::kAuto, "auto"},
-                                                                     {NetworkFormat::kNanodet, "nanodet"},
-                                                                     {NetworkFormat::kYolox, "yolox"},
-                                                                     {NetworkFormat::kDarknet, "darknet"},
-                                                                     {NetworkFormat::kAde20k, "ade20k"}}};
-
-}  // namespace
-
-std::string toString(NetworkFormat format) {
-  for (const auto& [known, name] : kFormats)
-    if (known == format) return name;
-  return "unknown";
-}
-
-std::string knownFormats() {
-  std::vector<std::string> names;
-  for (const auto& entry : kFormats) names.emplace_back(entry.second);
-  return join(names);
-}
 
 NetworkSpec parseNetworkSpec(const std::string& text) {
   NetworkSpec spec;
@@ -43,11 +20,9 @@ NetworkSpec parseNetworkSpec(const std::string& text) {
   if (colon == std::string::npos || text.find_first_of("/.", colon) != std::string::npos) return spec;
   spec.file = trim(text.substr(0, colon));
   const std::string wanted = trim(text.substr(colon + 1));
-  for (const auto& [format, name] : kFormats)
-    if (wanted == name) {
-      spec.format = format;
-      return spec;
-    }
+  if (wanted == "auto") return spec;
+  spec.format = wanted;
+  if (decoderNamed(wanted)) return spec;
   throw ConfigError("[detection] models: '" + text + "': unknown format '" + wanted +
                     "'; known: " + knownFormats());
 }

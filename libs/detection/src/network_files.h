@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Network formats and files: label lists, Darknet configuration, input size.
+// What the user says about a network, and the files beside it: labels, Darknet configuration.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <string>
 #include <vector>
 
-#include "network.h"
-
 namespace roomgraph {
 
-std::string toString(NetworkFormat format);
-/// "nanodet, yolox, …" as a user may write them.
-std::string knownFormats();
+/// What the user says about one network.
+struct NetworkSpec {
+  std::string file;         ///< .onnx, or Darknet .weights with a .cfg of the same name beside it
+  std::string format;       ///< name of a NetworkDecoder; empty: the one that recognises the output
+  std::string labels_file;  ///< empty: labels.txt beside the file, or a known list
+  int input_size_px = 0;    ///< 0: from the .cfg, the file's name, or by trying
+};
+
+/// Splits "path[:format]". Throws ConfigError that lists the known formats.
+NetworkSpec parseNetworkSpec(const std::string& text);
+
+/// Up to the first line break.
 std::string firstLine(const std::string& text);
-/// "1x3598x112, …".
+/// Sizes of the blobs, as in "1x3598x112, 1x85".
 std::string describeShape(const std::vector<cv::Mat>& blobs);
 
 /// Throws InputError when there is no such file; `what` names its role.

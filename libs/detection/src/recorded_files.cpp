@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "decoders.h"
+#include "label_lists.h"
 #include "recorded_detector.h"
 #include "roomgraph/core/text_file.h"
 

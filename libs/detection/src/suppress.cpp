@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Non-maximum suppression within a class, and of the same box in two classes.
+// Greedy suppression by intersection over union.
+#include "suppress.h"
+
 #include <algorithm>
 #include <map>
 #include <opencv2/dnn.hpp>
-
-#include "decoders.h"
 
 namespace roomgraph {
 

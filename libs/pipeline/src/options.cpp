@@ -57,7 +57,15 @@ void DetectionStageOptions::declareParameters(ParameterVisitor& v) {
         {.doc =
              "implementation of Detector; auto: AutoDetector, which runs the networks in `models` when there "
              "are some and else replays recorded boxes"});
-  tracker.declareParameters(v);
+  v.add("every_nth_frame", every_nth_frame,
+        {.doc = "the detector runs on every frame (1), every second one (2) …; recorded boxes are taken as often",
+         .min = 1,
+         .max = 1000});
+  v.add("track_boxes", track_boxes,
+        {.doc = "on frames on which the detector does not run (or that have no record) the boxes are carried "
+                "on by tracking them in the image"});
+  v.add("max_carried_frames", max_carried_frames,
+        {.doc = "a box is carried over at most this many frames", .min = 0, .max = 1000});
 }
 
 void StageChoice::declareParameters(ParameterVisitor& v) {

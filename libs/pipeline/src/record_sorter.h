@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/record_stream.h"
 
 namespace roomgraph {
 

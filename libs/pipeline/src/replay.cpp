@@ -11,11 +11,11 @@ namespace roomgraph {
 namespace {
 
 // Records in order of time, as far as the look-ahead goes.
-std::optional<Record> nextInOrder(RawlogReader& reader, RecordSorter& sorter, bool& ended) {
+std::optional<Record> nextInOrder(RecordStream& stream, RecordSorter& sorter, bool& ended) {
   while (true) {
     if (auto record = sorter.pop(ended)) return record;
     if (ended) return std::nullopt;
-    if (auto read = reader.next())
+    if (auto read = stream.next())
       sorter.push(std::move(*read));
     else
       ended = true;
@@ -31,7 +31,7 @@ double shareDone(double file_share, double file_from, double seconds, const Repl
 
 }  // namespace
 
-ReplayState replay(RawlogReader& reader, SemanticSlam& slam, const ReplaySpan& span,
+ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& span,
                    const ReplayWatch& watch) {
   ReplayState state;
   RecordSorter sorter(slam.setup().options.general.lookahead_s);
@@ -40,7 +40,7 @@ ReplayState replay(RawlogReader& reader, SemanticSlam& slam, const ReplaySpan& s
   double file_from = 0;
   bool ended = false;
   while (!(state.interrupted = watch.interrupted())) {
-    const auto record = nextInOrder(reader, sorter, ended);
+    const auto record = nextInOrder(stream, sorter, ended);
     if (!record) break;
     const double t = timeOf(*record);
     if (!start) state.start_t = *(start = t);
@@ -49,10 +49,10 @@ ReplayState replay(RawlogReader& reader, SemanticSlam& slam, const ReplaySpan& s
     if (t - *start < span.from_s) continue;
     if (state.records++ == 0) {
       state.first_t = t;
-      file_from = reader.progress();
+      file_from = stream.progress();
     }
     slam.process(*record);
-    state.share = shareDone(reader.progress(), file_from, state.seconds(), span);
+    state.share = shareDone(stream.progress(), file_from, state.seconds(), span);
     watch.progress(state);
   }
   return state;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "detection_schedule.h"
 #include "people_in_view.h"
 #include "roomgraph/core/errors.h"
 
@@ -23,7 +24,7 @@ bool isMounted(const Frame& frame) {
 SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
     : setup_(std::move(setup)),
       front_ends_(setup_->stages, setup_->options),
-      box_tracker_(setup_->options.detection.tracker, setup_->database),
+      detection_schedule_(std::make_unique<DetectionSchedule>(setup_->options.detection, setup_->database)),
       estimator_(setup_->options.backend, front_ends_.motion()),
       objects_(setup_->stages.associator, setup_->options.landmarks, setup_->options.backend.pose_sigma_m,
                estimator_.poses()),
@@ -135,21 +136,19 @@ FrameDetections SemanticSlam::detect(const Frame& frame) {
   const auto& detector = setup_->stages.detector;
   if (!detector || detector->idle()) return {};
   const auto timing = times_.measure("detection");
-  const auto found = detector->detect(frame);
-  if (found) {
-    box_tracker_.start(*found, frame);
-    return {.boxes = *found, .fresh = true};
+  if (detection_schedule_->due()) {
+    const auto found = detector->detect(frame);
+    if (found) return detection_schedule_->detected(*found, frame);
+    ++counts_.reasons["detection: " + found.reason()];
   }
-  ++counts_.reasons["detection: " + found.reason()];
-  auto carried = box_tracker_.advance(frame, cameraMovement(frame));
-  if (!box_tracker_.active()) return {};
-  return {.boxes = std::move(carried), .carried = true};
+  return detection_schedule_->missed(frame, cameraMovement(frame));
 }
 
-// Since the frame that the box tracker saw last, as far as it is known before this frame is tracked.
+// Since the frame from which boxes are carried, as far as it is known before this frame is tracked.
 std::optional<Pose3> SemanticSlam::cameraMovement(const Frame& frame) const {
-  if (!box_tracker_.active()) return std::nullopt;
-  const auto moved = front_ends_.motion().movement(box_tracker_.lastTime(), frame.t, kMovementHorizon_s);
+  const auto since = detection_schedule_->carriedFrom();
+  if (!since) return std::nullopt;
+  const auto moved = front_ends_.motion().movement(*since, frame.t, kMovementHorizon_s);
   if (!moved) return std::nullopt;
   return frame.robot_from_camera.inverse() * *moved * frame.robot_from_camera;
 }

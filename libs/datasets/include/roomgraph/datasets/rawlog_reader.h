@@ -8,18 +8,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/datasets/sensor_poses.h"
-#include "roomgraph/observations/CObservationDetections.h"
-#include "roomgraph/observations/frame.h"
-#include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
-
-/// One usable record, converted; in the order of the file.
-using Record = std::variant<Frame, Scan, OdometryReading, std::shared_ptr<CObservationDetections>>;
 
 /// What was met on the way.
 struct ReadStatistics {
@@ -40,28 +34,25 @@ struct ReadOptions {
 
 /// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or
 /// external). Records that cannot be used are skipped and counted, never fatal.
-class RawlogReader {
+class RawlogReader : public RecordStream {
  public:
   /// Opens the file. Throws InputError (missing, empty, not a rawlog) naming the file and the cause, or
   /// ConfigError when a label asked for does not occur in it.
   explicit RawlogReader(const std::filesystem::path& file, const ReadOptions& options = {});
-  ~RawlogReader();
+  ~RawlogReader() override;
   RawlogReader(RawlogReader&&) noexcept;
   RawlogReader& operator=(RawlogReader&&) noexcept;
 
-  /// The next usable record; nothing at the end of the file. A record with several observations (sensory
+  /// The next usable record, in the order of the file; nothing at its end. A record with several observations (sensory
   /// frame) comes out one by one. Odometry of action records is summed up from the first one.
-  std::optional<Record> next();
+  std::optional<Record> next() override;
   /// Share of the file read, [0, 1].
-  double progress() const;
+  double progress() const override;
   const ReadStatistics& statistics() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Time of a record, s.
-double timeOf(const Record& record);
 
 }  // namespace roomgraph

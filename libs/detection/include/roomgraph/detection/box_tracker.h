@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "roomgraph/core/parameters.h"
 #include "roomgraph/geometry/pose.h"
 #include "roomgraph/observations/detection.h"
 #include "roomgraph/observations/frame.h"
@@ -15,14 +14,8 @@
 
 namespace roomgraph {
 
-/// Keys of [detection] that concern frames on which the detector did not run.
-struct BoxTrackerOptions : Configurable {
-  bool enabled = true;
-  int max_carried_frames = 5;
-  void declareParameters(ParameterVisitor& v) override;
-};
-
-/// Carries the boxes of the last detection through the frames on which the detector does not run.
+/// Carries the boxes of the last detection through the frames on which the detector does not run. Until when they
+/// may be carried is not decided here.
 ///
 /// Corners on the object (by depth, where there is depth) are followed by pyramidal Lucas-Kanade with a
 /// forward-backward check; the median of their distance ratios is the box's scale, the median of what is left
@@ -33,19 +26,16 @@ struct BoxTrackerOptions : Configurable {
 class BoxTracker {
  public:
   /// The database outlives the tracker; it says which classes move by themselves (landmark = false).
-  BoxTracker(const BoxTrackerOptions& options, const ObjectDatabase& database)
-      : options_(options), database_(&database) {}
+  explicit BoxTracker(const ObjectDatabase& database) : database_(&database) {}
 
   /// The detector ran on this frame: forgets everything before.
   void start(const std::vector<Detection>& detections, const Frame& frame);
   /// The boxes in the next frame, marked as carried, in the order they were started in; those that ended are
-  /// left out. `previous_from_current`: movement of the camera since the last frame given to start() or
-  /// advance(), optical frames; nothing when it is not known.
-  std::vector<Detection> advance(const Frame& frame, const std::optional<Pose3>& previous_from_current);
-  /// Whether start() was called and its boxes are not too old.
-  bool active() const { return active_; }
-  /// Time of the last frame seen, s.
-  double lastTime() const { return last_t_; }
+  /// left out. Nothing when this frame or the last one has no image, or their sizes differ; then, and before the
+  /// first start(), there is nothing to carry until start() is called. `previous_from_current`: movement of the
+  /// camera since the last frame given to start() or advance(), optical frames; nothing when it is not known.
+  std::optional<std::vector<Detection>> advance(const Frame& frame,
+                                                const std::optional<Pose3>& previous_from_current);
 
  private:
   struct Track {
@@ -70,13 +60,9 @@ class BoxTracker {
                     const std::optional<Pose3>& previous_from_current) const;
   bool settle(Track& track, const Frame& frame) const;
 
-  BoxTrackerOptions options_;
   const ObjectDatabase* database_;
-  bool active_ = false;
-  int age_ = 0;  ///< frames since the detector ran
-  double last_t_ = 0;
   std::vector<Track> tracks_;
-  std::vector<cv::Mat> pyramid_;  ///< of the last frame
+  std::vector<cv::Mat> pyramid_;  ///< of the last frame; empty: nothing is carried
 };
 
 }  // namespace roomgraph

@@ -31,8 +31,9 @@ class Detector : public Stage {
   virtual void feed(const CObservationDetections& recorded) { (void)recorded; }
   /// True while there is nothing to detect with; then detect() need not be called.
   virtual bool idle() const { return false; }
-  /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
-  /// ("every 4th frame only", "no record at this time").
+  /// Detections of classes in the database, boxes clipped to the image, best first; or why this frame could not
+  /// be looked at ("no colour image", "no record at this time"). On which frames it is called is not the
+  /// detector's concern.
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
   virtual DetectorIdentity identity() const { return {}; }
   /// What the user should know about the detections of this run; empty when there is nothing.

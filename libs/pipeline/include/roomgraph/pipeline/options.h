@@ -57,7 +57,9 @@ struct OdometryOptions : Configurable {
 struct DetectionStageOptions : Configurable {
   bool enabled = true;
   std::string detector = "auto";
-  BoxTrackerOptions tracker;
+  int every_nth_frame = 1;
+  bool track_boxes = true;
+  int max_carried_frames = 5;
   void declareParameters(ParameterVisitor& v) override;
 };
 

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph {
@@ -32,8 +32,8 @@ struct ReplayWatch {
   std::function<bool()> interrupted = [] { return false; };                      ///< before every record
 };
 
-/// Feeds the records of the span to `slam` in order of time.
-ReplayState replay(RawlogReader& reader, SemanticSlam& slam, const ReplaySpan& span,
-                   const ReplayWatch& watch);
+/// Feeds the records of the span to `slam` in order of time; whoever wants to see what comes of them is a sink of it.
+ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& span = {},
+                   const ReplayWatch& watch = {});
 
 }  // namespace roomgraph

@@ -8,6 +8,7 @@
 
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/output_folder.h"
+#include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/estimation/map_anchor.h"
 #include "roomgraph/estimation/object_loop_closer.h"
 #include "roomgraph/estimation/object_mapper.h"
@@ -46,6 +46,7 @@ struct SlamResult {
   std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
 };
 
+class DetectionSchedule;
 struct PeopleInView;
 
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.
@@ -104,7 +105,7 @@ class SemanticSlam {
   StageTimes times_;
 
   FrontEnds front_ends_;     ///< trajectories of the sources
-  BoxTracker box_tracker_;   ///< boxes of the last detection, on the frames after it
+  std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
   ObjectLoopCloser object_loops_;

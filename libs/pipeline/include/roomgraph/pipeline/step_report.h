@@ -17,6 +17,7 @@ struct FrameDetections {
   std::vector<Detection> boxes;
   bool fresh = false;    ///< the detector ran on this frame
   bool carried = false;  ///< it did not: the boxes were tracked from the frames before
+  int age = 0;           ///< frames since the detector ran; 0: on this one, or never
 
   /// Whether anything is known of the objects in this frame (even that there are none).
   bool current() const { return fresh || carried; }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ages of detections, and carrying of boxes until they are too old or cannot be tracked.
+#include "detection_schedule.h"
+
+namespace roomgraph {
+
+FrameDetections DetectionSchedule::detected(std::vector<Detection> boxes, const Frame& frame) {
+  age_ = 0;
+  carried_from_.reset();
+  if (options_.track_boxes && options_.max_carried_frames > 0) {
+    tracker_.start(boxes, frame);
+    carried_from_ = frame.t;
+  }
+  return {.boxes = std::move(boxes), .fresh = true};
+}
+
+FrameDetections DetectionSchedule::missed(const Frame& frame, const std::optional<Pose3>& previous_from_current) {
+  if (!age_) return {};
+  FrameDetections out{.age = ++*age_};
+  if (!carried_from_) return out;
+  carried_from_.reset();
+  if (*age_ > options_.max_carried_frames) return out;
+  auto carried = tracker_.advance(frame, previous_from_current);
+  if (!carried) return out;
+  carried_from_ = frame.t;
+  out.carried = true;
+  out.boxes = std::move(*carried);
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// DetectionSchedule: when the detector runs, and how long its boxes are carried over the frames after it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "roomgraph/detection/box_tracker.h"
+#include "roomgraph/pipeline/options.h"
+#include "roomgraph/pipeline/step_report.h"
+
+namespace roomgraph {
+
+/// Decides on which frames the detector runs (`every_nth_frame`) and carries its boxes over the frames after it
+/// (`track_boxes`, `max_carried_frames`). Of every frame either detected() or missed() is told, in order of time.
+class DetectionSchedule {
+ public:
+  /// The database outlives the schedule; it says which classes move by themselves.
+  DetectionSchedule(const DetectionStageOptions& options, const ObjectDatabase& database)
+      : options_(options), tracker_(database) {}
+
+  /// Whether the detector is to run on the next frame: `every_nth_frame` frames after the last one on which it
+  /// ran. A detector that fails is asked again on the next frame.
+  bool due() const { return !age_ || *age_ + 1 >= options_.every_nth_frame; }
+
+  /// The detector ran on this frame; its boxes replace all carried ones.
+  FrameDetections detected(std::vector<Detection> boxes, const Frame& frame);
+  /// It did not run, or failed. `previous_from_current`: movement of the camera since the frame at carriedFrom(),
+  /// optical frames; nothing when it is not known.
+  FrameDetections missed(const Frame& frame, const std::optional<Pose3>& previous_from_current);
+
+  /// Time of the last frame, s, when it has boxes that can be carried on.
+  std::optional<double> carriedFrom() const { return carried_from_; }
+
+ private:
+  DetectionStageOptions options_;
+  BoxTracker tracker_;
+  std::optional<int> age_;  ///< frames since the detector ran; nothing: it never ran
+  std::optional<double> carried_from_;
+};
+
+}  // namespace roomgraph
