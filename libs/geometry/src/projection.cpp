@@ -16,7 +16,10 @@ std::optional<ProjectedShape> projectShape(const ObjectShape& shape, const Pose3
   out.full = {u_min, v_min, u_max, v_max};
   out.visible = clipped(out.full, camera.width, camera.height);
   if (out.visible.empty()) return std::nullopt;
-  out.cut = {u_min<0, v_min<0, u_max> camera.width, v_max> camera.height};
+  out.cut.left = u_min < 0;
+  out.cut.top = v_min < 0;
+  out.cut.right = u_max > camera.width;
+  out.cut.bottom = v_max > camera.height;
   return out;
 }
 
