@@ -119,7 +119,7 @@ struct BenchRun {
   std::map<int, std::vector<double>> cpu_ms;
 };
 
-void addFrame(const Frame& frame, ProposalGenerator& generator, const BenchInput& in,
+void addFrame(const Frame& frame, const Stages& stages, const BenchInput& in,
               const BenchOptions& options, BenchRun& run) {
   const auto world_from_robot = in.world_from_robot.at(frame.t);
   if (!world_from_robot) return;
@@ -129,7 +129,9 @@ void addFrame(const Frame& frame, ProposalGenerator& generator, const BenchInput
   std::vector<Detection> detections;
   for (const Pairing& p : pairings) detections.push_back(p.detection);
   const std::clock_t start = std::clock();
-  const FrameProposals made = generator.generate(frame, detections, groundInCamera(frame.robot_from_camera));
+  const FrameGround ground =
+      groundOf(frame, groundInCamera(frame.robot_from_camera), *stages.ground_detector);
+  const FrameProposals made = stages.proposal_generator->generate(frame, detections, ground);
   const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   run.cpu_ms[static_cast<int>(detections.size())].push_back(ms);
   run.grounds.push_back({groundInCamera(world_from_camera), made.ground});
@@ -150,7 +152,7 @@ void benchProposals(const BenchOptions& options) {
   while (const auto record = reader.next()) {
     const Frame* frame = std::get_if<Frame>(&*record);
     if (frame && index++ % options.every == 0)
-      addFrame(*frame, *setup->stages.proposal_generator, in, options, run);
+      addFrame(*frame, setup->stages, in, options, run);
     progress.update(reader.progress(), "");
   }
   progress.finish();
@@ -190,7 +192,8 @@ void addProposals(CLI::App& parent) {
       "Example:\n"
       "  roomgraph bench proposals lab_a/lab_a.rawlog --boxes lab_a/boxes.jsonl --objects "
       "lab_a/objects.json \\\n"
-      "      --trajectory lab_a/groundtruth_robot.txt --set proposals.use_depth=false");
+      "      --trajectory lab_a/groundtruth_robot.txt --set proposals.use_depth=false \\\n"
+      "      --set ground.class=ExpectedGroundDetector");
   command->callback([o] { benchProposals(*o); });
 }
 

@@ -134,6 +134,31 @@ TEST(Config, MentionedFilesAreTextsAndItems) {
   EXPECT_THAT(files, ::testing::IsSupersetOf<std::filesystem::path>({"a #1, b", "c", "d, e"}));
 }
 
+class Files : public Configurable {
+ public:
+  void declareParameters(ParameterVisitor& v) override {
+    v.add("one", one, {.doc = "", .file = true});
+    v.add("more", more, {.doc = "", .file = true});
+    v.add("text", text, {.doc = ""});
+  }
+  std::string one, text;
+  std::vector<std::string> more;
+};
+
+// A relative name is meant from where it was written: in a file its folder, on the command line here.
+TEST(Config, NamesOfFilesAreCompleted) {
+  const test::TemporaryFolder folder;
+  auto config = Config::fromFile(folder.write("c.ini", "[s]\none = ../x.onnx\nmore = y, /z\ntext = ../x\n"));
+  Files read;
+  config.read("s", read);
+  EXPECT_EQ(read.one, (folder.path().parent_path() / "x.onnx").string());
+  EXPECT_THAT(read.more, ElementsAre((folder.path() / "y").string(), "/z"));
+  EXPECT_EQ(read.text, "../x");
+  config.override("s.one=w");
+  config.read("s", read);
+  EXPECT_EQ(read.one, (std::filesystem::current_path() / "w").string());
+}
+
 TEST(Config, MissingFile) {
   const test::TemporaryFolder folder;
   EXPECT_THROW(Config::fromFile(folder.path() / "none.ini"), InputError);

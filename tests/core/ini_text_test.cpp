@@ -56,6 +56,12 @@ TEST(IniText, LastLineNeedsNoNewline) {
   EXPECT_EQ(parseIni("[a]\nk = 1", "c.ini").at(0).value, "1");
 }
 
+TEST(IniText, AByteOrderMarkIsNoSection) {
+  const auto entries = parseIni("\xef\xbb\xbf[a]\nk = 1\n", "c.ini");
+  ASSERT_EQ(entries.size(), 1u);
+  EXPECT_EQ(entries[0].section, "a");
+}
+
 TEST(IniText, DuplicatesNameBothPlaces) {
   const auto message =
       messageOf<ConfigError>([] { parseIni("[a]\nk = 1\n[b]\nk = 1\n[a]\nk = 2\n", "c.ini"); });

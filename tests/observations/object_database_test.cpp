@@ -23,6 +23,24 @@ TEST(ObjectDatabase, ShippedFileLoads) {
   EXPECT_EQ(database.find("door")->symmetry, 2);
   EXPECT_FALSE(database.find("person")->landmark);
   EXPECT_TRUE(database.find("sofa")->landmark);
+  EXPECT_TRUE(database.moves("person"));
+  for (const char* name : {"swivel_chair", "sofa", "door", "unicorn"}) EXPECT_FALSE(database.moves(name)) << name;
+  EXPECT_EQ(database.find("sofa")->frontRule(), FrontRule::kHighBack);
+  EXPECT_EQ(database.find("door")->frontRule(), FrontRule::kNone) << "both sides are alike";
+  EXPECT_EQ(database.find("swivel_chair")->frontRule(), FrontRule::kNone) << "a cylinder has no yaw";
+  EXPECT_EQ(database.find("sofa")->generatorName(), "CuboidGenerator");
+  EXPECT_EQ(database.find("door")->generatorName(), "DoorGenerator");
+  EXPECT_EQ(database.find("person")->generatorName(), "CylinderGenerator");
+  EXPECT_EQ(database.find("sofa")->solid_share, 0.4);
+  EXPECT_EQ(database.find("swivel_chair")->solid_share, 0);
+}
+
+TEST(ObjectDatabase, WhatIsNeverMappedMovesUnlessTheFileSaysOtherwise) {
+  const auto database = ObjectDatabase::fromText(
+      "[person]\nlandmark = false\n[curtain]\nlandmark = false\nmoves = false\n[sofa]\nlabels = sofa\n");
+  EXPECT_TRUE(database.moves("person"));
+  EXPECT_FALSE(database.moves("curtain"));
+  EXPECT_FALSE(database.moves("sofa"));
 }
 
 TEST(ObjectDatabase, LooksUpByLabelWhateverTheCase) {
@@ -58,6 +76,12 @@ TEST(ObjectDatabase, IsStrict) {
   EXPECT_THAT(complaint("[a]\ncolor = #fff000\ncolor = #000000\n"), HasSubstr("is set twice"));
   EXPECT_THAT(complaint("[b]\nlandmark = true\n[a]\nlandmark = perhaps\n"),
               HasSubstr("o.ini:4: [a] landmark"));
+  EXPECT_THAT(complaint("[a]\nlabels = x\nfront = left\n"),
+              AllOf(HasSubstr("o.ini:3: [a] front"), HasSubstr("one of high_back, near_side, none")));
+  EXPECT_THAT(complaint("[a]\nshape = planar\nfront = high_back\n"),
+              HasSubstr("o.ini:3: [a] front = high_back: only a cuboid has a back"));
+  EXPECT_THAT(complaint("[a]\nsolid_share = 2\n"), HasSubstr("o.ini:2: [a] solid_share"));
+  EXPECT_THAT(complaint("[dog]\nmoves = true\n"), HasSubstr("o.ini:2: [dog] moves: what moves by itself is no landmark"));
   EXPECT_THROW(ObjectDatabase::fromFile("no_such_objects.ini"), InputError);
 }
 

@@ -49,7 +49,7 @@ Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
 }
 
 FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Detection>& detections,
-                                       const std::optional<Plane>&) {
+                                       const FrameGround&) {
   FrameProposals out;
   out.frame = frame.id;
   out.t = frame.t;

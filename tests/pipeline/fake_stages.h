@@ -46,7 +46,7 @@ class FakeProposals : public roomgraph::ProposalGenerator {
   void setDatabase(const roomgraph::ObjectDatabase&) override {}
   roomgraph::FrameProposals generate(const roomgraph::Frame& frame,
                                      const std::vector<roomgraph::Detection>& detections,
-                                     const std::optional<roomgraph::Plane>& expected_ground) override;
+                                     const roomgraph::FrameGround& ground) override;
 };
 
 /// The exact movement of the camera.

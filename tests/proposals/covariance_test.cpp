@@ -50,14 +50,19 @@ TEST(Covariance, IsLongestAlongTheViewAndGrowsWithDistance) {
 
 TEST(Covariance, PoorFitCutBoxAndMissingDepthMakeItLarger) {
   const PlacedShape good = chairAt(2.5, 0);
-  const double usual = covarianceOf(good, seen(true), 0.01)(0, 0);
+  const Eigen::Matrix4d whole = covarianceOf(good, seen(true), 0.01);
+  const double usual = whole(0, 0);
   PlacedShape poor = good;
   poor.quality = 0.6;
   EXPECT_GT(covarianceOf(poor, seen(true), 0.01)(0, 0), 2 * usual);
   BoxEvidence cut = seen(true);
-  cut.cut_left = true;
-  EXPECT_GT(covarianceOf(good, cut, 0.01)(1, 1), usual * 0.1);
-  EXPECT_GT(covarianceOf(good, cut, 0.01)(0, 0), usual);
+  cut.cut.left = true;
+  EXPECT_GT(covarianceOf(good, cut, 0.01)(1, 1), 2 * whole(1, 1)) << "across the view: the box's middle is not the object's";
+  EXPECT_GT(covarianceOf(good, cut, 0.01)(0, 0), 1.2 * usual);
+  BoxEvidence feet_hidden = seen(true);
+  feet_hidden.cut.bottom = true;
+  EXPECT_GT(covarianceOf(good, feet_hidden, 0.01)(0, 0), 1.2 * usual);
+  EXPECT_EQ(covarianceOf(good, feet_hidden, 0.01)(1, 1), whole(1, 1)) << "across the view the bottom side says nothing";
   EXPECT_GT(covarianceOf(good, seen(false), 0.01)(0, 0), usual);
   PlacedShape unsupported = good;
   unsupported.supported = false;

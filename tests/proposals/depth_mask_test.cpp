@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Depth mask on rendered scenes with wall and occluder; initialisation score.
-#include "depth_mask.h"
+#include "depth_clusters.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "find_edges.h"
 #include "initial_score.h"
 #include "scene.h"
 
@@ -48,7 +49,7 @@ TEST(DepthMask, GroundWallAndOccluderAreRemoved) {
     const Detection detection = test::detectionOf(1, seen.labels, "swivel_chair");
     const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
     const DepthMask mask =
-        explainBox(all, detection.box, *database().find("swivel_chair"), seen.frame.camera.fx);
+        explanations(all, detection.box, *database().find("swivel_chair"), seen.frame.camera.fx, 1).at(0);
     EXPECT_GT(mask.points.size(), 200u);
     EXPECT_LE(all.points.size(), 1700u);
     EXPECT_GT(shareOf(mask, 1, seen.labels), 0.97);
@@ -77,7 +78,7 @@ TEST(DepthMask, NothingToSample) {
   const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
   EXPECT_TRUE(all.points.empty());
   EXPECT_EQ(all.valid_ratio, 0);
-  EXPECT_TRUE(explainBox(all, {0, 0, 320, 240}, *database().find("sofa"), 262).points.empty());
+  EXPECT_TRUE(explanations(all, {0, 0, 320, 240}, *database().find("sofa"), 262, 1).empty());
   seen.frame.depth = cv::Mat();
   EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
 }

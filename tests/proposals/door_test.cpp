@@ -8,6 +8,7 @@
 #include <random>
 
 #include "door_from_image.h"
+#include "door_generator.h"
 #include "door_on_plane.h"
 #include "plane_fit.h"
 #include "proposal_covariance.h"
@@ -19,7 +20,7 @@ namespace {
 using test::database;
 using test::Scene;
 
-BoxEvidence doorEvidenceOf(const Scene& scene, bool with_depth) {
+BoxEvidence doorEvidence(const Scene& scene, bool with_depth) {
   cv::Mat labels;
   Frame frame = scene.render(&labels);
   frame.gray = test::shaded(frame, labels);
@@ -135,7 +136,7 @@ TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   scene.lookAhead(1.2, 0);
   scene.addBox(3.2, 1.03, -std::numbers::pi / 2, 0.9, 0.06, 0, 2.05, 1);
   scene.addBox(3.2, 1.10, -std::numbers::pi / 2, 8, 0.1, 0, 2.6, 2);  // its wall
-  const auto found = doorHypotheses(doorEvidenceOf(scene, true));
+  const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, true));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(lineAngle(found[0].yaw, std::numbers::pi / 2), 0.02);
   EXPECT_NEAR(found[0].y, 1.03, 0.04);
@@ -189,7 +190,7 @@ TEST(DoorFromImage, RangeOfASideFromFloorAndTop) {
     ASSERT_TRUE(both);
     // The top's column differs a little from the bottom's: the camera looks down.
     EXPECT_NEAR(both->value, range, 0.02 * range);
-    e.cut_top = true;
+    e.cut.top = true;
     const auto floor_only = sideRange(e, bottom.x());
     ASSERT_TRUE(floor_only);
     EXPECT_NEAR(floor_only->value, range, 1e-6);
@@ -198,7 +199,7 @@ TEST(DoorFromImage, RangeOfASideFromFloorAndTop) {
     BoxEvidence moved = e;
     moved.box.v_max -= 4 + 0.03 * e.box.height();
     EXPECT_NEAR(sideRange(moved, bottom.x())->value - range, floor_only->sigma, 0.5 * floor_only->sigma);
-    e.cut_bottom = true;
+    e.cut.bottom = true;
     EXPECT_FALSE(sideRange(e, bottom.x()));
   }
 }
@@ -247,7 +248,7 @@ TEST(DoorFromImage, GlancingDoorInItsWall) {
   scene.max_range = 12;
   scene.addBox(4.0, 1.03, -std::numbers::pi / 2, 0.9, 0.06, 0, 2.05, 1);
   scene.addBox(4.0, 1.10, -std::numbers::pi / 2, 12, 0.1, 0, 2.6, 2);
-  const auto found = doorHypotheses(doorEvidenceOf(scene, false));
+  const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, false));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(std::hypot(found[0].x - 4.0, found[0].y - 1.03), 0.35);
   double angle = 1e9;

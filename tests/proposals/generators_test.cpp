@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder, cuboid and door hypotheses on rendered scenes, with and without depth.
-#include "generators.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 #include <random>
 
-#include "fit_shape.h"
+#include "cuboid_generator.h"
+#include "cylinder_generator.h"
+#include "door_generator.h"
 #include "rectangle_fit.h"
+#include "roomgraph/core/order_statistics.h"
 #include "scene.h"
 
 namespace roomgraph {
@@ -17,12 +18,7 @@ namespace {
 
 using test::database;
 using test::Scene;
-
-Scene sceneAhead() {
-  Scene scene;
-  scene.lookAhead(0.8, 0.2);
-  return scene;
-}
+using test::sceneAhead;
 
 /// Evidence for object 1 of the scene, with the true ground. The ground frame then equals the world.
 BoxEvidence evidenceOf(const Scene& scene, const std::string& class_name, bool with_depth = true) {
@@ -45,7 +41,7 @@ TEST(Cylinder, FoundAtRandomPlaces) {
     Scene scene = sceneAhead();
     const double x = range(random), y = side(random) * x, r = radius(random);
     scene.addCylinder(x, y, r, 0.93, 1);
-    const auto found = cylinderHypotheses(evidenceOf(scene, "swivel_chair"));
+    const auto found = test::hypotheses<CylinderGenerator>(evidenceOf(scene, "swivel_chair"));
     ASSERT_FALSE(found.empty());
     EXPECT_LT(std::hypot(found[0].x - x, found[0].y - y), 0.08) << "run " << run;
     EXPECT_NEAR(found[0].shape.radius(), r, 0.05);
@@ -59,8 +55,8 @@ TEST(Cylinder, CutByTheBorderOfTheImage) {
     Scene scene = sceneAhead();
     scene.addCylinder(1.75, y, 0.31, 0.95, 1);
     const BoxEvidence evidence = evidenceOf(scene, "swivel_chair");
-    ASSERT_TRUE(y > 0 ? evidence.cut_left : evidence.cut_right);
-    const auto found = cylinderHypotheses(evidence);
+    ASSERT_TRUE(y > 0 ? evidence.cut.left : evidence.cut.right);
+    const auto found = test::hypotheses<CylinderGenerator>(evidence);
     ASSERT_FALSE(found.empty());
     EXPECT_LT(std::hypot(found[0].x - 1.75, found[0].y - y), 0.15);
   }
@@ -69,7 +65,7 @@ TEST(Cylinder, CutByTheBorderOfTheImage) {
 TEST(Cylinder, WithoutDepthTheContactWithTheGroundPlacesIt) {
   Scene scene = sceneAhead();
   scene.addCylinder(2.5, 0.4, 0.31, 0.95, 1);
-  const auto found = cylinderHypotheses(evidenceOf(scene, "swivel_chair", false));
+  const auto found = test::hypotheses<CylinderGenerator>(evidenceOf(scene, "swivel_chair", false));
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].source, "contact");
   EXPECT_LT(std::hypot(found[0].x - 2.5, found[0].y - 0.4), 0.12);
@@ -79,8 +75,8 @@ TEST(Cylinder, WithoutDepthAndBottomTheSizePlacesIt) {
   Scene scene = sceneAhead();
   scene.addCylinder(1.3, 0, 0.25, 1.7, 1);
   const BoxEvidence evidence = evidenceOf(scene, "person", false);
-  ASSERT_TRUE(evidence.cut_bottom);
-  const auto found = cylinderHypotheses(evidence);
+  ASSERT_TRUE(evidence.cut.bottom);
+  const auto found = test::hypotheses<CylinderGenerator>(evidence);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].source, "size");
   EXPECT_LT(std::hypot(found[0].x - 1.3, found[0].y), 0.2);
@@ -95,7 +91,7 @@ TEST(Cuboid, SofasAtRandomPlacesAndDirections) {
     const double x = range(random), y = side(random) * x;
     const double front = std::numbers::pi + std::atan2(y, x) + turn(random);
     scene.addSofa(x, y, front, 1.9, 0.9, 0.8, 1);
-    const auto found = cuboidHypotheses(evidenceOf(scene, "sofa"));
+    const auto found = test::hypotheses<CuboidGenerator>(evidenceOf(scene, "sofa"));
     ASSERT_FALSE(found.empty());
     const PlacedShape& top = found[0];
     centre.push_back(std::hypot(top.x - x, top.y - y));
@@ -112,7 +108,7 @@ TEST(Cuboid, SofasAtRandomPlacesAndDirections) {
 TEST(Cuboid, SofaSeenFromBehindFacesAway) {
   Scene scene = sceneAhead();
   scene.addSofa(2.4, 0, 0.3, 1.9, 0.9, 0.78, 1);
-  const auto found = cuboidHypotheses(evidenceOf(scene, "sofa"));
+  const auto found = test::hypotheses<CuboidGenerator>(evidenceOf(scene, "sofa"));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(yawError(found[0].yaw, 0.3), 0.2);
 }
@@ -121,8 +117,8 @@ TEST(Cuboid, PartlyOutsideTheImage) {
   Scene scene = sceneAhead();
   scene.addSofa(2.2, 1.2, -2.6, 1.8, 0.88, 0.8, 1);
   const BoxEvidence evidence = evidenceOf(scene, "sofa");
-  ASSERT_TRUE(evidence.cut_left);
-  const auto found = cuboidHypotheses(evidence);
+  ASSERT_TRUE(evidence.cut.left);
+  const auto found = test::hypotheses<CuboidGenerator>(evidence);
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 4u);
   EXPECT_LT(std::hypot(found[0].x - 2.2, found[0].y - 1.2), 0.3);
@@ -132,7 +128,7 @@ TEST(Cuboid, PartlyOutsideTheImage) {
 TEST(Cuboid, WithoutDepthAHypothesisIsNear) {
   Scene scene = sceneAhead();
   scene.addSofa(2.6, 0.2, 3.0, 1.8, 0.88, 0.82, 1);
-  const auto found = cuboidHypotheses(evidenceOf(scene, "sofa", false));
+  const auto found = test::hypotheses<CuboidGenerator>(evidenceOf(scene, "sofa", false));
   ASSERT_FALSE(found.empty());
   double nearest = 1e9;
   for (const auto& p : found) nearest = std::min(nearest, std::hypot(p.x - 2.6, p.y - 0.2));
@@ -144,8 +140,8 @@ TEST(Door, ClosedAndHalfOpen) {
     Scene scene = sceneAhead();
     scene.addBox(3.0, 0.3, yaw, 0.9, 0.06, 0, 2.05, 1);
     const BoxEvidence evidence = evidenceOf(scene, "door");
-    ASSERT_TRUE(evidence.cut_top);
-    const auto found = doorHypotheses(evidence);
+    ASSERT_TRUE(evidence.cut.top);
+    const auto found = test::hypotheses<DoorGenerator>(evidence);
     ASSERT_FALSE(found.empty()) << yaw;
     EXPECT_LT(std::hypot(found[0].x - 3.0, found[0].y - 0.3), 0.08) << yaw;
     EXPECT_LT(yawError(found[0].yaw, yaw), 0.05) << yaw;
@@ -157,8 +153,8 @@ TEST(Door, CutByTheSideOfTheImageKeepsItsUsualWidth) {
   Scene scene = sceneAhead();
   scene.addBox(2.0, 1.2, std::numbers::pi, 0.9, 0.06, 0, 2.05, 1);
   const BoxEvidence evidence = evidenceOf(scene, "door");
-  ASSERT_TRUE(evidence.cut_left);
-  const auto found = doorHypotheses(evidence);
+  ASSERT_TRUE(evidence.cut.left);
+  const auto found = test::hypotheses<DoorGenerator>(evidence);
   ASSERT_FALSE(found.empty());
   EXPECT_LT(std::hypot(found[0].x - 2.0, found[0].y - 1.2), 0.1);
 }

@@ -6,10 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "gather_evidence.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/observations/detection.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/object_database.h"
+#include "roomgraph/proposals/shape_generator.h"
 
 namespace roomgraph::test {
 
@@ -121,6 +123,13 @@ struct Scene {
   }
 };
 
+/// A robot's camera, looking a little down.
+inline Scene sceneAhead() {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  return scene;
+}
+
 /// Gray image of a depth image: every surface as bright as it is turned to a light, other objects differ a
 /// little. Creases and outlines become edges.
 inline cv::Mat shaded(const Frame& frame, const cv::Mat& labels) {
@@ -172,6 +181,7 @@ depth_m = 0.88
 height_m = 0.82
 width_sigma_m = 0.3
 depth_sigma_m = 0.1
+front = high_back
 [door]
 labels = door
 shape = planar
@@ -192,6 +202,12 @@ landmark = false
 inline const ObjectDatabase& database() {
   static const ObjectDatabase db = ObjectDatabase::fromText(kObjects);
   return db;
+}
+
+/// What a shape generator makes of a detection.
+template <class Generator>
+std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence) {
+  return Generator().generate(evidence, GeneratorLimits{});
 }
 
 }  // namespace roomgraph::test

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "depth_ground_detector.h"
 #include "geometric_proposal_generator.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
@@ -34,16 +35,21 @@ class StageTest : public ::testing::Test {
     generator_.prepare();
     expected_ = groundInCamera(scene_.world_from_camera);
   }
+  FrameProposals proposalsOf(const Frame& frame, const std::vector<Detection>& detections,
+                             const std::optional<Plane>& expected) {
+    return generator_.generate(frame, detections, groundOf(frame, expected, ground_detector_));
+  }
 
   Scene scene_;
   Frame frame_;
   std::vector<Detection> detections_;
+  DepthGroundDetector ground_detector_;
   GeometricProposalGenerator generator_;
   Plane expected_;
 };
 
 TEST_F(StageTest, EveryDetectionHasProposalsInOrder) {
-  const FrameProposals out = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals out = proposalsOf(frame_, detections_, expected_);
   EXPECT_EQ(out.frame, FrameId{4});
   EXPECT_EQ(out.t, 12.5);
   ASSERT_TRUE(out.ground);
@@ -74,8 +80,8 @@ TEST_F(StageTest, EveryDetectionHasProposalsInOrder) {
 }
 
 TEST_F(StageTest, SameInputSameOutput) {
-  const FrameProposals a = generator_.generate(frame_, detections_, expected_);
-  const FrameProposals b = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals a = proposalsOf(frame_, detections_, expected_);
+  const FrameProposals b = proposalsOf(frame_, detections_, expected_);
   ASSERT_EQ(a.proposals.size(), b.proposals.size());
   for (std::size_t i = 0; i < a.proposals.size(); ++i) {
     EXPECT_EQ(a.proposals[i].camera_from_object.matrix(), b.proposals[i].camera_from_object.matrix());
@@ -85,12 +91,17 @@ TEST_F(StageTest, SameInputSameOutput) {
 
 TEST_F(StageTest, WithoutDepthTheExpectedGroundServes) {
   Config::fromText("[proposals]\nuse_depth = false\n", "test").read("proposals", generator_);
-  const FrameProposals out = generator_.generate(frame_, detections_, expected_);
+  ExpectedGroundDetector expected_only;
+  const FrameGround predicted = groundOf(frame_, expected_, expected_only);
+  ASSERT_TRUE(predicted.estimate);
+  EXPECT_FALSE(predicted.estimate->from_depth);
+  EXPECT_EQ(predicted.estimate->plane.normal, expected_.normal);
+  const FrameProposals out = generator_.generate(frame_, detections_, predicted);
   ASSERT_TRUE(out.ground);
-  EXPECT_FALSE(out.ground->from_depth);
   EXPECT_FALSE(out.ground_reason.empty());
   EXPECT_FALSE(out.proposals.empty());
-  EXPECT_TRUE(generator_.generate(frame_, detections_, std::nullopt).proposals.empty());
+  for (const Proposal& p : out.proposals) EXPECT_THAT(p.reasons, ::testing::HasSubstr(" 0 depth points"));
+  EXPECT_TRUE(generator_.generate(frame_, detections_, groundOf(frame_, std::nullopt, expected_only)).proposals.empty());
 }
 
 TEST_F(StageTest, AbsurdInputIsHarmless) {
@@ -104,23 +115,23 @@ TEST_F(StageTest, AbsurdInputIsHarmless) {
   absurd[5].box = {0, 0, inf, inf};
   for (const char* name : {"sofa", "swivel_chair", "door", "person", "unicorn"}) {
     for (auto& d : absurd) d.class_name = name;
-    for (const Proposal& p : generator_.generate(frame_, absurd, expected_).proposals) {
+    for (const Proposal& p : proposalsOf(frame_, absurd, expected_).proposals) {
       EXPECT_TRUE(p.camera_from_object.matrix().allFinite());
       EXPECT_TRUE(std::isfinite(p.score));
     }
   }
   Frame empty;
-  const FrameProposals none = generator_.generate(empty, detections_, expected_);
+  const FrameProposals none = proposalsOf(empty, detections_, expected_);
   EXPECT_TRUE(none.proposals.empty());
   EXPECT_FALSE(none.ground_reason.empty());
-  EXPECT_TRUE(generator_.generate(frame_, {}, expected_).proposals.empty());
+  EXPECT_TRUE(proposalsOf(frame_, {}, expected_).proposals.empty());
 }
 
 TEST_F(StageTest, TracesOnlyWhenAskedFor) {
-  const FrameProposals plain = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals plain = proposalsOf(frame_, detections_, expected_);
   EXPECT_TRUE(plain.traces.empty());
   generator_.keepTraces(true);
-  const FrameProposals traced = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals traced = proposalsOf(frame_, detections_, expected_);
   ASSERT_EQ(traced.traces.size(), detections_.size());
   ASSERT_EQ(traced.proposals.size(), plain.proposals.size());
   std::size_t rejected = 0;
@@ -137,12 +148,12 @@ TEST_F(StageTest, TracesOnlyWhenAskedFor) {
   EXPECT_GT(rejected, 0u);
   Detection unknown = detections_[0];
   unknown.class_name = "unicorn";
-  EXPECT_EQ(generator_.generate(frame_, {unknown}, expected_).traces.size(), 1u);
+  EXPECT_EQ(proposalsOf(frame_, {unknown}, expected_).traces.size(), 1u);
 }
 
 TEST_F(StageTest, NaNDepthIsNoDepth) {
   frame_.depth.setTo(std::numeric_limits<float>::quiet_NaN());
-  const FrameProposals out = generator_.generate(frame_, detections_, expected_);
+  const FrameProposals out = proposalsOf(frame_, detections_, expected_);
   ASSERT_TRUE(out.ground);
   EXPECT_FALSE(out.ground->from_depth);
   ASSERT_FALSE(out.proposals.empty());
@@ -153,6 +164,8 @@ TEST_F(StageTest, MadeByClassName) {
   proposals::registerClasses();
   proposals::registerClasses();
   EXPECT_NE(createStage<ProposalGenerator>("GeometricProposalGenerator", "[proposals] class"), nullptr);
+  EXPECT_NE(createStage<GroundDetector>("DepthGroundDetector", "[ground] class"), nullptr);
+  EXPECT_NE(createStage<ShapeGenerator>("CuboidGenerator", "[sofa] generator"), nullptr);
 }
 
 }  // namespace

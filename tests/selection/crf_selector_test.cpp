@@ -229,6 +229,55 @@ TEST(CrfSelector, FormerFramesDecideBetweenLikeProposals) {
   EXPECT_GT(chosen.confidence, 1 - alone.confidence);  // it gained from the frames before
 }
 
+// One proposal for the chair, 40 px below where it is: P = 1 - IoU with its former area. All features are common.
+struct Displaced {
+  FrameContext context = viewFrom(0, 0, 0);
+  FrameProposals frame;
+  double potential = 0;
+
+  Displaced(const std::vector<RoomObject>& objects, Random& random) {
+    frame = seenFrom(context, objects, 1, 0, random);
+    Box2& area = frame.proposals[0].projected.visible;
+    const Box2 before = area;
+    area.v_min += 40;
+    area.v_max += 40;
+    potential = 1 - iou(area, before);
+  }
+};
+
+TEST(CrfSelector, ALinkCostsAsMuchAsTheFramesDiffer) {
+  const RoomObject chair = chairAt(3, 0), sofa = sofaAt(4, 1.5, 0);
+  for (const bool sofa_comes : {false, true}) {
+    CrfSelector crf;
+    Random random(2);
+    FrameContext first = viewFrom(0, 0, 0);
+    crf.select(seenFrom(first, {chair}, 1, 0, random), first);
+    const Displaced now(sofa_comes ? std::vector{chair, sofa} : std::vector{chair}, random);
+    ASSERT_GT(now.potential, 0.2);
+    const auto chosen = crf.select(now.frame, now.context);
+    ASSERT_FALSE(chosen.empty());
+    EXPECT_NEAR(chosen[0].energy.pairwise, sofa_comes ? 0.5 * now.potential : 0, 1e-9)
+        << "beta is " << (sofa_comes ? "1/2" : "1");
+  }
+}
+
+// The chair was not detected in the frame before, which therefore differs; the window as a whole does not.
+TEST(CrfSelector, AcrossAGapTheWindowIsComparedNotTheFrameBefore) {
+  const RoomObject chair = chairAt(3, 0), sofa = sofaAt(4, 1.5, 0);
+  CrfSelector crf;
+  Random random(2);
+  for (const std::vector<RoomObject>& seen : {std::vector{chair}, std::vector{sofa}}) {
+    FrameContext context = viewFrom(0, 0, 0);
+    crf.select(seenFrom(context, seen, 1, 0, random), context);
+  }
+  const Displaced now({chair, sofa}, random);
+  const auto chosen = crf.select(now.frame, now.context);
+  ASSERT_EQ(chosen.size(), 2u);
+  EXPECT_EQ(chosen[0].beta, 0.5);
+  EXPECT_EQ(chosen[0].track, TrackId{0});
+  EXPECT_NEAR(chosen[0].energy.pairwise, 0, 1e-9) << "beta* is 1";
+}
+
 // Without common features frames are independent, so two frames of one proposal each have four choices; in a whole
 // window the one in which the object never appears is not among them.
 TEST(CrfSelector, InAWholeWindowTheObjectWasSeenForSure) {

@@ -95,6 +95,10 @@ std::string ConfigSchema::markdown() const {
   std::string page;
   for (const auto& s : sections_) {
     page += "## [" + s.name + "]\n" + (s.doc.empty() ? "" : s.doc + "\n");
+    if (s.keys.empty()) {
+      page += "\n";
+      continue;
+    }
     page +=
         "\n| key | default | allowed | unit | meaning | read by |\n| --- | --- | --- | --- | --- | --- |\n";
     for (const auto& key : s.keys)

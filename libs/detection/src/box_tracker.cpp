@@ -38,8 +38,7 @@ cv::Rect pixelsOf(const Box2& box, const Frame& frame) {
 }  // namespace
 
 bool BoxTracker::moves(const Detection& detection) const {
-  const ObjectModel* model = database_->find(detection.class_name);
-  return model && !model->landmark;
+  return database_->moves(detection.class_name);
 }
 
 void BoxTracker::start(const std::vector<Detection>& detections, const Frame& frame) {

@@ -80,14 +80,15 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   for (const auto id : missed) landmarks_.miss(id);
 }
 
-void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot) {
+void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database) {
   if (last_rays_from_) {
     const Pose3 moved = last_rays_from_->inverse() * world_from_robot;
     if (moved.translation().norm() < kRayDistance_m && rotationAngle(moved) < kRayAngle_rad) return;
   }
   last_rays_from_ = world_from_robot;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks())) {
-    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot);
+    const ObjectModel* model = database.find(landmark.model);
+    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot, model ? model->solid_share : 0);
     if (rays.inside > 0) {
       landmarks_.supported(landmark.id, rays.inside);
     } else if (rays.through > 0) {

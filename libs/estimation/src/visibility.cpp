@@ -10,7 +10,6 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
-constexpr double kSolidHeight = 0.4;  // share of a cuboid's height; above it a sofa is open: its seat
 constexpr double kMiddle = 0.5;  // share of the footprint's smaller half that the covariance cannot reach
 constexpr double kSamePlace =
     0.3;  // IoU with a detection, of whatever label, that says that something is there
@@ -47,16 +46,16 @@ bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& wor
   return hiddenShare(frame, shape->visible, distance, margin) < kMaxHidden;
 }
 
-RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot) {
+RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot,
+                        double solid_share) {
   RayEvidence out;
   const Pose3 object_from_lidar =
       landmark.worldFromObject().inverse() * world_from_robot * scan.robot_from_lidar;
   const Eigen::Vector3d origin = object_from_lidar.translation();
   const double reach = std::hypot(landmark.shape.width, landmark.shape.depth) / 2,
                away = origin.head<2>().norm();
-  if (origin.z() > landmark.shape.height || away > scan.max_range_m || away < reach) return out;
-  const bool solid =
-      landmark.shape.kind == ShapeKind::kCuboid && origin.z() < kSolidHeight * landmark.shape.height;
+  if (origin.z() < 0 || origin.z() > landmark.shape.height || away > scan.max_range_m || away < reach) return out;
+  const bool solid = origin.z() < solid_share * landmark.shape.height;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (!scan.valid[i]) continue;
     const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad,

@@ -23,8 +23,8 @@ struct RayEvidence {
   int through = 0;  ///< passed through the middle of it and ended behind
 };
 
-/// Only the lower part of cuboids is solid: beams pass over the seat of a sofa, between the legs of a chair
-/// and through an open door, so that these count beams inside only.
-RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot);
+/// `solid_share`: share of the landmark's height through which no beam passes (ObjectModel::solid_share). Beams above it
+/// pass over the seat of a sofa, between the legs of a chair or through an open door: they count only when they end inside.
+RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot, double solid_share);
 
 }  // namespace roomgraph

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "roomgraph/core/errors.h"
 
@@ -13,6 +14,28 @@ namespace {
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
+}
+
+const IniEntry* entryOf(const Config& config, const std::string& section, const std::string& key) {
+  for (const auto& entry : config.entries())
+    if (entry.section == section && entry.key == key) return &entry;
+  return nullptr;
+}
+
+ObjectModel readModel(const Config& config, const IniEntry& first) {
+  ObjectModel model;
+  model.class_name = first.section;
+  config.read(first.section, model);
+  const IniEntry* generator = entryOf(config, first.section, "generator");
+  model.place = (generator ? *generator : first).place + ": [" + first.section + "]";
+  // What is never mapped most likely moves: a file need not say both.
+  if (!entryOf(config, first.section, "moves")) model.moves = !model.landmark;
+  if (model.moves && model.landmark)
+    throw ConfigError(model.place + " moves: what moves by itself is no landmark; set landmark = false");
+  if (const IniEntry* front = entryOf(config, first.section, "front");
+      front && model.front == "high_back" && model.shape != "cuboid")
+    throw ConfigError(front->place + ": [" + first.section + "] front = high_back: only a cuboid has a back");
+  return model;
 }
 
 }  // namespace
@@ -32,12 +55,49 @@ void ObjectModel::declareParameters(ParameterVisitor& v) {
   v.add("symmetry", symmetry,
         {.doc = "yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg", .min = 0, .max = 4});
   v.add("rests_on_ground", rests_on_ground, {.doc = "the object stands on the floor"});
-  v.add("landmark", landmark, {.doc = "false: seen and masked out, never mapped"});
+  v.add("front", front,
+        {.doc = "which side is the front of a shape with symmetry 1: high_back: the one away from the highest part "
+                "(seats); near_side: of the sides that fit the size, the one that is seen (furniture along walls); "
+                "none: nothing tells it",
+         .choices = {"high_back", "near_side", "none"}});
+  v.add("solid_share", solid_share,
+        {.doc = "share of the height, from the floor, through which no lidar beam passes: beams that do speak against "
+                "the object; 0: beams may pass (legs, an open door)",
+         .min = 0,
+         .max = 1});
+  v.add("moves", moves,
+        {.doc = "the object moves by itself: it is kept out of odometry, scans and map; not set: true where landmark "
+                "is false"});
+  v.add("landmark", landmark, {.doc = "false: detected, never mapped"});
+  v.add("generator", generator,
+        {.doc = "shape generator that makes this class's shapes, by class name; auto: CylinderGenerator, "
+                "CuboidGenerator or DoorGenerator (planar), by the shape"});
   v.add("color", color, {.doc = "colour in pictures, #rrggbb"});
 }
 
 ObjectShape ObjectModel::nominal() const {
   return {shapeKindFromString(shape), width_m, depth_m, height_m};
+}
+
+FrontRule ObjectModel::frontRule() const {
+  if (symmetry != 1 || nominal().kind == ShapeKind::kCylinder) return FrontRule::kNone;
+  static const std::map<std::string, FrontRule> rules{{"high_back", FrontRule::kHighBack},
+                                                      {"near_side", FrontRule::kNearSide},
+                                                      {"none", FrontRule::kNone}};
+  return rules.at(front);
+}
+
+std::string ObjectModel::generatorName() const {
+  if (generator != "auto") return generator;
+  switch (nominal().kind) {
+    case ShapeKind::kCylinder:
+      return "CylinderGenerator";
+    case ShapeKind::kPlanar:
+      return "DoorGenerator";
+    case ShapeKind::kCuboid:
+      break;
+  }
+  return "CuboidGenerator";
 }
 
 ObjectDatabase ObjectDatabase::fromFile(const std::filesystem::path& file) {
@@ -53,11 +113,9 @@ ObjectDatabase ObjectDatabase::fromConfig(const Config& config) {
   ConfigSchema schema;
   for (const auto& entry : config.entries()) {
     if (database.find(entry.section)) continue;
-    ObjectModel model;
-    schema.add(entry.section, model);
-    config.read(entry.section, model);
-    model.class_name = entry.section;
-    database.models_.push_back(model);
+    ObjectModel defaults;
+    schema.add(entry.section, defaults);
+    database.models_.push_back(readModel(config, entry));
   }
   schema.check(config);
   return database;
@@ -75,6 +133,11 @@ const ObjectModel* ObjectDatabase::byLabel(const std::string& label) const {
     for (const auto& known : model.labels)
       if (lower(known) == wanted) return &model;
   return nullptr;
+}
+
+bool ObjectDatabase::moves(const std::string& class_name) const {
+  const ObjectModel* model = find(class_name);
+  return model && model->moves;
 }
 
 std::string ObjectDatabase::markdown() {

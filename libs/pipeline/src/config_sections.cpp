@@ -2,6 +2,8 @@
 // Sections with their options, stages and descriptions.
 #include "config_sections.h"
 
+#include <algorithm>
+
 namespace roomgraph {
 namespace {
 
@@ -73,6 +75,21 @@ std::string detector(SectionReader& reader, const std::string& section, Options&
   return options.detection.detector == "auto" ? "AutoDetector" : options.detection.detector;
 }
 
+// The generators that the classes in objects.ini name; they share one section.
+ConfigSection shapeGenerators(const std::string& name, const std::string& doc) {
+  return {name, doc,
+          [name](SectionReader& reader, Setup& setup) {
+            setup.stages.shape_generators =
+                ShapeGenerators(setup.database, [&](const std::string& wanted, const std::string& asked_by) {
+                  auto generator = createStage<ShapeGenerator>(wanted, asked_by);
+                  reader.read(name, *generator);
+                  generator->prepare();
+                  return generator;
+                });
+          },
+          [name](ConfigSchema& schema) { addImplementations<ShapeGenerator>(schema, name); }};
+}
+
 std::vector<ConfigSection> allSections() {
   using O = Options;
   using S = Stages;
@@ -85,6 +102,10 @@ std::vector<ConfigSection> allSections() {
                                                           "Loop closures found by scans in earlier submaps.",
                                                           scanLoopCloser),
       staged<&O::detection, &S::detector>("detection", "Detection of objects in images.", detector),
+      required<&O::ground, &S::ground_detector>("ground", "Ground plane of a frame."),
+      shapeGenerators("shape_generators",
+                      "Parameters of the shape generators that the key `generator` of `objects.ini` names; the shipped "
+                      "ones have none."),
       required<&O::proposals, &S::proposal_generator>("proposals", "Lifting of boxes to shapes in 3D."),
       required<&O::selection, &S::proposal_selector>("selection", "Choice of one shape per detection."),
       required<&O::association, &S::associator>("association", "Assignment of measurements to landmarks."),
@@ -98,14 +119,12 @@ std::vector<ConfigSection> allSections() {
 }  // namespace
 
 void SectionReader::note(const std::string& section, Configurable& target) {
-  std::string lines;
-  for (const auto& [key, value] : currentValues(target)) lines += key + " = " + value + "\n";
-  for (auto& [name, text] : sections_) {
-    if (name != section) continue;
-    text += lines;
-    return;
-  }
-  sections_.emplace_back(section, lines);
+  const auto same = [&](const auto& known) { return known.first == section; };
+  auto found = std::find_if(sections_.begin(), sections_.end(), same);
+  if (found == sections_.end()) found = sections_.insert(found, {section, ""});
+  std::string& text = found->second;
+  for (const auto& [key, value] : currentValues(target))
+    if (("\n" + text).find("\n" + key + " = ") == std::string::npos) text += key + " = " + value + "\n";
 }
 
 std::string SectionReader::text() const {

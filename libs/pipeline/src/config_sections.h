@@ -22,6 +22,7 @@ class SectionReader {
     note(section, target);
   }
   /// The parameters of the target as they are now are the effective ones.
+  /// One that is noted already stays: classes in one section share the parameters of the same name.
   void note(const std::string& section, Configurable& target);
   /// INI text of everything noted, in order of the sections' first note.
   std::string text() const;

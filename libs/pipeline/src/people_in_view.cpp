@@ -11,17 +11,12 @@ constexpr double kPeopleMaxAge_s = 0.3;  // a person walks .4 m in this time
 constexpr double kPersonMargin_m = 0.15, kPersonDepth_m = 0.6;
 constexpr double kLeastDistance_m = 0.3;  // nearer, a margin would be a half plane
 
-bool isPerson(const std::string& class_name, const ObjectDatabase& database) {
-  const auto* model = database.find(class_name);
-  return model && !model->landmark;
-}
-
 }  // namespace
 
 std::vector<Box2> boxesOfPeople(const std::vector<Detection>& detections, const ObjectDatabase& database) {
   std::vector<Box2> out;
   for (const auto& detection : detections)
-    if (isPerson(detection.class_name, database)) out.push_back(detection.box);
+    if (database.moves(detection.class_name)) out.push_back(detection.box);
   return out;
 }
 
@@ -29,7 +24,7 @@ PeopleInView peopleInView(const FrameProposals& proposals, const Pose3& robot_fr
                           const ObjectDatabase& database) {
   PeopleInView out{proposals.t, {}};
   for (const auto& proposal : proposals.proposals) {
-    if (!isPerson(proposal.class_name, database)) continue;
+    if (!database.moves(proposal.class_name)) continue;
     const Eigen::Vector3d place = (robot_from_camera * proposal.camera_from_object).translation();
     const double distance = place.head<2>().norm(), bearing = std::atan2(place.y(), place.x());
     const double half =

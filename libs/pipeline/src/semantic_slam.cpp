@@ -95,7 +95,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   }
   mapper_.add(clean);
   localize(scan.t);
-  objects_.observe(clean, estimator_.poses().at(scan.t));
+  objects_.observe(clean, estimator_.poses().at(scan.t), setup_->database);
   if (map_) map_->add(clean);
 
   robot_times_.push_back(scan.t);
@@ -175,7 +175,8 @@ FrameProposals SemanticSlam::propose(const Frame& frame, const std::vector<Detec
   if (estimator_.levelled())
     expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
   const auto timing = times_.measure("proposals");
-  FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, expected);
+  const FrameGround ground = groundOf(frame, expected, *setup_->stages.ground_detector);
+  FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, ground);
   if (!proposals.ground) ++counts_.reasons["ground: " + proposals.ground_reason];
   return proposals;
 }

@@ -32,9 +32,10 @@ void prepare(const Setup& setup) {
   const Stages& stages = setup.stages;
   if (stages.detector) stages.detector->setDatabase(setup.database);
   stages.proposal_generator->setDatabase(setup.database);
+  stages.proposal_generator->setShapeGenerators(stages.shape_generators);
   for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
                                                     stages.scan_loop_closer.get(), stages.detector.get(),
-                                                    stages.proposal_generator.get(),
+                                                    stages.ground_detector.get(), stages.proposal_generator.get(),
                                                     stages.proposal_selector.get(), stages.associator.get()})
     if (stage) stage->prepare();
 }

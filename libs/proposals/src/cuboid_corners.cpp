@@ -105,10 +105,10 @@ std::optional<Corner> cornerAt(double u, const Axes& a, const BoxEvidence& e) {
   if (!near) return std::nullopt;
   Corner c;
   c.near = *near;
-  c.left = lengthTo(e.box.u_min, e.cut_left, *bottom, *near, a.left, a.vanish_left, e);
-  c.right = lengthTo(e.box.u_max, e.cut_right, *bottom, *near, a.right, a.vanish_right, e);
+  c.left = lengthTo(e.box.u_min, e.cut.left, *bottom, *near, a.left, a.vanish_left, e);
+  c.right = lengthTo(e.box.u_max, e.cut.right, *bottom, *near, a.right, a.vanish_right, e);
   const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(top->x(), top->y());
-  c.height = e.cut_top ? e.model->height_m
+  c.height = e.cut.top ? e.model->height_m
                        : e.ground.offset + ray.z() * near->norm() / std::max(1e-6, ray.head<2>().norm());
   return c;
 }
@@ -141,7 +141,7 @@ std::optional<PlacedShape> placeAt(const Corner& c, bool width_left, const Axes&
 
 std::vector<PlacedShape> cuboidsFromCorners(const BoxEvidence& e) {
   std::vector<PlacedShape> out;
-  if (e.cut_bottom || e.box.empty() || !e.model->rests_on_ground) return out;
+  if (e.cut.bottom || e.box.empty() || !e.model->rests_on_ground) return out;
   for (int i = 0; i < kYaws; ++i) {
     const Axes axes = axesAt((i + 0.5) * std::numbers::pi / 2 / kYaws, e);
     for (int k = 0; k < kCorners; ++k) {

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuboid hypotheses from depth points, ground contact or nominal size.
+#include "cuboid_generator.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cuboid_corners.h"
-#include "fit_shape.h"
-#include "generators.h"
 #include "rectangle_fit.h"
+#include "roomgraph/proposals/shape_fit.h"
 
 namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(CuboidGenerator, ShapeGenerator, roomgraph)
+
 namespace {
+
+// Without depth there are hundreds of starts, most of them nearly the same.
+constexpr SamePlace kBlindStarts{0.15, 0.2};
 
 // One axis of the model: the observed extent when it is as long as usual; otherwise the usual size, grown
 // from the side that is seen: `grow` is the sign of the direction.
@@ -26,7 +33,7 @@ AxisFit fitAxis(double center, double observed, double usual, double sigma, doub
 // Unseen parts lie out of the image, when the box is cut on one side and the axis runs sideways; else behind.
 double growDirection(const Eigen::Vector2d& axis, const Eigen::Vector2d& center, const BoxEvidence& e) {
   const double leftwards = (center.x() * axis.y() - center.y() * axis.x()) / std::max(center.norm(), 0.1);
-  if (e.cut_left != e.cut_right && std::abs(leftwards) > 0.5) return (leftwards > 0) == e.cut_left ? 1 : -1;
+  if (e.cut.left != e.cut.right && std::abs(leftwards) > 0.5) return (leftwards > 0) == e.cut.left ? 1 : -1;
   return axis.dot(center) > 0 ? 1 : -1;
 }
 
@@ -41,8 +48,7 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
   const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, growDirection(front, r.center, e));
   const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, growDirection(left, r.center, e));
   const Eigen::Vector2d center = front * depth.center + left * width.center;
-  PlacedShape placed;
-  placed.shape = m.nominal();
+  PlacedShape placed = usualShape(e);
   placed.shape.depth = depth.size;
   placed.shape.width = width.size;
   placed.x = center.x();
@@ -73,8 +79,7 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   if (!contact || contact->norm() < 0.1 || !e.model->rests_on_ground) return out;
   const Eigen::Vector2d ahead = contact->normalized();
   for (int k = 0; k < 8; ++k) {
-    PlacedShape placed;
-    placed.shape = e.model->nominal();
+    PlacedShape placed = usualShape(e);
     placed.yaw = wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + k * std::numbers::pi / 4);
     double reach = 0;
     for (const auto& corner : footprint(placed.shape))
@@ -92,11 +97,10 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
 // Neither depth nor a visible bottom: as far as the usual width looks as wide as the box, front to the
 // camera.
 std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
-  if (e.cut_left || e.cut_right || halfAngleOf(e) < 1e-3) return {};
+  if (e.cut.left || e.cut.right || halfAngleOf(e) < 1e-3) return {};
   const double bearing = bearingOf(e),
                range = e.model->width_m / 2 / std::tan(halfAngleOf(e)) + e.model->depth_m / 2;
-  PlacedShape placed;
-  placed.shape = e.model->nominal();
+  PlacedShape placed = usualShape(e);
   placed.x = range * std::cos(bearing);
   placed.y = range * std::sin(bearing);
   placed.yaw = wrapAngle(bearing + std::numbers::pi);
@@ -115,15 +119,17 @@ std::vector<PlacedShape> cuboidGuesses(const BoxEvidence& e) {
 
 }  // namespace
 
-std::vector<PlacedShape> cuboidHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
+std::vector<PlacedShape> CuboidGenerator::generate(const BoxEvidence& evidence,
+                                                   const GeneratorLimits& limits) const {
+  if (!heightKnown(evidence)) return {};
   auto guesses = cuboidGuesses(evidence);
   for (PlacedShape& guess : guesses) judge(guess, evidence);
   const bool blind = evidence.mask.points.empty();
   const GeneratorLimits starts{limits.max_count + 1, 0, nullptr};
   std::vector<PlacedShape> fitted;
-  for (const PlacedShape& guess : keepBest(guesses, blind ? 0.15 : 0, blind ? 0.2 : 0, starts))
+  for (const PlacedShape& guess : keepBest(guesses, blind ? kBlindStarts : SamePlace{0, 0}, starts))
     fitted.push_back(fitShape(guess, evidence));
-  return keepBest(fitted, 0.05, 0.1, limits);
+  return keepBest(fitted, {}, limits);
 }
 
 }  // namespace roomgraph

@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cylinder hypotheses from depth points, the leg of the chair, or nominal size.
+#include "cylinder_generator.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "fit_shape.h"
-#include "generators.h"
 #include "leg_line.h"
+#include "roomgraph/core/order_statistics.h"
+#include "roomgraph/proposals/shape_fit.h"
 
 namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(CylinderGenerator, ShapeGenerator, roomgraph)
+
 namespace {
 
 // The box's bottom side touches the near rim of the base; chair feet rarely point straight at the camera.
 constexpr double kRim = 0.9;
-constexpr double kFarthestAxis = 20;  // m
+constexpr double kFarthestAxis = 20;  // m; beyond, a pixel of the box's bottom is metres
+constexpr double kNearest = 0.03, kFarthest = 0.97;  // quantiles that stand for the ends of noisy points
+// Starts from the leg's line that go into the fit: how many, how far apart, and their least IoU with the box.
+constexpr int kLegStarts = 2;
+constexpr double kLegSpacing_m = 0.15, kLegIou = 0.3;
 
 PlacedShape placeAt(double bearing, double range, const BoxEvidence& e, const char* source) {
-  PlacedShape placed;
-  placed.shape = e.model->nominal();
+  PlacedShape placed = usualShape(e);
   placed.x = range * std::cos(bearing);
   placed.y = range * std::sin(bearing);
   placed.source = source;
@@ -30,16 +38,17 @@ double rangeFromPoints(const BoxEvidence& e, double bearing) {
   std::vector<double> along;
   for (const auto& p : e.mask.points) along.push_back(ahead.dot(p.in_ground.head<2>()));
   const double radius = e.model->nominal().radius();
-  const double front = quantile(along, 0.03) + kRim * radius, rear = quantile(along, 0.97) - kRim * radius;
+  const double front = quantile(along, kNearest) + kRim * radius,
+               rear = quantile(along, kFarthest) - kRim * radius;
   return rear > front ? (front + rear) / 2 : front;
 }
 
 // Bearing of the box's middle; with a side cut by the border, of the points' middle.
 double bearingOfObject(const BoxEvidence& e) {
-  if ((!e.cut_left && !e.cut_right) || e.mask.points.empty()) return bearingOf(e);
+  if ((!e.cut.left && !e.cut.right) || e.mask.points.empty()) return bearingOf(e);
   std::vector<double> bearings;
   for (const auto& p : e.mask.points) bearings.push_back(std::atan2(p.in_ground.y(), p.in_ground.x()));
-  return (quantile(bearings, 0.03) + quantile(bearings, 0.97)) / 2;
+  return (quantile(bearings, kNearest) + quantile(bearings, kFarthest)) / 2;
 }
 
 // Where a pixel of the box's bottom line meets the ground, ground frame.
@@ -56,7 +65,7 @@ std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
   constexpr int kSteps = 4;
   constexpr double kStep = 0.04;  // of the box's height
   std::vector<PlacedShape> out;
-  if (e.cut_bottom || !e.model->rests_on_ground) return out;
+  if (e.cut.bottom || !e.model->rests_on_ground) return out;
   const LegLine leg = findLeg(e.segments, e.box);
   const auto place = [&](double u, double v, double beyond, const char* source) {
     if (const auto p = onGround(u, v, e)) {
@@ -71,7 +80,7 @@ std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
       for (int k = 0; k < kSteps; ++k) place(u, e.box.v_max - k * kStep * e.box.height(), 0, "leg votes");
   }
   for (PlacedShape& placed : out) judge(placed, e);
-  return keepBest(out, 0.15, 10, {2, 0.3, nullptr});
+  return keepBest(out, {kLegSpacing_m, kAnyYaw_rad}, {kLegStarts, kLegIou, nullptr});
 }
 
 std::vector<PlacedShape> cylinderGuesses(const BoxEvidence& e) {
@@ -81,20 +90,22 @@ std::vector<PlacedShape> cylinderGuesses(const BoxEvidence& e) {
   if (const auto contact = contactPoint(e); contact && e.model->rests_on_ground)
     out.push_back(placeAt(bearing, contact->norm() + kRim * radius, e, "contact"));
   // The leg tells more than the box's middle where there is no depth or one of the sides is not seen.
-  if (e.mask.points.empty() || e.cut_left || e.cut_right)
+  if (e.mask.points.empty() || e.cut.left || e.cut.right)
     for (const PlacedShape& placed : guessesFromLeg(e)) out.push_back(placed);
   // Neither depth nor a visible bottom: as far as the usual size looks as wide as the box.
-  if (out.empty() && !e.cut_left && !e.cut_right && halfAngleOf(e) > 1e-3)
+  if (out.empty() && !e.cut.left && !e.cut.right && halfAngleOf(e) > 1e-3)
     out.push_back(placeAt(bearing, radius / std::sin(halfAngleOf(e)), e, "size"));
   return out;
 }
 
 }  // namespace
 
-std::vector<PlacedShape> cylinderHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
+std::vector<PlacedShape> CylinderGenerator::generate(const BoxEvidence& evidence,
+                                                     const GeneratorLimits& limits) const {
+  if (!heightKnown(evidence)) return {};
   std::vector<PlacedShape> fitted;
   for (const PlacedShape& guess : cylinderGuesses(evidence)) fitted.push_back(fitShape(guess, evidence));
-  return keepBest(fitted, 0.05, 10, limits);
+  return keepBest(fitted, {.angle_rad = kAnyYaw_rad}, limits);
 }
 
 }  // namespace roomgraph

@@ -98,7 +98,7 @@ void addLevelLines(const std::vector<Sides>& sides, const BoxEvidence& e, std::v
 
 // The other side is a usual width away from the nearer one: |s far - near| = width has up to two solutions.
 void addUsualWidth(const std::vector<Sides>& sides, const BoxEvidence& e, std::vector<PlacedShape>& out) {
-  if (e.cut_left || e.cut_right) return;
+  if (e.cut.left || e.cut.right) return;
   const double width = e.model->width_m;
   for (const Sides& side : sides) {
     const double middle = side.far.dot(side.near);
@@ -136,8 +136,8 @@ std::optional<Measured> sideRange(const BoxEvidence& e, double u) {
     return ray.z() / ray.head<2>().norm();
   };
   std::optional<Measured> bottom, top;
-  if (!e.cut_bottom) bottom = rangeOf(height, -slope(e.box.v_max), angle, 0);
-  if (!e.cut_top)
+  if (!e.cut.bottom) bottom = rangeOf(height, -slope(e.box.v_max), angle, 0);
+  if (!e.cut.top)
     top = rangeOf(e.model->height_m - height, slope(e.box.v_min), angle,
                   std::max(0.02, e.model->height_sigma_m));
   if (!bottom || !top) return bottom ? bottom : top;
@@ -158,8 +158,8 @@ std::optional<Measured> levelDirection(const Segment2& s, const BoxEvidence& e, 
 
 std::vector<PlacedShape> doorsFromImage(const BoxEvidence& evidence) {
   BoxEvidence e = evidence;
-  if (!e.cut_left) e.box.u_min = frameEdge(evidence, evidence.box.u_min);
-  if (!e.cut_right) e.box.u_max = frameEdge(evidence, evidence.box.u_max);
+  if (!e.cut.left) e.box.u_min = frameEdge(evidence, evidence.box.u_min);
+  if (!e.cut.right) e.box.u_max = frameEdge(evidence, evidence.box.u_max);
   const auto sides = sidesOf(e);
   std::vector<PlacedShape> out;
   addLevelLines(sides, e, out);

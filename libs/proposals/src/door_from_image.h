@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "generators.h"
+#include "roomgraph/proposals/placed_shape.h"
 
 namespace roomgraph {
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Door hypotheses from a vertical plane in the depth or from the image.
+#include "door_generator.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "door_from_image.h"
 #include "door_on_plane.h"
-#include "fit_shape.h"
-#include "generators.h"
+#include "roomgraph/proposals/shape_fit.h"
 #include "vertical_plane.h"
 
 namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(DoorGenerator, ShapeGenerator, roomgraph)
+
 namespace {
 
 constexpr double kMinHeight = 0.15;  // m; lower points may be floor
@@ -25,7 +29,7 @@ std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
 
 // Adjusts the height to the box's top when that is in view: it is where the door's nearer side ends.
 void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
-  if (e.cut_top) return;
+  if (e.cut.top) return;
   const Eigen::Vector2d half =
       0.5 * placed.shape.width * Eigen::Vector2d(-std::sin(placed.yaw), std::cos(placed.yaw));
   const Eigen::Vector2d center(placed.x, placed.y);
@@ -42,7 +46,8 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
 
 }  // namespace
 
-std::vector<PlacedShape> doorHypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
+std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
+                                                 const GeneratorLimits& limits) const {
   std::vector<PlacedShape> guesses;
   const auto plane = fitVerticalPlane(footprintPoints(evidence));
   if (plane) {
@@ -58,7 +63,7 @@ std::vector<PlacedShape> doorHypotheses(const BoxEvidence& evidence, const Gener
     adjustHeight(placed, evidence);
     judge(placed, evidence);
   }
-  return keepBest(guesses, 0.05, 0.1, limits);
+  return keepBest(guesses, {}, limits);
 }
 
 }  // namespace roomgraph

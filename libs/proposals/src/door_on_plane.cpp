@@ -29,7 +29,7 @@ std::optional<ColumnHit> columnOnPlane(const BoxEvidence& e, const VerticalPlane
 
 SeenInterval seenBetween(const ColumnHit& left, const ColumnHit& right, const BoxEvidence& e) {
   const double px = sideSigma(e.box.width());
-  SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut_left, e.cut_right};
+  SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut.left, e.cut.right};
   // The coordinate along the plane grows to the right of the image, or to the left.
   if (out.low > out.high) {
     std::swap(out.low, out.high);

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "generators.h"
+#include "roomgraph/proposals/placed_shape.h"
 #include "vertical_plane.h"
 
 namespace roomgraph {

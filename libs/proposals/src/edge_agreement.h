@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "generators.h"
+#include "roomgraph/proposals/placed_shape.h"
 
 namespace roomgraph {
 

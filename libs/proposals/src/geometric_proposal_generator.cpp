@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evidence, hypotheses, scores and covariances of one frame; alternatives when depth misleads.
+// Evidence, hypotheses, scores and covariances of one frame; other explanations of misleading depth.
 #include "geometric_proposal_generator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "gather_evidence.h"
 #include "initial_score.h"
 #include "proposal_covariance.h"
 
@@ -16,25 +17,12 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 namespace {
 
 constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
-constexpr double kPredictedVariance = 1e-4;  // rad², m²: of a ground plane that was not seen
-constexpr double kUnsupported =
-    0.7;  // on the quality of what no depth point speaks for, where there are some
+constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points there are
 
 // Largest standard deviation of the ground's normal.
 double tiltSigma(const GroundEstimate& ground) {
   const Eigen::Matrix3d covariance = ground.covariance.topLeftCorner<3, 3>();
   return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
-}
-
-std::vector<PlacedShape> hypotheses(const BoxEvidence& evidence, const GeneratorLimits& limits) {
-  switch (evidence.model->nominal().kind) {
-    case ShapeKind::kCylinder:
-      return cylinderHypotheses(evidence, limits);
-    case ShapeKind::kPlanar:
-      return doorHypotheses(evidence, limits);
-    default:
-      return cuboidHypotheses(evidence, limits);
-  }
 }
 
 // Share of the box in which something stands clearly before the shape: the detector saw that, then.
@@ -52,16 +40,17 @@ double obscured(const PlacedShape& placed, const BoxEvidence& e) {
 // With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
 // been taken for the object.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
-                                      const Frame& frame, const GeneratorLimits& limits) {
+                                      const Frame& frame, const ShapeGenerator& generator,
+                                      const GeneratorLimits& limits) {
   std::vector<PlacedShape> all = std::move(first);
   for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
-    for (PlacedShape placed : hypotheses(withMask(evidence, mask, frame), limits)) {
+    for (PlacedShape placed : generator.generate(withMask(evidence, mask, frame), limits)) {
       placed.supported = !mask.points.empty();
       if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
       all.push_back(std::move(placed));
     }
   }
-  return keepBest(all, 0.05, 0.1, limits);
+  return keepBest(std::move(all), {}, limits);
 }
 
 // Nothing when it is out of view.
@@ -103,50 +92,30 @@ ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore
 }  // namespace
 
 void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
-  v.add("use_depth", use_depth_, {.doc = "false: box and expected ground only, as without a depth camera"});
+  v.add("use_depth", use_depth_, {.doc = "false: from the box and the ground alone, as without a depth camera ([ground] class = "
+                "ExpectedGroundDetector does the same for the ground)"});
   v.add("max_proposals", limits_.max_count, {.doc = "hypotheses kept per detection", .min = 1, .max = 5});
   v.add("min_box_iou", limits_.min_iou,
         {.doc = "smallest IoU of projected shape and box", .min = 0, .max = 1});
-  v.add(
-      "ground_max_angle_error", search_.max_angle_error,
-      {.doc = "largest angle between seen and expected ground normal", .unit = "rad", .min = 0, .max = 1.5});
-  v.add(
-      "ground_max_height_error_m", search_.max_height_error_m,
-      {.doc = "largest difference between seen and expected camera height", .unit = "m", .min = 0, .max = 2});
-  v.add("ground_max_tilt", search_.max_tilt,
-        {.doc = "without expectation: largest angle between ground normal and the image's up",
-         .unit = "rad",
-         .min = 0,
-         .max = 1.5});
-  v.add("ground_min_camera_height_m", search_.min_camera_height_m,
-        {.doc = "without expectation: a plane nearer than this is a table", .unit = "m", .min = 0, .max = 5});
-  v.add("ground_max_range_m", search_.max_range_m,
-        {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
+}
+
+void GeometricProposalGenerator::prepare() {
+  if (database_ && generators_.empty()) generators_ = ShapeGenerators(*database_);
 }
 
 FrameProposals GeometricProposalGenerator::generate(const Frame& frame,
                                                     const std::vector<Detection>& detections,
-                                                    const std::optional<Plane>& expected_ground) {
+                                                    const FrameGround& ground) {
   FrameProposals out;
   out.frame = frame.id;
   out.t = frame.t;
   out.detections = detections;
-  if (!frame.camera.valid()) {
-    out.ground_reason = "no camera intrinsics";
-    return out;
-  }
+  out.ground = ground.estimate;
+  out.ground_reason = ground.reason;
   Frame used = frame;
   if (!use_depth_) used.depth.release();
-  const auto found = findGround(used, expected_ground, search_);
-  if (found) {
-    out.ground = *found;
-  } else {
-    out.ground_reason = found.reason();
-    if (expected_ground)
-      out.ground = GroundEstimate{*expected_ground, Eigen::Matrix4d::Identity() * kPredictedVariance, false};
-  }
   if (keep_traces_) out.traces.resize(detections.size());
-  if (!out.ground || !database_) return out;
+  if (!out.ground || !database_ || !frame.camera.valid()) return out;
   for (int i = 0; i < static_cast<int>(detections.size()); ++i) propose(used, i, out);
   return out;
 }
@@ -161,9 +130,10 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   GeneratorLimits limits = limits_;
   std::vector<PlacedShape> rejected;
   if (keep_traces_) limits.rejected = &rejected;
-  auto found = hypotheses(evidence, limits);
+  const ShapeGenerator& generator = generators_.of(*model);
+  auto found = generator.generate(evidence, limits);
   if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
-    found = reconsidered(std::move(found), evidence, frame, limits);
+    found = reconsidered(std::move(found), evidence, frame, generator, limits);
   const double tilt_sigma = tiltSigma(*out.ground);
   for (const PlacedShape& placed : found)
     if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proposal generator for cylinders, cuboids and doors from box, ground and depth.
+// Proposal generator from box, ground and depth by the shape generators of the classes.
 #pragma once
 
-#include "generators.h"
-#include "ground_plane.h"
 #include "roomgraph/proposals/proposal_generator.h"
 
 namespace roomgraph {
 
-/// Box + ground + depth -> cylinders, cuboids and doors. A proposal's covariance is of (x, y, z, yaw) in the
+/// Box + ground + depth -> placed shapes, by the shape generator of the detection's class. A proposal's covariance is of (x, y, z, yaw) in the
 /// ground frame (geometry/ground.h: below the camera, x along the optical axis' horizontal direction, y left,
 /// z up). Its score is the detection's initialisation score times how well the shape explains box, points and
 /// usual size; the proposals of one detection stand together, best first.
@@ -17,15 +15,18 @@ class GeometricProposalGenerator : public ProposalGenerator {
  public:
   void declareParameters(ParameterVisitor& visitor) override;
   void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
+  void setShapeGenerators(ShapeGenerators generators) override { generators_ = std::move(generators); }
+  /// Makes the shape generators, with default parameters, when none were set.
+  void prepare() override;
   FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
-                          const std::optional<Plane>& expected_ground) override;
+                          const FrameGround& ground) override;
   void keepTraces(bool keep) override { keep_traces_ = keep; }
 
  private:
   void propose(const Frame& frame, int index, FrameProposals& out) const;
 
-  GroundSearch search_;
   GeneratorLimits limits_;
+  ShapeGenerators generators_;
   bool use_depth_ = true, keep_traces_ = false;
   const ObjectDatabase* database_ = nullptr;
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "find_edges.h"
+
 namespace roomgraph {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "generators.h"
+#include "roomgraph/proposals/box_evidence.h"
 
 namespace roomgraph {
 

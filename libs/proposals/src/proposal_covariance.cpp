@@ -9,7 +9,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kHeightSigma = 0.02;  // m, of the ground below the object
+constexpr double kHeightSigma = 0.02;   // m, of the ground below the object
+constexpr double kBottomSigma_m = 0.05;  // of the lowest depth point of an object that does not rest on the ground
 
 /// Standard deviations along and across the view, m, and of yaw, rad.
 struct Deviations {
@@ -60,15 +61,16 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   s.yaw += misfit;
   if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints)
     s.along *= 1.5, s.across *= 1.3, s.yaw *= 2;
-  if (e.cut_left || e.cut_right) s.across *= 1.7, s.along *= 1.2, s.yaw *= 1.5;
-  if (e.cut_bottom) s.along *= 1.3;
+  if (e.cut.left || e.cut.right) s.across *= 1.7, s.along *= 1.2, s.yaw *= 1.5;
+  if (e.cut.bottom) s.along *= 1.3;
   if (!placed.has_yaw) s.yaw = std::numbers::pi;
   const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   covariance.topLeftCorner<2, 2>() = turn.toRotationMatrix() *
                                      Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
                                      turn.toRotationMatrix().transpose();
-  covariance(2, 2) = kHeightSigma * kHeightSigma;
+  const double height_sigma = e.model->rests_on_ground ? kHeightSigma : kBottomSigma_m;
+  covariance(2, 2) = height_sigma * height_sigma;
   covariance(3, 3) = s.yaw * s.yaw;
   return covariance;
 }

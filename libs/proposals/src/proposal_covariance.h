@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "generators.h"
+#include "roomgraph/proposals/placed_shape.h"
 
 namespace roomgraph {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "generators.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

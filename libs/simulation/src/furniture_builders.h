@@ -26,6 +26,11 @@ void buildDesk(const BuildRequest& request);
 void buildShelf(const BuildRequest& request);
 void buildCabinet(const BuildRequest& request);
 void buildBlock(const BuildRequest& request);
+// Bedroom and kitchen
+void buildBed(const BuildRequest& request);
+void buildTable(const BuildRequest& request);
+void buildCupboard(const BuildRequest& request);
+void buildRefrigerator(const BuildRequest& request);
 // Smaller things
 void buildPlant(const BuildRequest& request);
 void buildMonitor(const BuildRequest& request);

@@ -8,10 +8,12 @@
 namespace roomgraph {
 namespace {
 
-/// Label of the COCO data set for a class; empty: a detector has no name for it.
+/// Label of the COCO data set for a class, a cabinet's of ADE20K; empty: a detector has no name for it.
 std::string labelOf(const SceneObject& object) {
   static const std::map<std::string, std::string> classes{
-      {"swivel_chair", "chair"}, {"sofa", "couch"}, {"person", "person"}, {"door", "door"}};
+      {"swivel_chair", "chair"}, {"sofa", "couch"}, {"person", "person"},
+      {"door", "door"},          {"bed", "bed"},    {"table", "dining table"},
+      {"cabinet", "cabinet"},    {"refrigerator", "refrigerator"}};
   static const std::map<std::string, std::string> kinds{
       {"wooden chair", "chair"}, {"plant", "potted plant"}, {"monitor", "tv"}, {"desk", "dining table"}};
   if (const auto found = classes.find(object.class_name); found != classes.end()) return found->second;

@@ -33,8 +33,8 @@ class ObjectMapper {
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
                   const Frame& frame);
 
-  /// What a scan says of the landmarks it crosses; one from each place.
-  void observe(const Scan& scan, const Pose3& world_from_robot);
+  /// What a scan says of the landmarks it crosses, by what of their classes stops beams; one from each place.
+  void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
 
   /// Merges landmarks that turned out to be one object, in the memory too; splits those that are two.
   void tidy();

@@ -19,11 +19,11 @@ struct BoxSides {
   bool operator==(const BoxSides&) const = default;
 };
 
-/// Which sides of a measured box lie inside the image, not on its border.
-inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera) {
-  constexpr double kBorder_px = 2;  // a detector's box hardly ever ends on the very last pixel
-  return {box.u_min > kBorder_px, box.v_min > kBorder_px, box.u_max < camera.width - kBorder_px,
-          box.v_max < camera.height - kBorder_px};
+/// Which sides of a measured box lie inside the image, farther than `border_px` from its border: a detector's
+/// box hardly ever ends on the very last pixel.
+inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera, double border_px = 2) {
+  return {box.u_min > border_px, box.v_min > border_px, box.u_max < camera.width - border_px,
+          box.v_max < camera.height - border_px};
 }
 
 }  // namespace roomgraph

@@ -11,20 +11,36 @@
 
 namespace roomgraph {
 
+/// What tells the front of an object among the sides that its shape allows.
+enum class FrontRule {
+  kNone,      ///< nothing, or the object has no front
+  kHighBack,  ///< the side away from the highest part: seats
+  kNearSide   ///< of the sides that fit, the one that is seen: furniture that stands against a wall
+};
+
 /// One record of objects.ini (method.md "Object database"): an INI section named after the class.
 struct ObjectModel : Configurable {
   std::string class_name;           ///< section name
+  std::string place;                ///< "objects.ini:12: [sofa]", for messages
   std::vector<std::string> labels;  ///< detector labels it answers to
   std::string shape = "cuboid";
   double width_m = 1, depth_m = 1, height_m = 1;
   double width_sigma_m = .1, depth_sigma_m = .1, height_sigma_m = .1;
   int symmetry = 1;  ///< yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg
   bool rests_on_ground = true;
-  bool landmark = true;  ///< false: seen and masked, never mapped (persons)
+  std::string front = "near_side";   ///< see frontRule()
+  double solid_share = 0;            ///< of the height: a lidar beam below it cannot pass through the object
+  bool moves = false;                ///< by itself (persons): masked out of odometry, scans and map
+  bool landmark = true;              ///< false: detected, never mapped
+  std::string generator = "auto";    ///< see generatorName()
   std::string color = "#888888";
 
   void declareParameters(ParameterVisitor& visitor) override;
   ObjectShape nominal() const;
+  /// What tells the front; kNone for shapes without a yaw or with symmetric sides.
+  FrontRule frontRule() const;
+  /// Class name of the shape generator; for "auto" the shipped one of the shape.
+  std::string generatorName() const;
 };
 
 /// The classes the program knows, from a text file beside config.ini; adding one needs no code.
@@ -39,6 +55,8 @@ class ObjectDatabase {
   const ObjectModel* find(const std::string& class_name) const;
   /// By a detector's label (case-insensitive); null when no class answers to it.
   const ObjectModel* byLabel(const std::string& label) const;
+  /// Whether objects of a class move by themselves; false for an unknown class.
+  bool moves(const std::string& class_name) const;
   /// Reference of the keys, in Markdown.
   static std::string markdown();
 

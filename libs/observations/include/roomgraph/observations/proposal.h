@@ -2,6 +2,7 @@
 // Ground estimate, 3D proposals of objects, and selected object measurements.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct GroundEstimate {
   Plane plane;                                           ///< camera frame
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< of (normal, offset)
   bool from_depth = false;                               ///< false: predicted from the extrinsics
+};
+
+/// Ground of one frame: as it was seen, or else as it was predicted.
+struct FrameGround {
+  std::optional<GroundEstimate> estimate;  ///< nothing when it is neither seen nor predicted
+  std::string reason;                      ///< why it was not seen; empty when it was
 };
 
 /// One hypothesis of an object's shape and place (method.md sec. 1.E).
@@ -56,7 +63,7 @@ struct FrameProposals {
   std::vector<Detection> detections;
   std::vector<Proposal> proposals;
   std::optional<GroundEstimate> ground;
-  std::string ground_reason;          ///< why there is no ground plane
+  std::string ground_reason;          ///< why the ground plane was not seen
   std::vector<ProposalTrace> traces;  ///< one per detection when asked for, else empty
 };
 

@@ -79,6 +79,7 @@ struct Options {
   LidarOptions lidar;
   StageChoice scan_loop_closing{"SubmapLoopCloser"};
   DetectionStageOptions detection;
+  StageChoice ground{"DepthGroundDetector"};
   StageChoice proposals{"GeometricProposalGenerator"}, selection{"CrfSelector"}, association{"SoftAssociator"};
   LandmarkOptions landmarks;
   ObjectLoopOptions object_loops;

@@ -7,6 +7,7 @@
 #include "roomgraph/association/associator.h"
 #include "roomgraph/detection/detector.h"
 #include "roomgraph/lidar/scan_matcher.h"
+#include "roomgraph/proposals/ground_detector.h"
 #include "roomgraph/proposals/proposal_generator.h"
 #include "roomgraph/selection/proposal_selector.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
@@ -19,6 +20,8 @@ struct Stages {
   std::shared_ptr<ScanMatcher> scan_matcher;
   std::shared_ptr<ScanLoopCloser> scan_loop_closer;
   std::shared_ptr<Detector> detector;
+  std::shared_ptr<GroundDetector> ground_detector;
+  ShapeGenerators shape_generators;  ///< those that the object database names
   std::shared_ptr<ProposalGenerator> proposal_generator;
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edge detection on the reduced box, and segments supported by the depth mask.
-#include "box_edges.h"
+#include "find_edges.h"
 
 #include <algorithm>
 #include <cmath>

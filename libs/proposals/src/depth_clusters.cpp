@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voxel clustering of depth points, and choice of the cluster that explains the box.
-#include "depth_mask.h"
+#include "depth_clusters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <nanoflann.hpp>
 #include <tuple>
 
-#include "generators.h"
 #include "plane_fit.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {
@@ -128,11 +128,10 @@ Eigen::Vector2d middleOf(const DepthMask& mask) {
   return {(quantile(x, 0.05) + quantile(x, 0.95)) / 2, (quantile(y, 0.05) + quantile(y, 0.95)) / 2};
 }
 
-// A part of a large box-shaped object: a back rest, parted from the seat by a surface seen at a grazing
-// angle.
-bool isPart(const DepthMask& part, const Eigen::Vector2d& middle, std::size_t main_size,
+// Whether a cluster is the object's high back: parted from the seat by a surface seen at a grazing angle.
+bool isBackRest(const DepthMask& part, const Eigen::Vector2d& middle, std::size_t main_size,
             const ObjectModel& model) {
-  if (model.nominal().kind != ShapeKind::kCuboid ||
+  if (model.frontRule() != FrontRule::kHighBack ||
       part.points.size() < 0.05 * static_cast<double>(main_size))
     return false;
   std::vector<double> heights;
@@ -153,7 +152,7 @@ void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::siz
   const double reach = std::min(model.width_m, model.depth_m) / 2 + 0.05;
   for (std::size_t k = 0; k < others.size(); ++k) {
     if (k == skip) continue;
-    const bool whole = isPart(others[k], middle, main_size, model);
+    const bool whole = isBackRest(others[k], middle, main_size, model);
     for (const auto& p : others[k].points)
       if (whole || (p.in_ground.head<2>() - middle).norm() < reach) main.points.push_back(p);
   }
@@ -211,14 +210,6 @@ std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const
     if (mask.points.size() >= kLeastPoints) out.push_back(mask);
   }
   return out;
-}
-
-DepthMask explainBox(const DepthMask& all, const Box2& box, const ObjectModel& model, double focal_px) {
-  auto found = explanations(all, box, model, focal_px, 1);
-  if (!found.empty()) return std::move(found.front());
-  DepthMask none;
-  none.valid_ratio = all.valid_ratio;
-  return none;
 }
 
 }  // namespace roomgraph

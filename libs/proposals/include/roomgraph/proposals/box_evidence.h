@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is known about one detection: box, depth points, image edges, ground and class.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "roomgraph/geometry/box_sides.h"
+#include "roomgraph/geometry/ground.h"
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/proposals/box_edges.h"
+#include "roomgraph/proposals/depth_mask.h"
+
+namespace roomgraph {
+
+/// Everything a shape generator knows about one detection. The ground frame (geometry/ground.h) has its origin on
+/// the floor below the camera, x along the optical axis' horizontal direction, y left, z up.
+struct BoxEvidence {
+  PinholeCamera camera;
+  Plane ground;  ///< camera frame
+  Pose3 camera_from_ground = Pose3::Identity();
+  Box2 box;              ///< px, clipped to the image
+  BoxSides cut;          ///< sides at the image border or at a nearer object: the object may reach beyond them
+  BoxSides hidden;       ///< of these, the sides at a nearer object
+  DepthMask mask;        ///< of the object; may be empty
+  DepthMask all;         ///< everything in the box
+  DepthMask other_mask;  ///< the second best explanation of the box's points; may be empty
+  BoxEdges edges;
+  std::vector<Segment2> segments;      ///< of the edges, those the mask supports, longest first
+  double ground_tilt_sigma = 0;        ///< rad, of the ground's normal; 0: it was seen, nothing to correct
+  const ObjectModel* model = nullptr;  ///< class of the object; never null when a generator is called
+};
+
+/// Where the middle of the box's bottom side meets the ground (paper Eq. 2), ground frame; nothing when that side is
+/// cut or above the horizon.
+std::optional<Eigen::Vector2d> contactPoint(const BoxEvidence& evidence);
+/// Direction of the box's middle on the ground, rad, ground frame.
+double bearingOf(const BoxEvidence& evidence);
+/// Half of the angle on the ground between the box's left and right side, rad.
+double halfAngleOf(const BoxEvidence& evidence);
+
+}  // namespace roomgraph

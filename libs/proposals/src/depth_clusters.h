@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Segmentation of a detected object's depth points from background and occluders.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/observations/detection.h"
+#include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/object_database.h"
+#include "roomgraph/proposals/depth_mask.h"
+
+namespace roomgraph {
+
+/// All points inside the box (slightly shrunk), and inside the detection's mask when it has one. At most
+/// about `max_points`, on a regular pixel grid.
+DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
+                    int max_points = 800);
+
+/// Removes the ground and what is higher than the class can be, clusters the rest (Euclidean distance) and returns the
+/// clusters that explain the box, best first, at most `max_count`: large, central, filling the box, not behind others.
+/// When the first is an occluder, the object is the next. Parts of the object that are apart from its cluster (a seat
+/// above a thin leg) are taken in when they lie within the nominal size.
+std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
+                                    double focal_px, int max_count);
+
+}  // namespace roomgraph

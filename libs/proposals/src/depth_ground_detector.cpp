@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of the search for the ground plane, and the two shipped ground detectors.
+#include "depth_ground_detector.h"
+
+namespace roomgraph {
+
+IMPLEMENTS_MRPT_OBJECT(DepthGroundDetector, GroundDetector, roomgraph)
+IMPLEMENTS_MRPT_OBJECT(ExpectedGroundDetector, GroundDetector, roomgraph)
+
+void DepthGroundDetector::declareParameters(ParameterVisitor& v) {
+  v.add("max_angle_error", search_.max_angle_error,
+        {.doc = "largest angle between seen and expected ground normal", .unit = "rad", .min = 0, .max = 1.5});
+  v.add("max_height_error_m", search_.max_height_error_m,
+        {.doc = "largest difference between seen and expected camera height", .unit = "m", .min = 0, .max = 2});
+  v.add("max_tilt", search_.max_tilt,
+        {.doc = "without expectation: largest angle between ground normal and the image's up",
+         .unit = "rad",
+         .min = 0,
+         .max = 1.5});
+  v.add("min_camera_height_m", search_.min_camera_height_m,
+        {.doc = "without expectation: a plane nearer than this is a table", .unit = "m", .min = 0, .max = 5});
+  v.add("max_range_m", search_.max_range_m,
+        {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
+}
+
+Outcome<GroundEstimate> DepthGroundDetector::detect(const Frame& frame, const std::optional<Plane>& expected) {
+  return findGround(frame, expected, search_);
+}
+
+Outcome<GroundEstimate> ExpectedGroundDetector::detect(const Frame&, const std::optional<Plane>&) {
+  return Outcome<GroundEstimate>::failure("the depth image is not searched for it");
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Depth mask, edges, and cut and hidden sides of a detection's box.
+#include "gather_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "depth_clusters.h"
+#include "find_edges.h"
+#include "roomgraph/core/order_statistics.h"
+
+namespace roomgraph {
+namespace {
+
+BoxSides sidesAtBorder(const BoxEvidence& e) {
+  constexpr double kBorder_px = 3;
+  const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
+  return {!inside.left, !inside.top, !inside.right, !inside.bottom};
+}
+
+// Whether most of what lies along the line from a to b (px, just outside the box) stands nearer than the
+// object.
+bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double object_range,
+                 const BoxEvidence& e, const Frame& frame) {
+  constexpr int kSamples = 24;
+  constexpr double kShare = 0.4, kNearer = 0.15, kStanding = 0.12;  // m: nearer by, higher than
+  const Pose3 ground_from_camera = e.camera_from_ground.inverse();
+  int hiding = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Vector2d p = a + (i + 0.5) / kSamples * (b - a);
+    const float z = frame.depthAt(p.x(), p.y());
+    if (!(z > 0) || !std::isfinite(z)) continue;
+    const Eigen::Vector3d q = ground_from_camera * e.camera.backProject(p.x(), p.y(), z);
+    hiding += q.z() > kStanding && q.head<2>().norm() < object_range - kNearer;
+  }
+  return hiding >= kShare * kSamples;
+}
+
+// A side that stops at a nearer object says no more about the model than one at the image border.
+void markHidden(BoxEvidence& e, const Frame& frame) {
+  if (e.mask.points.empty() || !frame.hasDepth()) return;
+  std::vector<double> ranges;
+  for (const auto& p : e.mask.points) ranges.push_back(p.in_ground.head<2>().norm());
+  const double range = quantile(std::move(ranges), 0.1);
+  const Box2& b = e.box;
+  const double du = 3 + 0.02 * b.width(), dv = 3 + 0.02 * b.height();
+  const auto along = [&](double u0, double v0, double u1, double v1) {
+    return hiddenAlong({u0, v0}, {u1, v1}, range, e, frame);
+  };
+  e.hidden.left = !e.cut.left && along(b.u_min - du, b.v_min, b.u_min - du, b.v_max);
+  e.hidden.right = !e.cut.right && along(b.u_max + du, b.v_min, b.u_max + du, b.v_max);
+  e.hidden.top = !e.cut.top && along(b.u_min, b.v_min - dv, b.u_max, b.v_min - dv);
+  e.hidden.bottom = !e.cut.bottom && along(b.u_min, b.v_max + dv, b.u_max, b.v_max + dv);
+  e.cut.left |= e.hidden.left;
+  e.cut.right |= e.hidden.right;
+  e.cut.top |= e.hidden.top;
+  e.cut.bottom |= e.hidden.bottom;
+}
+
+}  // namespace
+
+BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const ObjectModel& model,
+                           const Plane& ground) {
+  BoxEvidence e;
+  e.camera = frame.camera;
+  e.ground = ground;
+  e.camera_from_ground = cameraFromGround(ground);
+  e.box = clipped(detection.box, frame.camera.width, frame.camera.height);
+  e.model = &model;
+  e.edges = findEdges(frame, e.box);
+  e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
+  auto masks = explanations(e.all, e.box, model, frame.camera.fx, 2);
+  masks.resize(2);
+  masks[0].valid_ratio = e.all.valid_ratio;
+  e.other_mask = std::move(masks[1]);
+  return withMask(e, masks[0], frame);
+}
+
+BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const Frame& frame) {
+  BoxEvidence e = evidence;
+  e.mask = mask;
+  e.hidden = {};
+  e.segments = supportedSegments(e.edges.segments, mask, e.box);
+  if (mask.points.empty()) addDistances(e.edges);
+  e.cut = sidesAtBorder(e);
+  markHidden(e, frame);
+  return e;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quality of a placed shape: overlap with the box, distance of the points, usual size, edges and front.
+#include <algorithm>
+#include <cmath>
+
+#include "edge_agreement.h"
+#include "front_agreement.h"
+#include "roomgraph/proposals/shape_fit.h"
+
+namespace roomgraph {
+namespace {
+
+// Mean distance of the points outside the shape, each at most `most`; m.
+double meanOutside(const PlacedShape& placed, const std::vector<MaskPoint>& points, double most) {
+  if (points.empty()) return 0;
+  const Pose3 object_from_ground = groundFromObject(placed).inverse();
+  double sum = 0;
+  for (const auto& p : points)
+    sum += std::min(most, distanceOutside(placed.shape, object_from_ground * p.in_ground).norm());
+  return sum / static_cast<double>(points.size());
+}
+
+double squaredSizeError(double value, double usual, double sigma) {
+  constexpr double kLeastSigma_m = 0.01;
+  return std::pow((value - usual) / std::max(sigma, kLeastSigma_m), 2);
+}
+
+}  // namespace
+
+void judge(PlacedShape& placed, const BoxEvidence& evidence, const QualityWeights& weights) {
+  const ObjectModel& m = *evidence.model;
+  const auto& points = evidence.mask.points;
+  placed.box_iou = boxIou(placed, evidence);
+  const double size = squaredSizeError(placed.shape.width, m.width_m, m.width_sigma_m) +
+                      squaredSizeError(placed.shape.depth, m.depth_m, m.depth_sigma_m) +
+                      squaredSizeError(placed.shape.height, m.height_m, m.height_sigma_m);
+  placed.quality = placed.box_iou * std::exp(-meanOutside(placed, points, weights.far_outside_m) / weights.outside_m -
+                                             weights.size * size);
+  if (points.empty())
+    if (const auto edges = edgeAgreement(placed, evidence))
+      placed.quality *= 1 - weights.edges + weights.edges * *edges;
+  if (m.frontRule() != FrontRule::kNone)
+    placed.quality *= 1 - weights.front + weights.front * frontAgreement(placed, evidence);
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Factors made of exact measurements of a shipped class: which ones, how many, with what weight, and without error.
+#include <gtest/gtest.h>
+
+#include "roomgraph/association/measurement_model.h"
+#include "roomgraph/estimation/graph_builder.h"
+#include "roomgraph/estimation/object_factors.h"
+
+namespace roomgraph::test {
+namespace {
+
+const ObjectDatabase& shippedObjects() {
+  static const ObjectDatabase database = ObjectDatabase::fromFile(ROOMGRAPH_SOURCE_DIR "/objects.ini");
+  return database;
+}
+
+// Four key poses on an arc round a sofa of the usual size, and everything measured of it without error.
+class SofaSeenFromFourPlaces : public ::testing::Test {
+ protected:
+  SofaSeenFromFourPlaces() : none_(MotionNoise{}, true), motion_{none_, none_, none_}, poses_(motion_) {
+    sofa_.id = LandmarkId{7};
+    sofa_.class_name = sofa_.model = "sofa";
+    sofa_.shape = shippedObjects().find("sofa")->nominal();
+    sofa_.position = {3, 0.5, 0};
+    sofa_.yaw = 2.8;
+    sofa_.has_yaw = true;
+    robot_from_camera_ = poseFromYpr(0.1, 0.05, 1.2, 0, 0.15, 0);
+    robot_from_camera_.linear() = robot_from_camera_.linear() * bodyFromOptical();
+    for (int i = 0; i < 4; ++i) poses_.add(i, poseFromYpr(0.2 * i, -0.3 * i, 0, 0.15 * i, 0, 0));
+    for (const auto& node : poses_.nodes()) frames_.push_back(seenAt(node.t, 0.9));
+  }
+
+  // Points 0 to 3 stand on the sofa's front; 0 is not in view of the last two key poses, 3 is not known to lie on it.
+  ObjectFrame seenAt(double t, double score) const {
+    ObjectFrame frame{.frame = FrameId{static_cast<std::int64_t>(10 * t)}, .t = t, .camera = camera_};
+    frame.robot_from_camera = robot_from_camera_;
+    const Pose3 world_from_camera = poses_.nearest(t).world_from_robot * robot_from_camera_;
+    const Pose3 camera_from_object = world_from_camera.inverse() * sofa_.worldFromObject();
+    ObjectDecision decision;
+    decision.landmark = sofa_.id;
+    decision.association.probability = 0.8;
+    decision.seen.world_from_object = sofa_.worldFromObject();
+    decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
+    decision.seen.camera = camera_;
+    auto& measurement = decision.seen.measurement;
+    measurement.proposal.class_name = measurement.proposal.model = "sofa";
+    measurement.proposal.shape = sofa_.shape;
+    measurement.proposal.camera_from_object = camera_from_object;
+    measurement.proposal.has_yaw = true;
+    measurement.proposal.score = score;
+    measurement.confidence = 0.5;
+    measurement.detection.box = projectShape(sofa_.shape, camera_from_object, camera_)->visible;
+    measurement.features = {0, 1, 2, 8};
+    for (int point = t > 1.5 ? 1 : 0; point < 4; ++point) {
+      const Eigen::Vector3d p = camera_from_object * pointOnSofa(point);
+      frame.features.push_back({camera_.project(p), point, p.z()});
+    }
+    frame.decisions = {decision};
+    return frame;
+  }
+  Eigen::Vector3d pointOnSofa(int point) const {
+    return {sofa_.shape.depth / 2, 0.3 * (point - 1), 0.2 + 0.1 * point};
+  }
+
+  MotionSource none_;
+  Motion motion_;
+  KeyPoses poses_;
+  PinholeCamera camera_{640, 480, 520, 520, 319.5, 239.5, {}};
+  Pose3 robot_from_camera_;
+  Landmark sofa_;
+  std::vector<ObjectFrame> frames_;
+  BackendOptions options_;
+};
+
+TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  EXPECT_EQ(factors.sightings.size(), 4u);
+  ASSERT_EQ(factors.boxes.size(), 4u) << "one of each key pose";
+  ASSERT_EQ(factors.sizes.size(), 1u);
+  const ObjectModel& usual = *shippedObjects().find("sofa");
+  EXPECT_EQ(factors.sizes[0].landmark, sofa_.id);
+  EXPECT_EQ(factors.sizes[0].size_m, Eigen::Vector3d(usual.width_m, usual.depth_m, usual.height_m));
+  EXPECT_EQ(factors.sizes[0].sigma_m,
+            Eigen::Vector3d(usual.width_sigma_m, usual.depth_sigma_m, usual.height_sigma_m));
+  std::vector<std::int64_t> points;
+  for (const auto& [id, place] : factors.points) {
+    points.push_back(id.value);
+    const Eigen::Vector3d truth = sofa_.worldFromObject() * pointOnSofa(static_cast<int>(id.value));
+    EXPECT_LT((place - truth).norm(), 1e-9);
+  }
+  EXPECT_EQ(points, (std::vector<std::int64_t>{1, 2})) << "point 0 was seen from two key poses, 3 is not on it";
+  EXPECT_EQ(factors.views.size(), 8u);
+  ASSERT_EQ(factors.insides.size(), 2u);
+  const double share = options_.landmark_information_share, weight = 0.8 * 0.5 * 0.9;
+  for (const auto& box : factors.boxes) EXPECT_NEAR(box.weight, weight * share, 1e-12);
+  for (const auto& sighting : factors.sightings) EXPECT_NEAR(sighting.weight, weight * share, 1e-12);
+  for (const auto& inside : factors.insides) EXPECT_EQ(inside.weight, share);
+}
+
+TEST_F(SofaSeenFromFourPlaces, LeavesNoErrorWhereEverythingIsTrue) {
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  FactorGraph graph;
+  for (const auto& node : poses_.nodes()) graph.addPose(node.id, node.world_from_robot);
+  graph.addLandmark(sofa_.id, {sofa_.position, sofa_.yaw, sofa_.shape});
+  for (const auto& [id, place] : factors.points) graph.addPoint(id, place);
+  const auto add = [&](const auto& list) {
+    for (const auto& factor : list) graph.add(factor);
+  };
+  add(factors.sightings), add(factors.boxes), add(factors.sizes), add(factors.views), add(factors.insides);
+  EXPECT_EQ(graph.factors(), 4u + 4u + 1u + 8u + 2u);
+  EXPECT_LT(graph.chiSquared(), 1e-12);
+}
+
+TEST_F(SofaSeenFromFourPlaces, AllOfThemReachTheGraph) {
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  const FactorGraph without = buildGraph(poses_, motion_, {}, {}, options_);
+  const FactorGraph with = buildGraph(poses_, motion_, {}, {{sofa_}, factors}, options_);
+  EXPECT_EQ(with.factors() - without.factors(), 4u + 4u + 1u + 8u + 2u + factors.visits.size() + 1u)
+      << "and the one that stands it on the floor";
+  EXPECT_EQ(with.landmarks(), 1 + factors.sides.size());
+}
+
+TEST_F(SofaSeenFromFourPlaces, TheBestBoxOfAKeyPoseCounts) {
+  ObjectFrame better = seenAt(2, 0.95), worse = seenAt(2, 0.1);
+  better.decisions[0].seen.measurement.detection.box = {1, 2, 3, 4};
+  for (auto* more : {&better, &worse}) more->t = 2.1;
+  frames_.push_back(better);
+  frames_.push_back(worse);
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  ASSERT_EQ(factors.boxes.size(), 4u);
+  EXPECT_EQ(factors.boxes[2].node.value, 2);
+  EXPECT_EQ(factors.boxes[2].box.v_max, 4);
+}
+
+TEST_F(SofaSeenFromFourPlaces, OptionsBoundWhatIsMade) {
+  options_.points_per_landmark = 1;
+  EXPECT_EQ(objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_).points.size(), 1u);
+  options_.object_boxes = false;
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  EXPECT_TRUE(factors.boxes.empty());
+  EXPECT_TRUE(factors.sizes.empty());
+}
+
+TEST_F(SofaSeenFromFourPlaces, AnotherLabelSaysNothingOfThePlace) {
+  for (auto& frame : frames_) frame.decisions[0].seen.measurement.proposal.class_name = "swivel_chair";
+  const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
+  EXPECT_TRUE(factors.sightings.empty());
+  EXPECT_TRUE(factors.boxes.empty());
+}
+
+// A place 1.5 m behind the sofa on the ray, with a score of 0: hardly a measurement of where the sofa stands.
+TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
+  const MeasurementModel model;
+  auto& seen = frames_[0].decisions[0].seen;
+  seen.measurement.proposal.score = 0.1;
+  seen.measurement.proposal.camera_from_object.translation() *= 1.5;
+  seen.world_from_object =
+      poses_.nodes()[0].world_from_robot * robot_from_camera_ * seen.measurement.proposal.camera_from_object;
+  const auto weightOf = [&](const MeasurementModel* trusted) {
+    return objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_, trusted).sightings[0].weight;
+  };
+  EXPECT_LT(weightOf(&model), 0.1 * weightOf(nullptr));
+  EXPECT_GT(weightOf(nullptr), 0);
+}
+
+// A robot that looks along world y: the error ahead of it is the one along y.
+TEST(SightingCovariance, IsInTheRobotsFrame) {
+  Landmark landmark;
+  landmark.id = LandmarkId{1};
+  const KeyPose node{NodeId{0}, 0, poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)};
+  ObjectDecision decision;
+  decision.seen.covariance = Eigen::Vector4d(0.01, 0.09, 0.0004, 0.2).asDiagonal();
+  decision.seen.covariance(0, 1) = decision.seen.covariance(1, 0) = 0.02;
+  const auto factor = sightingOf(decision, landmark, node, Pose3::Identity());
+  EXPECT_NEAR(factor.covariance(0, 0), 0.09, 1e-12);
+  EXPECT_NEAR(factor.covariance(1, 1), 0.01, 1e-12);
+  EXPECT_NEAR(factor.covariance(0, 1), -0.02, 1e-12);
+  EXPECT_NEAR(factor.covariance(3, 3), 0.2, 1e-12);
+}
+
+}  // namespace
+}  // namespace roomgraph::test

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A person who sits in a robot's view for minutes, all the way: scan matcher, grid and landmarks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drive.h"
+#include "fake_stages.h"
+
+// A scan matcher that keeps what it is given; the robot stands.
+namespace fakes {
+
+class WatchingMatcher : public roomgraph::ScanMatcher {
+  DEFINE_MRPT_OBJECT(WatchingMatcher, fakes)
+ public:
+  static inline std::vector<roomgraph::Scan> scans;
+
+  roomgraph::ScanMatch match(const roomgraph::Scan& scan, const std::optional<roomgraph::Pose2>&) override {
+    scans.push_back(scan);
+    trajectory_.add(scan.t, roomgraph::Pose3::Identity());
+    return {.matched = true, .step_covariance = 1e-6 * Eigen::Matrix3d::Identity(), .score = 1};
+  }
+  roomgraph::Trajectory trajectory() const override { return trajectory_; }
+
+ private:
+  roomgraph::Trajectory trajectory_;
+};
+
+IMPLEMENTS_MRPT_OBJECT(WatchingMatcher, roomgraph::ScanMatcher, fakes)
+
+}  // namespace fakes
+
+namespace roomgraph::test {
+namespace {
+
+using Grid = mrpt::maps::COccupancyGridMap2D;
+
+const Eigen::Vector2d kSeat(2, 0.3);
+constexpr double kSitsDown_s = 6, kEnd_s = 150;
+
+// Two minutes and a half before a room with one chair in it; the person comes after six seconds and stays.
+SlamResult standBeforeTheSeat(bool with_person) {
+  registerAllClasses();
+  fakes::registerClasses();
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(WatchingMatcher, fakes));
+  fakes::WatchingMatcher::scans.clear();
+  fakes::world() = {};
+  fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
+  const fakes::WorldObject chair{"swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, poseFromYpr(3, -1, 0, 0, 0, 0)};
+  const fakes::WorldObject person{
+      "person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, poseFromYpr(kSeat.x(), kSeat.y(), 0, 0, 0, 0)};
+  SemanticSlam slam(setupWith("[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n[tracking]\n"
+                              "enabled = false\n[lidar]\nclass = WatchingMatcher\nloop_closing = false\n"));
+  std::mt19937 random{3};
+  for (double t = 0; t < kEnd_s; t += 0.5) {
+    const bool sits = with_person && t >= kSitsDown_s;
+    fakes::world().objects = {chair};
+    auto walls = asymmetricRoom();
+    if (sits) {
+      fakes::world().objects.push_back(person);
+      for (const Wall& side : boxAt(kSeat.x() - 0.2, kSeat.y() - 0.2, 0.4, 0.4)) walls.push_back(side);
+    }
+    slam.process(Drive::frame(t));
+    slam.process(castScan(walls, {}, t + 0.1, random, 0.01, 720));
+  }
+  return slam.finish();
+}
+
+bool occupiedWithin(const Grid& grid, const Eigen::Vector2d& place, double reach_m) {
+  for (int x = 0; x < static_cast<int>(grid.getSizeX()); ++x)
+    for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y) {
+      const Eigen::Vector2d cell(grid.idx2x(x), grid.idx2y(y));
+      if ((cell - place).norm() <= reach_m && grid.getCell(x, y) < 0.4F) return true;  // cells say how free they are
+    }
+  return false;
+}
+
+TEST(PeopleMap, ASittingPersonIsNotDrawnAndErasesNothing) {
+  const SlamResult alone = standBeforeTheSeat(false);
+  ASSERT_TRUE(alone.map.occupancy);
+  const Grid before = *alone.map.occupancy;
+  EXPECT_EQ(alone.counts.returns_on_people, 0);
+  const SlamResult together = standBeforeTheSeat(true);
+  ASSERT_TRUE(together.map.occupancy);
+  const Grid& after = *together.map.occupancy;
+  EXPECT_GT(together.counts.returns_on_people, 1000);
+  EXPECT_FALSE(occupiedWithin(after, kSeat, 0.35)) << "the person is drawn into the map";
+
+  int walls = 0, erased = 0;
+  for (int x = 0; x < static_cast<int>(before.getSizeX()); ++x)
+    for (int y = 0; y < static_cast<int>(before.getSizeY()); ++y) {
+      if (before.getCell(x, y) > 0.3F) continue;
+      ++walls;
+      erased += !occupiedWithin(after, {before.idx2x(x), before.idx2y(y)}, 0.08);
+    }
+  EXPECT_GT(walls, 200);
+  EXPECT_EQ(erased, 0) << "of the walls behind the seat, among others";
+
+  ASSERT_EQ(together.map.landmarks.size(), 1u) << "the chair";
+  EXPECT_GT(together.map.landmarks[0].existence, 0.99);
+  for (const Scan& scan : fakes::WatchingMatcher::scans) {
+    if (scan.t < kSitsDown_s) continue;
+    for (const auto& point : scan.pointsInRobot())
+      ASSERT_GT((point.head<2>() - kSeat).norm(), 0.4) << "the scan matcher saw the person at " << scan.t;
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph::test
