@@ -16,7 +16,7 @@ namespace example {
 IMPLEMENTS_MRPT_OBJECT(GreedyNearestAssociator, roomgraph::Associator, example)
 
 void GreedyNearestAssociator::declareParameters(roomgraph::ParameterVisitor& v) {
-  v.add("gate_m", gate_m_, {.doc = "largest distance to a landmark", .unit = "m", .min = 0, .max = 10});
+  v.add("gate_m", gate_m_, {.doc = "Largest distance to a landmark.", .unit = "m", .min = 0, .max = 10});
 }
 
 std::vector<roomgraph::Association> GreedyNearestAssociator::associate(

@@ -17,7 +17,8 @@ namespace example {
 IMPLEMENTS_MRPT_OBJECT(NearestPointsGenerator, roomgraph::ShapeGenerator, example)
 
 void NearestPointsGenerator::declareParameters(roomgraph::ParameterVisitor& v) {
-  v.add("near_share", near_share_, {.doc = "share of the points that may be nearer by mistake", .min = 0, .max = 0.5});
+  v.add("near_share", near_share_,
+        {.doc = "Share of the points that may be nearer by mistake.", .min = 0, .max = 0.5});
 }
 
 std::vector<roomgraph::PlacedShape> NearestPointsGenerator::generate(const roomgraph::BoxEvidence& evidence,

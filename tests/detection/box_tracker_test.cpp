@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
 
-const ObjectDatabase& trackedClasses() {
+const ObjectDatabase& chairsAndPeople() {
   static const ObjectDatabase db = ObjectDatabase::fromText(
       "[swivel_chair]\nlabels = chair\n[person]\nlabels = person\nlandmark = false\n");
   return db;
@@ -71,7 +71,7 @@ Box2 moved(const Box2& box, double scale, double du, double dv) {
 }
 
 BoxTracker tracker() {
-  return BoxTracker(trackedClasses());
+  return BoxTracker(chairsAndPeople());
 }
 
 /// The carried boxes; that something is carried at all is expected.

@@ -76,12 +76,13 @@ TEST(Decoders, NanodetDistributionBecomesDistances) {
   cv::Mat output = cv::Mat::zeros(85, 2 + 32, CV_32FC1);
   float* row = output.ptr<float>(64 + 1 * 4 + 2);  // stride 16, row 1, column 2: centre (32, 16)
   row[1] = 0.8f;
-  for (const int side : {0, 1, 2, 3}) row[2 + side * 8 + side] = 60;  // all weight on bin `side`
+  const int distance[] = {0, 1, 2, 7};                                          // strides
+  for (const int side : {0, 1, 2, 3}) row[2 + side * 8 + distance[side]] = 60;  // all weight on one bin
   const auto boxes = decoded<NanodetDecoder>(output, {64, 64}, 2, 0.5);
   ASSERT_EQ(boxes.size(), 1u);
   EXPECT_EQ(boxes[0].class_index, 1);
   EXPECT_NEAR(boxes[0].score, 0.8, 1e-6);
-  expectBox(boxes[0].box, 32, 0, 64, 64);  // left 0, top 16, right 32, bottom 48
+  expectBox(boxes[0].box, 32, 0, 64, 128);  // left 0, top 16, right 32, bottom 112
 }
 
 TEST(Decoders, NanodetExpectationOverTwoBins) {

@@ -17,7 +17,7 @@
 namespace roomgraph {
 namespace {
 
-ObjectDatabase recordClasses() {
+ObjectDatabase chairsAndDoors() {
   return ObjectDatabase::fromText("[swivel_chair]\nlabels = chair\n[door]\nlabels = door\nshape = planar\n");
 }
 
@@ -57,7 +57,7 @@ TEST(DetectionRecord, ReplayGivesTheSameBits) {
     EXPECT_EQ(record.image_width, 640u);
     EXPECT_EQ(record.model, "net");
     EXPECT_EQ(record.model_hash, "0123");
-    const ObjectDatabase classes = recordClasses();
+    const ObjectDatabase classes = chairsAndDoors();
     RecordedDetector detector;
     detector.setDatabase(classes);
     detector.prepare();
@@ -84,7 +84,7 @@ TEST(DetectionRecord, ReplayGivesTheSameBits) {
 TEST(DetectionRecord, StricterThresholdsOfTheRecordingAreSaid) {
   RecordedDetector detector;
   Config::fromText("[detection]\nscore_threshold = 0.2\n", "test").read("detection", detector);
-  const ObjectDatabase classes = recordClasses();
+  const ObjectDatabase classes = chairsAndDoors();
   detector.setDatabase(classes);
   detector.prepare();
   detector.feed(toRecord(frameAt(1), {}, {"net", "", 0.35, 0.5}));

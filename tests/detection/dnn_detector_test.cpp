@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "data_folder.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
@@ -23,14 +23,19 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const ObjectDatabase& networkClasses() {
+const ObjectDatabase& cylindersAndDoors() {
   static const ObjectDatabase db =
       ObjectDatabase::fromText("[swivel_chair]\nlabels = chair\nshape = cylinder\n[door]\nlabels = door\n");
   return db;
 }
 
+fs::path dataFolder() {
+  const char* env = std::getenv("ROOMGRAPH_DATA");
+  return env ? fs::path(env) : fs::path(ROOMGRAPH_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
 fs::path modelFolder() {
-  return test::dataFolder() / "models";
+  return dataFolder() / "models";
 }
 
 class DnnDetectorTest : public ::testing::Test {
@@ -42,7 +47,7 @@ class DnnDetectorTest : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   void prepare(const std::string& ini) {
     Config::fromText("[detection]\n" + ini, "test").read("detection", detector_);
-    detector_.setDatabase(networkClasses());
+    detector_.setDatabase(cylindersAndDoors());
     detector_.prepare();
   }
   std::string write(const std::string& name, const std::string& text) {
@@ -131,7 +136,7 @@ bool sameBoxes(const std::vector<Detection>& a, const std::vector<Detection>& b)
 // A real photo with two chairs: boxes of several networks are merged, and the labels that count are those of
 // the object database.
 TEST_F(DnnDetectorTest, SeveralNetworksAndTheLabelsOfTheDatabase) {
-  const fs::path photo = test::dataFolder() / "rgbd/fr3_office_10hz/rgb/1341847980.722988.jpg";
+  const fs::path photo = dataFolder() / "rgbd/fr3_office_10hz/rgb/1341847980.722988.jpg";
   const std::string nanodet = (modelFolder() / "nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-416.onnx").string();
   const std::string yolox = (modelFolder() / "yolox-nano/yolox_nano.onnx").string();
   if (!fs::exists(photo) || !fs::exists(nanodet) || !fs::exists(yolox))

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const ObjectDatabase& replayedClasses() {
+const ObjectDatabase& chairsAndSofas() {
   static const ObjectDatabase db = ObjectDatabase::fromText(
       "[swivel_chair]\nlabels = chair\nshape = cylinder\n[sofa]\nlabels = couch, sofa\n");
   return db;
@@ -42,7 +42,7 @@ class RecordedDetectorTest : public ::testing::Test {
   }
   void prepare(const std::string& ini) {
     Config::fromText("[detection]\n" + ini, "test").read("detection", detector_);
-    detector_.setDatabase(replayedClasses());
+    detector_.setDatabase(chairsAndSofas());
     detector_.prepare();
   }
   static Frame frameAt(double t, const std::string& label = "") {

@@ -103,7 +103,7 @@ class Doubts : public ::testing::Test {
     for (const auto& object : objects) {
       ObjectMeasurement out;
       out.frame = frame.id;
-      out.proposal.class_name = out.detection.class_name = object.class_name;
+      out.proposal.class_name = out.proposal.model = out.detection.class_name = object.class_name;
       out.proposal.shape = object.shape;
       out.proposal.camera_from_object = frame.robot_from_camera.inverse() * object.worldFromObject();
       out.proposal.covariance = 0.01 * Eigen::Matrix4d::Identity();

@@ -70,7 +70,7 @@ TEST(MotionFilter, AnyOfTimeDistanceAndTurnIsEnough) {
   EXPECT_FALSE(filter.moved(10, last, 11, {1, 1, -3.1})) << "a turn of 0.08 across pi";
   EXPECT_TRUE(filter.moved(10, last, 11, {1, 1, -2.87}));
   SubmapSettings settings;
-  settings.keep_angle_deg = 90;
+  settings.keep_angle_rad = M_PI / 2;
   EXPECT_NEAR(settings.filter().angle_rad, M_PI / 2, 1e-12);
 }
 

@@ -23,7 +23,7 @@ class ConfigFiles : public ::testing::Test {
   void SetUp() override {
     fs::create_directories(folder.file("plugins"));
     fs::create_directories(folder.file("data"));
-    fs::copy(EXAMPLE_ASSOCIATOR, folder.file("plugins/associator.so"));
+    fs::create_symlink(EXAMPLE_DECODER, folder.file("plugins/decoder.so"));
     folder.write("data/my_objects.ini", "[stool]\nlabels = mug\nshape = cylinder\n");
     folder.write("data/names.txt", "mug\nplate\nspoon\n");
     folder.write("data/boxes.jsonl",
@@ -39,13 +39,13 @@ class ConfigFiles : public ::testing::Test {
 };
 
 TEST_F(ConfigFiles, AreBesideTheConfiguration) {
-  const std::string common = "[pipeline]\nplugins = plugins/associator.so\nobjects_file = data/my_objects.ini\n"
-                             "[association]\nclass = GreedyNearestAssociator\n[detection]\n";
+  const std::string common = "[pipeline]\nplugins = plugins/decoder.so\nobjects_file = data/my_objects.ini\n"
+                             "[detection]\n";
   const auto networks =
       setupOf(common + "models = data/tiny.weights:darknet\nlabels_file = data/names.txt\n");
   EXPECT_EQ(networks->stages.detector->identity().model, "tiny");
   EXPECT_TRUE(networks->database.find("stool"));
-  EXPECT_THAT(networks->options.general.plugins, ElementsAre(folder.file("plugins/associator.so").string()));
+  EXPECT_THAT(networks->options.general.plugins, ElementsAre(folder.file("plugins/decoder.so").string()));
   const auto recorded = setupOf(common + "class = RecordedDetector\nfile = data/boxes.jsonl\n");
   EXPECT_EQ(recorded->stages.detector->identity().model, "boxes.jsonl");
   // What the run writes down names the same files from wherever it is read.

@@ -10,16 +10,24 @@ namespace roomgraph {
 
 void AssociationModel::declare(ParameterVisitor& v) {
   measurement.declare(v);
-  v.add("forgetting", forgetting,
-        {.doc = "share of a track's past that is lost from one frame to the next", .min = 1e-4, .max = 1});
-  v.add("tempering", tempering,
-        {.doc = "exponent of one frame's evidence: sightings of a track share their errors",
-         .min = 0.01,
-         .max = 1});
-  v.add("neutral_features", neutral_features,
-        {.doc = "feature points of unknown owner that stand beside the known ones of a measurement",
-         .min = 0.1,
-         .max = 1000});
+  v.add(
+      "forgetting", forgetting,
+      {.doc =
+           "Share of the evidence of a track's earlier frames that is forgotten from one frame to the next.",
+       .min = 1e-4,
+       .max = 1});
+  v.add(
+      "tempering", tempering,
+      {.doc = "Exponent on the likelihood of one frame, below 1 because the sightings of a track share their "
+              "errors.",
+       .min = 0.01,
+       .max = 1});
+  v.add(
+      "neutral_features", neutral_features,
+      {.doc =
+           "Pseudo-count: feature points of unknown owner that are added to the known ones of a measurement.",
+       .min = 0.1,
+       .max = 1000});
 }
 
 std::vector<LandmarkId> idsOf(const Alternatives& alternatives) {

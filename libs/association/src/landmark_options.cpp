@@ -6,28 +6,43 @@ namespace roomgraph {
 
 void LandmarkOptions::declareParameters(ParameterVisitor& v) {
   v.add("birth_existence", rules.birth_existence,
-        {.doc = "existence probability of a landmark seen once", .min = 0.01, .max = 0.99});
+        {.doc = "Existence probability of a new landmark.", .min = 0.01, .max = 0.99});
   v.add("detection_probability", detection_probability,
-        {.doc = "that an existing object in good view is detected", .min = 0.01, .max = 0.99});
-  v.add("score_gain", score_gain,
-        {.doc = "log of the likelihood ratio of existence per unit of a sighting's score",
-         .min = 0,
-         .max = 50});
+        {.doc = "Probability that an object in good view is detected.", .min = 0.01, .max = 0.99});
+  v.add(
+      "score_gain", score_gain,
+      {.doc = "Log likelihood ratio of existence per unit by which a sighting's score exceeds neutral_score.",
+       .min = 0,
+       .max = 50});
   v.add("neutral_score", neutral_score,
-        {.doc = "score of a sighting that speaks neither for nor against the object", .min = 0, .max = 1});
-  v.add("false_alarm_probability", false_alarm_probability,
-        {.doc = "that something is detected where there is no object", .min = 0.001, .max = 0.99});
-  v.add("confirm_existence", confirm_existence, {.doc = "existence needed for the map", .min = 0, .max = 1});
-  v.add("confirm_observations", confirm_observations,
-        {.doc = "sightings needed for the map", .min = 1, .max = 1000});
-  v.add("exclusive_overlap", exclusive_overlap,
-        {.doc = "share of a footprint under another landmark above which only the better seen one is kept",
+        {.doc = "Score of a sighting that is evidence neither for nor against the object.",
          .min = 0,
          .max = 1});
-  v.add("ray_gain", ray_gain,
-        {.doc = "log of the likelihood ratio of existence per ray that ends in the object, or passes through",
+  v.add(
+      "false_alarm_probability", false_alarm_probability,
+      {.doc = "Probability that something is detected where there is no object.", .min = 0.001, .max = 0.99});
+  v.add("confirm_existence", confirm_existence,
+        {.doc = "A landmark is confirmed, and in the map, from this "
+                "existence probability on.",
          .min = 0,
-         .max = 10});
+         .max = 1});
+  v.add("confirm_observations", confirm_observations,
+        {.doc = "A landmark is confirmed, and in the map, from this number of sightings on.",
+         .min = 1,
+         .max = 1000});
+  v.add("exclusive_overlap", exclusive_overlap,
+        {.doc =
+             "Of two landmarks of different classes, one of which covers more than this share of the other's "
+             "footprint, only the one with more evidence is in the map.",
+         .min = 0,
+         .max = 1});
+  v.add(
+      "ray_gain", ray_gain,
+      {.doc =
+           "Log likelihood ratio of existence per lidar beam that ends in the object (for) or passes through "
+           "it (against).",
+       .min = 0,
+       .max = 10});
   rules.duplicates.declare(v);
 }
 

@@ -40,18 +40,22 @@ double visibleFraction(const ObjectMeasurement& measurement) {
 
 void DuplicateRule::declare(ParameterVisitor& v) {
   v.add("merge_overlap", merge_overlap,
-        {.doc = "3D IoU above which two landmarks of a class are one object", .min = 0.01, .max = 1});
-  v.add("merge_distance_ratio", merge_distance_ratio,
-        {.doc = "distance of two landmarks of a class, relative to their width, below which they are one "
-                "object unless they are seen together",
-         .min = 0,
-         .max = 5});
+        {.doc = "Two landmarks of one class with a larger 3D IoU are merged.", .min = 0.01, .max = 1});
+  v.add(
+      "merge_distance_ratio", merge_distance_ratio,
+      {.doc = "Two landmarks of one class that are nearer, in widths of the object, are merged unless frames "
+              "show both.",
+       .min = 0,
+       .max = 5});
   v.add("apart_share", apart_share,
-        {.doc = "share of a landmark's sightings beside another one that shows that they are two objects",
+        {.doc =
+             "Two landmarks are two objects when at least this share of the sightings of one shows the other "
+             "as well.",
          .min = 0,
          .max = 1});
   v.add("split_distance_ratio", split_distance_ratio,
-        {.doc = "distance of two groups of sightings, relative to the width, that shows two objects",
+        {.doc = "A landmark is split when its sightings form two groups at this distance, in widths of the "
+                "object.",
          .min = 0.1,
          .max = 5});
 }

@@ -47,13 +47,17 @@ void normalize(std::vector<std::pair<LandmarkId, double>>& posterior) {
 }  // namespace
 
 void MaximumLikelihoodAssociator::declareParameters(ParameterVisitor& v) {
-  v.add("gate_sigma", gate_sigma_, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
+  v.add("gate_sigma", gate_sigma_,
+        {.doc = "Farther landmarks, in standard deviations (Mahalanobis distance), are "
+                "not candidates.",
+         .min = 0.5,
+         .max = 20});
   v.add("max_distance_ratio", max_distance_ratio_,
-        {.doc = "largest centre distance of one object's measurements, relative to its width",
+        {.doc = "Farther landmarks, in widths of the object between the centres, are not candidates.",
          .min = 0.1,
          .max = 5});
   v.add("new_density_per_m2", new_density_per_m2_,
-        {.doc = "floor likelihood of a new landmark: expected objects of a class per area",
+        {.doc = "Prior density of new objects of one class on the floor.",
          .unit = "1/m^2",
          .min = 1e-6,
          .max = 100});

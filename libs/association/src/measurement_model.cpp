@@ -59,30 +59,41 @@ double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const O
 }
 
 void MeasurementModel::declare(ParameterVisitor& v) {
-  v.add("gate_sigma", gate_sigma, {.doc = "Mahalanobis gate in standard deviations", .min = 0.5, .max = 20});
+  v.add("gate_sigma", gate_sigma,
+        {.doc = "Farther landmarks, in standard deviations (Mahalanobis distance), are "
+                "not candidates.",
+         .min = 0.5,
+         .max = 20});
   v.add("new_density_per_m2", new_density_per_m2,
-        {.doc = "floor likelihood of a new landmark: expected objects of a class per area",
+        {.doc = "Prior density of new objects of one class on the floor.",
          .unit = "1/m^2",
          .min = 1e-6,
          .max = 100});
   v.add("shared_error_m", shared_error_m,
-        {.doc = "error of a place that all sightings from one side share", .unit = "m", .min = 0, .max = 2});
+        {.doc = "Standard deviation of the error of position that all sightings from one side share.",
+         .unit = "m",
+         .min = 0,
+         .max = 2});
   v.add("tail_degrees", tail_degrees,
-        {.doc = "degrees of freedom of the Student t of a measured place; small: narrow core, heavy tails",
+        {.doc = "Degrees of freedom of the Student t density of a measured position. Few: narrow core, heavy "
+                "tails.",
          .min = 2.1,
          .max = 1000});
   v.add("wrong_label", wrong_label,
-        {.doc = "probability that the detector names an object of another class", .min = 1e-6, .max = 0.5});
+        {.doc = "Probability that the detector names an object of another class.", .min = 1e-6, .max = 0.5});
   v.add("wrong_depth", wrong_depth,
-        {.doc = "probability that a proposal of score 0 has the depth of something in front or behind",
+        {.doc = "Probability that a proposal of score 0 has the depth of something in front or behind.",
          .min = 0,
          .max = 0.99});
   v.add("box_sigma", box_sigma,
-        {.doc = "standard deviation of a side of a detection's box, in box widths or heights",
+        {.doc = "Standard deviation of a side of a detection's box, as a share of the box's width or height.",
          .min = 0.01,
          .max = 10});
-  v.add("hidden_side", hidden_side,
-        {.doc = "probability that a side of the box is not where the object ends", .min = 0.001, .max = 1});
+  v.add(
+      "hidden_side", hidden_side,
+      {.doc = "Probability that a side of the box is not the end of the object, because something hides it.",
+       .min = 0.001,
+       .max = 1});
 }
 
 double MeasurementModel::squaredDistance(const WorldMeasurement& seen, const Landmark& landmark) const {

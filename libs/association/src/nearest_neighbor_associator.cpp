@@ -13,7 +13,7 @@ IMPLEMENTS_MRPT_OBJECT(NearestNeighborAssociator, Associator, roomgraph)
 
 void NearestNeighborAssociator::declareParameters(ParameterVisitor& v) {
   v.add("max_distance_ratio", max_distance_ratio_,
-        {.doc = "largest centre distance of one object's measurements, relative to its width",
+        {.doc = "Farther landmarks, in widths of the object between the centres, are not candidates.",
          .min = 0.1,
          .max = 5});
 }

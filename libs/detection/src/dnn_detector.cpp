@@ -50,31 +50,39 @@ cv::Mat maskOver(const Box2& box, const cv::Mat& cells) {
 }  // namespace
 
 void DnnDetector::declareParameters(ParameterVisitor& v) {
-  v.add("models", models_,
-        {.doc = "network files, each path[:format] with format auto, nanodet, yolox, darknet, "
-                "ade20k or that of a plug-in; all run on each image and their boxes are merged; Darknet "
-                ".weights need the .cfg of the same name beside them",
+  v.add(
+      "models", models_,
+      {.doc =
+           "Network files, each path[:format] with the format auto, nanodet, yolox, darknet, ade20k or that "
+           "of a plug-in. All run on each image and their boxes are merged. Darknet .weights need the .cfg "
+           "of the same name beside them.",
+       .file = true});
+  v.add("labels_file", labels_file_,
+        {.doc = "File with one label per line. Empty: labels.txt beside each network, or without that the "
+                "labels of "
+                "COCO or ADE20K, by the number of classes.",
          .file = true});
   v.add(
-      "labels_file", labels_file_,
-      {.doc = "one label per line; empty: labels.txt beside each network, or without that the labels of COCO "
-              "or ADE20K by the number of classes",
-       .file = true});
-  v.add("segmentation_labels", segmentation_labels_,
-        {.doc = "labels taken from a segmentation network; box detectors are better at the others"});
+      "segmentation_labels", segmentation_labels_,
+      {.doc = "Labels that are taken from a segmentation network; networks that give boxes are better at the "
+              "others."});
   v.add("input_size_px", input_size_px_,
-        {.doc = "side of the networks' square input; 0: as the network, its .cfg or its file name says",
+        {.doc = "Side of the networks' square input. 0: as the network, its .cfg or its file name says.",
          .unit = "px",
          .min = 0,
          .max = 4096});
-  v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0.01, .max = 1});
-  v.add("nms_threshold", nms_threshold_,
-        {.doc = "of two boxes of a class with a larger IoU only the better is kept", .min = 0, .max = 1});
-  v.add("twin_threshold", twin_threshold_,
-        {.doc = "of two boxes of different classes with a larger IoU only the better is kept; 1: both, and "
-                "their geometry decides",
-         .min = 0,
-         .max = 1});
+  v.add("score_threshold", score_threshold_,
+        {.doc = "Detections with a smaller score are left out.", .min = 0.01, .max = 1});
+  v.add(
+      "nms_threshold", nms_threshold_,
+      {.doc = "Of two boxes of one class whose IoU is larger only the better is kept.", .min = 0, .max = 1});
+  v.add(
+      "twin_threshold", twin_threshold_,
+      {.doc =
+           "Of two boxes of different classes whose IoU is larger only the better is kept. 1: both are kept, "
+           "and their geometry decides.",
+       .min = 0,
+       .max = 1});
 }
 
 void DnnDetector::prepare() {

@@ -18,17 +18,20 @@ namespace roomgraph {
 IMPLEMENTS_MRPT_OBJECT(RecordedDetector, Detector, roomgraph)
 
 void RecordedDetector::declareSource(ParameterVisitor& v) {
-  v.add("file", file_,
-        {.doc = "recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`; empty: "
-                "only those inside the rawlog",
-         .file = true});
+  v.add(
+      "file", file_,
+      {.doc =
+           "File of recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`. Empty: only "
+           "those inside the rawlog.",
+       .file = true});
   v.add("tolerance_s", tolerance_s_,
-        {.doc = "largest time between a frame and its record", .unit = "s", .min = 0, .max = 10});
+        {.doc = "Largest time between a frame and its record of boxes.", .unit = "s", .min = 0, .max = 10});
 }
 
 void RecordedDetector::declareParameters(ParameterVisitor& v) {
   declareSource(v);
-  v.add("score_threshold", score_threshold_, {.doc = "smallest score of a detection", .min = 0, .max = 1});
+  v.add("score_threshold", score_threshold_,
+        {.doc = "Detections with a smaller score are left out.", .min = 0, .max = 1});
 }
 
 void RecordedDetector::prepare() {

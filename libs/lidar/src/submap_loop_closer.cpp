@@ -7,7 +7,6 @@
 
 #include "grid_refinement.h"
 #include "roomgraph/geometry/covariance.h"
-#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
@@ -15,9 +14,9 @@ IMPLEMENTS_MRPT_OBJECT(SubmapLoopCloser, ScanLoopCloser, roomgraph)
 
 namespace {
 constexpr int kClosureLevels = 7;
-constexpr double kTurnLength = 0.3;     // m of way that a turn by 1 rad counts for
+constexpr double kTurnLength = 0.3;     // m of path that a turn by 1 rad counts for
 constexpr double kVerifyHorizon_s = 3;  // a kept scan this near in time is at the proposed place
-constexpr double kClosureLength = 0.3;  // m of way that a closure counts for
+constexpr double kClosureLength = 0.3;  // m of path that a closure counts for
 constexpr double kSecondBestRadius = 0.6, kSecondBestTurn = 0.3;  // m, rad: nearer is the same solution
 
 Pose2 movement(const WayPoint& a, const WayPoint& b) {
@@ -27,48 +26,89 @@ Pose2 movement(const WayPoint& a, const WayPoint& b) {
 
 void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
   submap_settings_.declare(v);
-  v.add("min_way_m", min_way_m_,
-        {.doc = "Way since a submap's last scan before it is searched.", .unit = "m", .min = 0});
-  v.add("near_m", near_m_,
-        {.doc = "Submaps with a scan this near are searched, drift not counted.", .unit = "m", .min = 0});
-  v.add("max_near_m", max_near_m_,
-        {.doc = "Bound on that distance with drift counted.", .unit = "m", .min = 0});
-  v.add("drift_per_m", drift_per_m_, {.doc = "Drift assumed per metre of way.", .min = 0, .max = 1});
-  v.add("drift_deg_per_m", drift_deg_per_m_,
-        {.doc = "Drift in yaw assumed per metre of way.", .unit = "deg/m", .min = 0});
-  v.add("window_m", window_m_, {.doc = "Search half width without drift.", .unit = "m", .min = 0});
-  v.add("window_deg", window_deg_,
-        {.doc = "Search half width without drift.", .unit = "deg", .min = 0, .max = 180});
-  v.add("max_window_m", max_window_m_,
-        {.doc = "Largest search half width.", .unit = "m", .min = 0, .max = 50});
-  v.add("max_window_deg", max_window_deg_,
-        {.doc = "Largest search half width.", .unit = "deg", .min = 0, .max = 180});
-  v.add("min_search_score", min_search_score_,
-        {.doc = "Least mean occupancy at the returns for the search to go on.", .min = 0, .max = 1});
-  v.add("min_score", min_score_,
-        {.doc = "Least share of returns the submap must explain.", .min = 0, .max = 1});
-  v.add("max_contradicted", max_contradicted_,
-        {.doc = "Largest share of returns in space the submap saw free.", .min = 0, .max = 1});
-  v.add(
-      "ambiguity_ratio", ambiguity_ratio_,
-      {.doc = "A second place scoring this share of the best makes a match ambiguous.", .min = 0, .max = 1});
-  v.add("trusted_path_m", trusted_path_m_,
-        {.doc = "Length of the path between two scans up to which a closure needs no confirmation by others.",
+  v.add("min_path_m", min_path_m_,
+        {.doc = "A submap is searched only when the path since its last scan is at least this long.",
          .unit = "m",
-         .min = 0});
+         .min = 0,
+         .max = 10000});
+  v.add("near_m", near_m_,
+        {.doc = "Submaps with a scan within this distance, plus the assumed drift, are searched.",
+         .unit = "m",
+         .min = 0,
+         .max = 100});
+  v.add("max_near_m", max_near_m_,
+        {.doc = "Largest distance of submaps that are searched, drift included.",
+         .unit = "m",
+         .min = 0,
+         .max = 1000});
+  v.add("drift_per_m", drift_per_m_,
+        {.doc = "Assumed drift of the translation per metre of path length.", .min = 0, .max = 1});
+  v.add("drift_rad_per_m", drift_rad_per_m_,
+        {.doc = "Assumed drift of the yaw per metre of path length.", .unit = "rad/m", .min = 0, .max = 1});
+  v.add("window_m", window_m_,
+        {.doc = "Half width of the search for the translation without drift.",
+         .unit = "m",
+         .min = 0,
+         .max = 50});
+  v.add("window_rad", window_rad_,
+        {.doc = "Half width of the search for the rotation without drift.",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
+  v.add("max_window_m", max_window_m_,
+        {.doc = "Largest half width of the search for the translation, drift included.",
+         .unit = "m",
+         .min = 0,
+         .max = 50});
+  v.add("max_window_rad", max_window_rad_,
+        {.doc = "Largest half width of the search for the rotation, drift included.",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
+  v.add("min_search_score", min_search_score_,
+        {.doc = "The refinement starts only when the mean occupancy at the returns is at least this.",
+         .min = 0,
+         .max = 1});
+  v.add("min_score", min_score_,
+        {.doc = "Least share of the returns that the submap must explain.", .min = 0, .max = 1});
+  v.add("max_contradicted", max_contradicted_,
+        {.doc = "Largest share of the returns that may lie in space that the submap saw free.",
+         .min = 0,
+         .max = 1});
+  v.add("ambiguity_ratio", ambiguity_ratio_,
+        {.doc = "A match is ambiguous when a second pose reaches this share of the best score.",
+         .min = 0,
+         .max = 1});
+  v.add("trusted_path_m", trusted_path_m_,
+        {.doc = "A closure over a shorter path needs no confirmation by other scans.",
+         .unit = "m",
+         .min = 0,
+         .max = 10000});
   v.add("agreeing_closures", agreeing_closures_,
-        {.doc = "Scans that must agree on a closure after a longer way.", .min = 1});
-  v.add("agreeing_travel_m", agreeing_travel_m_,
-        {.doc = "Way those scans must span.", .unit = "m", .min = 0});
-  v.add("max_candidates", max_candidates_, {.doc = "Submaps searched per scan.", .min = 1});
+        {.doc = "Scans that must agree on a closure over a longer path.", .min = 1, .max = 100});
+  v.add("agreeing_path_m", agreeing_path_m_,
+        {.doc = "Path length that the scans that agree on a closure must span.",
+         .unit = "m",
+         .min = 0,
+         .max = 1000});
+  v.add("max_candidates", max_candidates_,
+        {.doc = "Submaps that are searched for one scan at most.", .min = 1, .max = 100});
   v.add("max_matches_per_search", max_matches_per_search_,
-        {.doc = "Bound on the work of one call.", .min = 1});
+        {.doc = "Matches that one search for closures may try.", .min = 1, .max = 1000});
   v.add("covariance_inflation", covariance_inflation_,
-        {.doc = "Factor on the standard deviations.", .min = 0.01});
+        {.doc = "Factor on the standard deviations that the curvature of the match gives.",
+         .min = 0.01,
+         .max = 100});
   v.add("floor_sigma_m", floor_sigma_m_,
-        {.doc = "Least standard deviation of a closure.", .unit = "m", .min = 1e-6});
-  v.add("floor_sigma_deg", floor_sigma_deg_,
-        {.doc = "Least standard deviation of its turn.", .unit = "deg", .min = 1e-6});
+        {.doc = "Least standard deviation of the translation of a closure.",
+         .unit = "m",
+         .min = 1e-6,
+         .max = 1});
+  v.add("floor_sigma_rad", floor_sigma_rad_,
+        {.doc = "Least standard deviation of the rotation of a closure.",
+         .unit = "rad",
+         .min = 1e-6,
+         .max = 1});
 }
 
 // Kept scan nearest in time, -1: none within the horizon.
@@ -146,7 +186,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
     const std::optional<Pose3> pose = world_from_robot.at(scan.t);
     world.push_back(pose ? std::optional(planarPart(*pose)) : std::nullopt);
   }
-  const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_travel_m_};
+  const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_path_m_};
   for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
     const int b = waiting_.front();
     for (const Candidate& candidate : candidatesFor(b, world)) {
@@ -187,12 +227,12 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const Submap& submap = *submaps_[s].submap;
   const int first = submap.first_insertion, last = first + submap.insertions - 1;
-  if (b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_way_m_) return std::nullopt;
+  if (b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_path_m_) return std::nullopt;
   std::optional<Candidate> best;
   for (int a = first; a <= last; ++a) {
     const ClosureGraph::Reached& reach = reached[at(a)];
     Candidate c{s, a, reach.start_from_node.inverse(), 0, reach.length_m};
-    // Over a short way the composed movement is the better guess: the world may not know the last closures
+    // Over a short path the composed movement is the better guess: the world may not know the last closures
     // yet.
     if (reach.length_m > trusted_path_m_) {
       if (!world[at(a)] || !world[at(b)]) continue;
@@ -209,7 +249,7 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
 SearchWindow SubmapLoopCloser::windowFor(double path_m) const {
   SearchWindow window;
   window.linear_m = std::min(max_window_m_, window_m_ + drift_per_m_ * path_m);
-  window.angular_rad = kDegree * std::min(max_window_deg_, window_deg_ + drift_deg_per_m_ * path_m);
+  window.angular_rad = std::min(max_window_rad_, window_rad_ + drift_rad_per_m_ * path_m);
   window.min_score = min_search_score_;
   return window;
 }
@@ -233,7 +273,7 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
-  model.floor_sigma_rad = floor_sigma_deg_ * kDegree;
+  model.floor_sigma_rad = floor_sigma_rad_;
   return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,
                  rotateCovariance(poseCovariance(fine, model), -odom_from_a.yaw), candidate.path_m};
 }

@@ -16,7 +16,7 @@
 namespace roomgraph {
 
 /// Finds returns by matching kept scans against older submaps: branch-and-bound search as wide as the drift
-/// may be, refinement, and for returns after a long way the agreement of several scans. After Hess et al.
+/// may be, refinement, and for returns after a long path the agreement of several scans. After Hess et al.
 /// 2016, sec. V.
 class SubmapLoopCloser : public ScanLoopCloser {
   DEFINE_MRPT_OBJECT(SubmapLoopCloser, roomgraph)
@@ -41,7 +41,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
     int a = 0;              ///< kept scan of the submap next to the scan
     Pose2 a_from_b;         ///< expected
     double distance_m = 0;  ///< between the two
-    double path_m = 0;      ///< length of the path between the two
+    double path_m = 0;      ///< path length between the two
   };
 
   void store(std::shared_ptr<Submap> submap);
@@ -56,19 +56,22 @@ class SubmapLoopCloser : public ScanLoopCloser {
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;
 
-  SubmapSettings submap_settings_{
-      .keep_distance_m = 0.2, .keep_angle_deg = 10, .keep_time_s = 10, .max_points = 150, .min_points = 40};
-  double min_way_m_ = 4;
+  SubmapSettings submap_settings_{.keep_distance_m = 0.2,
+                                  .keep_angle_rad = 0.17453,
+                                  .keep_time_s = 10,
+                                  .max_points = 150,
+                                  .min_points = 40};
+  double min_path_m_ = 4;
   double near_m_ = 3, max_near_m_ = 12;
-  double drift_per_m_ = 0.03, drift_deg_per_m_ = 0.5;
-  double window_m_ = 0.3, window_deg_ = 8, max_window_m_ = 6, max_window_deg_ = 60;
+  double drift_per_m_ = 0.03, drift_rad_per_m_ = 0.0087266;
+  double window_m_ = 0.3, window_rad_ = 0.13963, max_window_m_ = 6, max_window_rad_ = 1.0472;
   double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
   double ambiguity_ratio_ = 0.93;
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
-  double agreeing_travel_m_ = 1;
+  double agreeing_path_m_ = 1;
   int max_candidates_ = 2, max_matches_per_search_ = 12;
-  double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_deg_ = 0.3;
+  double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.005236;
 
   std::unique_ptr<ActiveSubmaps> active_;
   std::vector<StoredSubmap> submaps_;

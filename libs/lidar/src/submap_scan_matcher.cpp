@@ -7,7 +7,6 @@
 
 #include "correlative_search.h"
 #include "roomgraph/geometry/covariance.h"
-#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
@@ -22,40 +21,69 @@ constexpr double kClearlyBetter = 0.1;     // share of returns that a steady mov
 void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
   submap_settings_.declare(v);
   v.add("window_m", window_m_,
-        {.doc = "Search half width around a measured movement.", .unit = "m", .min = 0});
-  v.add("window_deg", window_deg_,
-        {.doc = "Search half width around a measured turn.", .unit = "deg", .min = 0, .max = 180});
+        {.doc = "Half width of the search for the translation around a measured movement.",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add("window_rad", window_rad_,
+        {.doc = "Half width of the search for the rotation around a measured movement.",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
   v.add("free_window_m", free_window_m_,
-        {.doc = "Search half width without odometry.", .unit = "m", .min = 0});
-  v.add("free_window_deg", free_window_deg_,
-        {.doc = "Search half width without odometry.", .unit = "deg", .min = 0, .max = 180});
+        {.doc = "Half width of the search for the translation without odometry.",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add("free_window_rad", free_window_rad_,
+        {.doc = "Half width of the search for the rotation without odometry.",
+         .unit = "rad",
+         .min = 0,
+         .max = 3.2});
   v.add("search_penalty_per_m2", search_penalty_per_m2_,
-        {.doc = "Score taken off per squared shift from the prediction.", .unit = "1/m^2", .min = 0});
+        {.doc = "Score subtracted per squared distance from the prediction.",
+         .unit = "1/m^2",
+         .min = 0,
+         .max = 10000});
   v.add("search_penalty_per_rad2", search_penalty_per_rad2_,
-        {.doc = "Score taken off per squared turn from the prediction.", .unit = "1/rad^2", .min = 0});
+        {.doc = "Score subtracted per squared angle from the prediction.",
+         .unit = "1/rad^2",
+         .min = 0,
+         .max = 10000});
   v.add("prior_per_m2", prior_per_m2_,
         {.doc = "Weight of a measured movement against the scan in the refinement.",
          .unit = "1/m^2",
-         .min = 0});
-  v.add(
-      "prior_per_rad2", prior_per_rad2_,
-      {.doc = "Weight of a measured turn against the scan in the refinement.", .unit = "1/rad^2", .min = 0});
+         .min = 0,
+         .max = 1e+06});
+  v.add("prior_per_rad2", prior_per_rad2_,
+        {.doc = "Weight of a measured turn against the scan in the refinement.",
+         .unit = "1/rad^2",
+         .min = 0,
+         .max = 1e+06});
   v.add("weak_prior_per_m2", weak_prior_per_m2_,
-        {.doc = "More such weight along a direction that the scan does not fix.", .unit = "1/m^2", .min = 0});
-  v.add("weak_below_per_m2", weak_below_per_m2_,
-        {.doc = "Curvature of the mean squared residual from which a direction counts as fixed.",
+        {.doc = "Further weight of a measured movement along a direction that the scan does not constrain.",
          .unit = "1/m^2",
-         .min = 0.1});
+         .min = 0,
+         .max = 1e+06});
+  v.add("weak_below_per_m2", weak_below_per_m2_,
+        {.doc = "A direction is constrained by the scan from this curvature of the mean squared residual on.",
+         .unit = "1/m^2",
+         .min = 0.1,
+         .max = 1e+06});
   v.add("min_score", min_score_,
-        {.doc = "Least share of returns the local map must explain.", .min = 0, .max = 1});
+        {.doc = "Least share of the returns that the local map must explain.", .min = 0, .max = 1});
   v.add("max_lost_scans", max_lost_scans_,
-        {.doc = "Unmatched scans in a row after which a new segment starts.", .min = 0});
+        {.doc = "Unmatched scans in a row after which a new segment starts.", .min = 0, .max = 10000});
   v.add("covariance_inflation", covariance_inflation_,
-        {.doc = "Factor on the standard deviations.", .min = 0.01});
-  v.add("floor_sigma_m", floor_sigma_m_,
-        {.doc = "Least standard deviation of a step.", .unit = "m", .min = 1e-6});
-  v.add("floor_sigma_deg", floor_sigma_deg_,
-        {.doc = "Least standard deviation of a step's turn.", .unit = "deg", .min = 1e-6});
+        {.doc = "Factor on the standard deviations that the curvature of the match gives.",
+         .min = 0.01,
+         .max = 100});
+  v.add(
+      "floor_sigma_m", floor_sigma_m_,
+      {.doc = "Least standard deviation of the translation of a match.", .unit = "m", .min = 1e-6, .max = 1});
+  v.add(
+      "floor_sigma_rad", floor_sigma_rad_,
+      {.doc = "Least standard deviation of the rotation of a match.", .unit = "rad", .min = 1e-6, .max = 1});
 }
 
 void SubmapScanMatcher::prepare() {
@@ -119,7 +147,7 @@ Pose2 SubmapScanMatcher::steadyPose(double t) const {
 bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
   if (lost_scans_ > 0 || t - *last_t_ > kMaxExtrapolation) return false;
   const Pose2 jump = steadyPose(t).inverse() * predicted;
-  return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_deg_ * kDegree;
+  return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_rad_;
 }
 
 GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& points, const Pose2& predicted,
@@ -130,8 +158,7 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& p
   // After a loss the prediction is as old as the loss: look wider for each scan missed.
   const double widening = 1 + lost_scans_;
   window.linear_m = widening * (has_prior ? window_m_ : free_window_m_);
-  window.angular_rad =
-      std::min(std::numbers::pi, widening * kDegree * (has_prior ? window_deg_ : free_window_deg_));
+  window.angular_rad = std::min(std::numbers::pi, widening * (has_prior ? window_rad_ : free_window_rad_));
   const double trust = has_prior ? 1 : 0.2;
   window.penalty_per_m2 = trust * search_penalty_per_m2_;
   window.penalty_per_rad2 = trust * search_penalty_per_rad2_;
@@ -150,7 +177,7 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
-  model.floor_sigma_rad = floor_sigma_deg_ * kDegree;
+  model.floor_sigma_rad = floor_sigma_rad_;
   const Eigen::Matrix3d in_odom = poseCovariance(refinement, model);
   // Movement is expressed in the frame of the robot at the scan before.
   return rotateCovariance(in_odom, -last_pose_.yaw);

@@ -35,15 +35,15 @@ class SubmapScanMatcher : public ScanMatcher {
   Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
 
   SubmapSettings submap_settings_;
-  double window_m_ = 0.15, window_deg_ = 12;
-  double free_window_m_ = 0.4, free_window_deg_ = 25;
+  double window_m_ = 0.15, window_rad_ = 0.20944;
+  double free_window_m_ = 0.4, free_window_rad_ = 0.43633;
   double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
   double prior_per_m2_ = 2, prior_per_rad2_ = 1;
   double weak_prior_per_m2_ = 100, weak_below_per_m2_ = 15;
   double min_score_ = 0.1;
   int max_lost_scans_ = 10;
   double covariance_inflation_ = 1;
-  double floor_sigma_m_ = 0.005, floor_sigma_deg_ = 0.1;
+  double floor_sigma_m_ = 0.005, floor_sigma_rad_ = 0.0017453;
 
   std::unique_ptr<ActiveSubmaps> submaps_;
   ScorePyramid pyramid_;  ///< of the submap matched against

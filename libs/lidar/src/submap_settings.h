@@ -14,7 +14,7 @@ struct SubmapSettings {
   double cell_m = 0.05;
   int scans_per_submap = 60;
   double hit_probability = 0.6, miss_probability = 0.48;
-  double keep_distance_m = 0.1, keep_angle_deg = 6, keep_time_s = 5;
+  double keep_distance_m = 0.1, keep_angle_rad = 0.10472, keep_time_s = 5;
   double thinning_m = 0.05;
   int max_points = 200, min_points = 20;
 

@@ -6,13 +6,16 @@ namespace roomgraph {
 
 void OccupancyOptions::declareParameters(ParameterVisitor& v) {
   v.add("source", source,
-        {.doc = "What fills the grid; auto: the lidar when there is one, else the depth camera.",
+        {.doc = "Sensor that fills the grid. auto: the lidar when there is one, else the depth camera.",
          .choices = {"auto", "lidar", "depth", "both"}});
   v.add("resolution_m", resolution_m, {.doc = "Size of a cell.", .unit = "m", .min = 0.005, .max = 1});
   v.add("max_range_m", max_range_m,
-        {.doc = "Farther returns only free the way up to here.", .unit = "m", .min = 0.5, .max = 200});
+        {.doc = "A farther return only marks the cells up to this distance as free.",
+         .unit = "m",
+         .min = 0.5,
+         .max = 200});
   v.add("no_return_free_m", no_return_free_m,
-        {.doc = "Beams that met nothing within the lidar's range free the way up to here; 0: say nothing.",
+        {.doc = "A beam without a return marks the cells up to this distance as free. 0: it says nothing.",
          .unit = "m",
          .min = 0,
          .max = 200});
@@ -22,31 +25,46 @@ void OccupancyOptions::declareParameters(ParameterVisitor& v) {
         {.doc = "Probability that a cell crossed by a beam is occupied, for one scan.",
          .min = 0.01,
          .max = 0.5});
-  v.add("min_move_m", min_move_m,
-        {.doc = "A scan is used when the robot has moved this far since the last used one …",
-         .unit = "m",
-         .min = 0,
-         .max = 10});
-  v.add("min_turn_rad", min_turn_rad,
-        {.doc = "… or turned this far …", .unit = "rad", .min = 0, .max = 3.2});
-  v.add("max_wait_s", max_wait_s,
-        {.doc = "… or this time has passed, so that what moved away is cleared.",
-         .unit = "s",
-         .min = 0,
-         .max = 1e6});
+  v.add(
+      "min_move_m", min_move_m,
+      {.doc =
+           "A scan is used when the robot has moved this far since the last used one (or turned, or waited).",
+       .unit = "m",
+       .min = 0,
+       .max = 10});
+  v.add(
+      "min_turn_rad", min_turn_rad,
+      {.doc =
+           "A scan is used when the robot has turned this far since the last used one (or moved, or waited).",
+       .unit = "rad",
+       .min = 0,
+       .max = 3.2});
+  v.add(
+      "max_wait_s", max_wait_s,
+      {.doc = "A scan is used when this time has passed since the last used one, so that what moved away is "
+              "cleared.",
+       .unit = "s",
+       .min = 0,
+       .max = 1e6});
   v.add("depth_min_height_m", slice.min_height_m,
         {.doc = "Lower end of the band of heights that counts as an obstacle in depth images.",
          .unit = "m",
          .min = 0.01,
          .max = 2});
   v.add("depth_max_height_m", slice.max_height_m,
-        {.doc = "Upper end of that band.", .unit = "m", .min = 0.05, .max = 5});
+        {.doc = "Upper end of the band of heights that counts as an obstacle in depth images.",
+         .unit = "m",
+         .min = 0.05,
+         .max = 5});
   v.add("depth_max_range_m", slice.max_range_m,
         {.doc = "Farther depth measurements are not used.", .unit = "m", .min = 0.5, .max = 50});
   v.add("depth_step_px", slice.step_px,
-        {.doc = "Every n-th pixel is used.", .unit = "px", .min = 1, .max = 32});
+        {.doc = "Every n-th pixel of a depth image is used.", .unit = "px", .min = 1, .max = 32});
   v.add("depth_beam_rad", slice.beam_rad,
-        {.doc = "Width of a beam of the virtual scan.", .unit = "rad", .min = 0.001, .max = 0.2});
+        {.doc = "Width of a beam of the virtual scan that depth images are turned into.",
+         .unit = "rad",
+         .min = 0.001,
+         .max = 0.2});
 }
 
 }  // namespace roomgraph

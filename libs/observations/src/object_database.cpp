@@ -41,38 +41,51 @@ ObjectModel readModel(const Config& config, const IniEntry& first) {
 }  // namespace
 
 void ObjectModel::declareParameters(ParameterVisitor& v) {
-  v.add("labels", labels, {.doc = "detector labels this class answers to"});
-  v.add("shape", shape, {.doc = "model of the object", .choices = {"cylinder", "cuboid", "planar"}});
-  v.add("width_m", width_m, {.doc = "nominal lateral size", .unit = "m", .min = 0.01, .max = 20});
-  v.add("depth_m", depth_m, {.doc = "nominal size front to back", .unit = "m", .min = 0.01, .max = 20});
-  v.add("height_m", height_m, {.doc = "nominal height", .unit = "m", .min = 0.01, .max = 20});
+  v.add("labels", labels, {.doc = "Labels of detectors that mean this class."});
+  v.add("shape", shape,
+        {.doc = "Shape that models the object.", .choices = {"cylinder", "cuboid", "planar"}});
+  v.add("width_m", width_m, {.doc = "Usual width, from side to side.", .unit = "m", .min = 0.01, .max = 20});
+  v.add("depth_m", depth_m, {.doc = "Usual depth, from front to back.", .unit = "m", .min = 0.01, .max = 20});
+  v.add("height_m", height_m, {.doc = "Usual height.", .unit = "m", .min = 0.01, .max = 20});
   v.add("width_sigma_m", width_sigma_m,
-        {.doc = "standard deviation of the width", .unit = "m", .min = 0, .max = 10});
-  v.add("depth_sigma_m", depth_sigma_m,
-        {.doc = "standard deviation of the depth", .unit = "m", .min = 0, .max = 10});
-  v.add("height_sigma_m", height_sigma_m,
-        {.doc = "standard deviation of the height", .unit = "m", .min = 0, .max = 10});
-  v.add("symmetry", symmetry,
-        {.doc = "yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg", .min = 0, .max = 4});
-  v.add("rests_on_ground", rests_on_ground, {.doc = "the object stands on the floor"});
-  v.add("front", front,
-        {.doc = "which side is the front of a shape with symmetry 1: high_back: the one away from the highest part "
-                "(seats); near_side: of the sides that fit the size, the one that is seen (furniture along walls); "
-                "none: nothing tells it",
-         .choices = {"high_back", "near_side", "none"}});
-  v.add("solid_share", solid_share,
-        {.doc = "share of the height, from the floor, through which no lidar beam passes: beams that do speak against "
-                "the object; 0: beams may pass (legs, an open door)",
+        {.doc = "Standard deviation of the width among objects of this class.",
+         .unit = "m",
          .min = 0,
-         .max = 1});
+         .max = 10});
+  v.add("depth_sigma_m", depth_sigma_m,
+        {.doc = "Standard deviation of the depth among objects of this class.",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add("height_sigma_m", height_sigma_m,
+        {.doc = "Standard deviation of the height among objects of this class.",
+         .unit = "m",
+         .min = 0,
+         .max = 10});
+  v.add(
+      "symmetry", symmetry,
+      {.doc = "Symmetry of yaw: 0 any angle, 1 none, 2 half a turn, 4 a quarter turn.", .min = 0, .max = 4});
+  v.add("rests_on_ground", rests_on_ground, {.doc = "Whether the object stands on the floor."});
+  v.add("front", front,
+        {.doc =
+             "Which side is the front of a shape with symmetry 1: high_back: the one away from the highest "
+             "part (seats); near_side: of the sides that fit the size, the one that is seen (furniture along "
+             "walls); none: nothing tells it.",
+         .choices = {"high_back", "near_side", "none"}});
+  v.add(
+      "solid_share", solid_share,
+      {.doc = "Share of the height, from the floor, through which no lidar beam passes: beams that do speak "
+              "against the object; 0: beams may pass (legs, an open door).",
+       .min = 0,
+       .max = 1});
   v.add("moves", moves,
-        {.doc = "the object moves by itself: it is kept out of odometry, scans and map; not set: true where landmark "
-                "is false"});
-  v.add("landmark", landmark, {.doc = "false: detected, never mapped"});
+        {.doc = "The object moves by itself: it is kept out of odometry, scans and map; not set: true where "
+                "landmark is false."});
+  v.add("landmark", landmark, {.doc = "Whether the object is mapped. false: it is detected, never mapped."});
   v.add("generator", generator,
-        {.doc = "shape generator that makes this class's shapes, by class name; auto: CylinderGenerator, "
-                "CuboidGenerator or DoorGenerator (planar), by the shape"});
-  v.add("color", color, {.doc = "colour in pictures, #rrggbb"});
+        {.doc = "Shape generator that makes this class's shapes, by class name; auto: CylinderGenerator, "
+                "CuboidGenerator or DoorGenerator (planar), by the shape."});
+  v.add("color", color, {.doc = "Colour in pictures, #rrggbb."});
 }
 
 ObjectShape ObjectModel::nominal() const {

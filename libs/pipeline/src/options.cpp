@@ -6,22 +6,28 @@ namespace roomgraph {
 
 void GeneralOptions::declareParameters(ParameterVisitor& v) {
   v.add("plugins", plugins,
-        {.doc = "shared libraries with further stages, loaded before the stages are made", .file = true});
+        {.doc = "Plug-ins: shared libraries with further classes, loaded before the stages are made.",
+         .file = true});
   v.add("objects_file", objects_file,
-        {.doc = "object database; empty: objects.ini beside the config file, else the one shipped with the "
-                "program",
+        {.doc = "Object database. Empty: objects.ini beside the config file, else the one shipped with the "
+                "program.",
          .file = true});
   v.add("lookahead_s", lookahead_s,
-        {.doc = "records are put in order of time within this span", .unit = "s", .min = 0, .max = 10});
+        {.doc = "Records that arrive late by up to this time are put in order.",
+         .unit = "s",
+         .min = 0,
+         .max = 10});
   v.add("sensor_poses", sensor_poses,
-        {.doc = "places of cameras and lidars on the robot that replace the recorded ones: "
-                "LABEL=x,y,z,yaw,pitch,roll in metres and degrees, several separated by commas"});
+        {.doc = "Poses of cameras and lidars on the robot that replace the recorded ones: "
+                "LABEL=x,y,z,yaw,pitch,roll in metres and, as an exception, degrees; several separated by "
+                "commas."});
 }
 
 namespace {
 
 void declareLabel(std::string& label, ParameterVisitor& v) {
-  v.add("label", label, {.doc = "sensor label of the one to use; empty: the first that appears"});
+  v.add("label", label,
+        {.doc = "Sensor label of the sensor to use. Empty: the first of its kind in the recording."});
 }
 
 }  // namespace
@@ -31,45 +37,47 @@ void RgbdOptions::declareParameters(ParameterVisitor& v) {
 }
 
 void TrackingOptions::declareParameters(ParameterVisitor& v) {
-  v.add("enabled", enabled, {.doc = "use RGB-D odometry"});
-  v.add("class", stage, {.doc = "implementation of RgbdOdometry"});
-  v.add("loop_closing", loop_closing, {.doc = "use loop closures found in images"});
+  v.add("enabled", enabled, {.doc = "Whether RGB-D odometry is used."});
+  v.add("class", stage, {.doc = "Class of the RGB-D odometry."});
+  v.add("loop_closing", loop_closing, {.doc = "Whether loop closures found in images are used."});
   noise.declare(v);
 }
 
 void LidarOptions::declareParameters(ParameterVisitor& v) {
-  v.add("enabled", enabled, {.doc = "use 2D scans"});
-  v.add("class", stage, {.doc = "implementation of ScanMatcher"});
+  v.add("enabled", enabled, {.doc = "Whether 2D scans are used."});
+  v.add("class", stage, {.doc = "Class of the scan matcher."});
   declareLabel(label, v);
-  v.add("loop_closing", loop_closing, {.doc = "use loop closures found in scans"});
+  v.add("loop_closing", loop_closing, {.doc = "Whether loop closures found in scans are used."});
   noise.declare(v);
 }
 
 void OdometryOptions::declareParameters(ParameterVisitor& v) {
-  v.add("enabled", enabled, {.doc = "use wheel odometry"});
+  v.add("enabled", enabled, {.doc = "Whether wheel odometry is used."});
   declareLabel(label, v);
   noise.declare(v);
 }
 
 void DetectionStageOptions::declareParameters(ParameterVisitor& v) {
-  v.add("enabled", enabled, {.doc = "detect and map objects"});
-  v.add("class", detector,
-        {.doc =
-             "implementation of Detector; auto: AutoDetector, which runs the networks in `models` when there "
-             "are some and else replays recorded boxes"});
+  v.add("enabled", enabled, {.doc = "Whether objects are detected and mapped."});
+  v.add(
+      "class", detector,
+      {.doc = "Class of the detector. auto: AutoDetector, which runs the networks named in `models` or, when "
+              "there are none, replays recorded boxes."});
   v.add("every_nth_frame", every_nth_frame,
-        {.doc = "the detector runs on every frame (1), every second one (2) …; recorded boxes are taken as often",
+        {.doc = "The detector runs on every n-th frame; recorded boxes are taken as often.",
          .min = 1,
          .max = 1000});
-  v.add("track_boxes", track_boxes,
-        {.doc = "on frames on which the detector does not run (or that have no record) the boxes are carried "
-                "on by tracking them in the image"});
+  v.add(
+      "track_boxes", track_boxes,
+      {.doc =
+           "Whether boxes are tracked through the frames on which the detector does not run, or that have no "
+           "record."});
   v.add("max_carried_frames", max_carried_frames,
-        {.doc = "a box is carried over at most this many frames", .min = 0, .max = 1000});
+        {.doc = "Frames over which a box is tracked at most.", .min = 0, .max = 1000});
 }
 
 void StageChoice::declareParameters(ParameterVisitor& v) {
-  v.add("class", stage, {.doc = "implementation of this stage"});
+  v.add("class", stage, {.doc = "Class of this stage."});
 }
 
 }  // namespace roomgraph

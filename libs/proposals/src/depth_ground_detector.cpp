@@ -9,18 +9,30 @@ IMPLEMENTS_MRPT_OBJECT(ExpectedGroundDetector, GroundDetector, roomgraph)
 
 void DepthGroundDetector::declareParameters(ParameterVisitor& v) {
   v.add("max_angle_error", search_.max_angle_error,
-        {.doc = "largest angle between seen and expected ground normal", .unit = "rad", .min = 0, .max = 1.5});
-  v.add("max_height_error_m", search_.max_height_error_m,
-        {.doc = "largest difference between seen and expected camera height", .unit = "m", .min = 0, .max = 2});
-  v.add("max_tilt", search_.max_tilt,
-        {.doc = "without expectation: largest angle between ground normal and the image's up",
+        {.doc = "Largest angle between the seen and the expected ground normal.",
          .unit = "rad",
          .min = 0,
          .max = 1.5});
+  v.add("max_height_error_m", search_.max_height_error_m,
+        {.doc = "Largest difference between the seen and the expected height of the camera.",
+         .unit = "m",
+         .min = 0,
+         .max = 2});
+  v.add(
+      "max_tilt", search_.max_tilt,
+      {.doc =
+           "Without an expected ground: largest angle between the ground normal and the upward direction of "
+           "the image.",
+       .unit = "rad",
+       .min = 0,
+       .max = 1.5});
   v.add("min_camera_height_m", search_.min_camera_height_m,
-        {.doc = "without expectation: a plane nearer than this is a table", .unit = "m", .min = 0, .max = 5});
+        {.doc = "Without an expected ground: a plane nearer to the camera than this is taken for a table.",
+         .unit = "m",
+         .min = 0,
+         .max = 5});
   v.add("max_range_m", search_.max_range_m,
-        {.doc = "depth beyond is not used for the ground", .unit = "m", .min = 0.5, .max = 20});
+        {.doc = "Farther depth is not used for the ground.", .unit = "m", .min = 0.5, .max = 20});
 }
 
 Outcome<GroundEstimate> DepthGroundDetector::detect(const Frame& frame, const std::optional<Plane>& expected) {

@@ -92,11 +92,14 @@ ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore
 }  // namespace
 
 void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
-  v.add("use_depth", use_depth_, {.doc = "false: from the box and the ground alone, as without a depth camera ([ground] class = "
-                "ExpectedGroundDetector does the same for the ground)"});
-  v.add("max_proposals", limits_.max_count, {.doc = "hypotheses kept per detection", .min = 1, .max = 5});
+  v.add("use_depth", use_depth_,
+        {.doc = "False: from the box and the ground alone, as without a depth camera "
+                "([ground] class = ExpectedGroundDetector does the same for the ground)."});
+  v.add("max_proposals", limits_.max_count, {.doc = "Proposals kept per detection.", .min = 1, .max = 5});
   v.add("min_box_iou", limits_.min_iou,
-        {.doc = "smallest IoU of projected shape and box", .min = 0, .max = 1});
+        {.doc = "Proposals whose projected shape has a smaller IoU with the box are dropped.",
+         .min = 0,
+         .max = 1});
 }
 
 void GeometricProposalGenerator::prepare() {

@@ -35,15 +35,19 @@ CrfSelector::~CrfSelector() = default;
 
 void CrfSelector::declareParameters(ParameterVisitor& v) {
   v.add("max_energy", max_energy_,
-        {.doc = "a proposal is selected when alpha * U (Eq. 4) is at most this", .min = -1, .max = 0});
-  v.add(
-      "temperature", temperature_,
-      {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
-  v.add(
-      "window_frames", window_frames_,
-      {.doc = "frames N of the window; an object missed for as many gets a new track", .min = 2, .max = 100});
+        {.doc = "A proposal is selected when its unary energy alpha * U (Eq. 4) is at most this.",
+         .min = -1,
+         .max = 0});
+  v.add("temperature", temperature_,
+        {.doc = "Temperature of the Boltzmann distribution that turns energies into confidences.",
+         .min = 0.001,
+         .max = 10});
+  v.add("window_frames", window_frames_,
+        {.doc = "Number N of frames in the window. An object that was missed for as many gets a new track.",
+         .min = 2,
+         .max = 100});
   v.add("min_link_overlap", min_link_overlap_,
-        {.doc = "least IoU of a detection's box with the predicted one that may continue a track",
+        {.doc = "A box continues a track only when its IoU with the predicted box is at least this.",
          .min = 0.01,
          .max = 1});
 }

@@ -12,10 +12,13 @@ IMPLEMENTS_MRPT_OBJECT(UnarySelector, ProposalSelector, roomgraph)
 
 void UnarySelector::declareParameters(ParameterVisitor& v) {
   v.add("max_energy", max_energy_,
-        {.doc = "a proposal is selected when alpha * U (Eq. 4) is at most this", .min = -1, .max = 0});
-  v.add(
-      "temperature", temperature_,
-      {.doc = "of the Boltzmann distribution that turns energies into confidences", .min = 0.001, .max = 10});
+        {.doc = "A proposal is selected when its unary energy alpha * U (Eq. 4) is at most this.",
+         .min = -1,
+         .max = 0});
+  v.add("temperature", temperature_,
+        {.doc = "Temperature of the Boltzmann distribution that turns energies into confidences.",
+         .min = 0.001,
+         .max = 10});
 }
 
 std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame,

@@ -6,13 +6,17 @@ namespace roomgraph {
 namespace {
 
 void declareMeasurements(ParameterVisitor& v, TrackingParameters& p) {
-  v.add("max_features", p.max_features, {.doc = "Features per image.", .min = 50, .max = 10000});
-  v.add("pyramid_levels", p.pyramid_levels, {.doc = "Levels of the image pyramid.", .min = 1, .max = 12});
+  v.add("max_features", p.max_features, {.doc = "Number of features per image.", .min = 50, .max = 10000});
+  v.add("pyramid_levels", p.pyramid_levels,
+        {.doc = "Number of levels of the image pyramid.", .min = 1, .max = 12});
   v.add("scale_factor", p.scale_factor, {.doc = "Size ratio of two pyramid levels.", .min = 1.05, .max = 2});
   v.add("fast_threshold", p.fast_threshold,
         {.doc = "Least grey difference of a FAST corner.", .min = 1, .max = 100});
   v.add("cell_px", p.cell_px,
-        {.doc = "Cells over which the features are spread evenly.", .unit = "px", .min = 8, .max = 200});
+        {.doc = "Size of the cells over which the features are spread evenly.",
+         .unit = "px",
+         .min = 8,
+         .max = 200});
   v.add("pixel_sigma_px", p.pixel_sigma_px,
         {.doc = "Noise of a feature's pixel on the finest level.", .unit = "px", .min = 0.05, .max = 10});
   v.add("depth_sigma_base_m", p.depth_sigma_base_m,
@@ -41,25 +45,27 @@ void declareMatching(ParameterVisitor& v, TrackingParameters& p) {
   v.add("max_hamming", p.max_hamming,
         {.doc = "Largest Hamming distance of two 256-bit descriptors that match.", .min = 10, .max = 128});
   v.add("match_ratio", p.match_ratio,
-        {.doc = "Best over second-best descriptor distance must stay below.", .min = 0.1, .max = 1});
-  v.add("min_inliers", p.min_inliers, {.doc = "Fewer inliers mean lost.", .min = 6, .max = 1000});
+        {.doc = "Largest ratio of the best to the second best descriptor distance.", .min = 0.1, .max = 1});
+  v.add("min_inliers", p.min_inliers, {.doc = "Tracking is lost with fewer inliers.", .min = 6, .max = 1000});
 }
 
 void declareMap(ParameterVisitor& v, TrackingParameters& p) {
-  v.add("keyframe_inlier_ratio", p.keyframe_inlier_ratio,
-        {.doc = "New keyframe when fewer than this share of the reference keyframe's points is tracked.",
-         .min = 0.1,
-         .max = 1});
+  v.add(
+      "keyframe_inlier_ratio", p.keyframe_inlier_ratio,
+      {.doc =
+           "A new keyframe is made when fewer than this share of the reference keyframe's points is tracked.",
+       .min = 0.1,
+       .max = 1});
   v.add("keyframe_distance_m", p.keyframe_distance_m,
-        {.doc = "New keyframe after this movement.", .unit = "m", .min = 0.01, .max = 10});
+        {.doc = "A new keyframe is made after this movement.", .unit = "m", .min = 0.01, .max = 10});
   v.add("keyframe_angle_rad", p.keyframe_angle_rad,
-        {.doc = "New keyframe after this rotation.", .unit = "rad", .min = 0.01, .max = 3});
+        {.doc = "A new keyframe is made after this rotation.", .unit = "rad", .min = 0.01, .max = 3});
   v.add("local_keyframes", p.local_keyframes,
-        {.doc = "Keyframes whose points form the local map.", .min = 1, .max = 200});
+        {.doc = "Number of keyframes whose points form the local map.", .min = 1, .max = 200});
   v.add("ba_window", p.ba_window,
-        {.doc = "Keyframes that local bundle adjustment moves.", .min = 1, .max = 100});
+        {.doc = "Number of keyframes that local bundle adjustment optimises.", .min = 1, .max = 100});
   v.add("ba_fixed_keyframes", p.ba_fixed_keyframes,
-        {.doc = "Further keyframes that hold them.", .min = 0, .max = 200});
+        {.doc = "Further keyframes that are held fixed in local bundle adjustment.", .min = 0, .max = 200});
   v.add("ba_iterations", p.ba_iterations,
         {.doc = "Iterations of local bundle adjustment; 0: none.", .min = 0, .max = 100});
 }

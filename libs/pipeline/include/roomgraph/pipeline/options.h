@@ -8,7 +8,6 @@
 
 #include "roomgraph/association/landmark_options.h"
 #include "roomgraph/core/parameters.h"
-#include "roomgraph/detection/box_tracker.h"
 #include "roomgraph/estimation/options.h"
 #include "roomgraph/mapping/occupancy_options.h"
 
