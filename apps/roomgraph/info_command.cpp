@@ -12,13 +12,12 @@
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double kDegrees = 180 / M_PI;
 
 template <class... Values>
 void print(const char* pattern, Values... values) {
@@ -54,7 +53,7 @@ void printImages(const ImageSummary& images) {
         images.near_depth_m, images.far_depth_m, 100 * images.valid_depth_share);
   if (images.floor)
     print("    floor     %.2f m below the sensor, tilted by %.1f deg against its pose (%d images)\n",
-          images.floor->sensor_height_m, images.floor->tilt_rad * kDegrees, images.floor->images);
+          images.floor->sensor_height_m, images.floor->tilt_rad * kDegreesPerRadian, images.floor->images);
   if (images.range_over_lidar)
     print("    lidar     depth images see %.2f times as far along horizontal rays\n",
           *images.range_over_lidar);
@@ -65,7 +64,7 @@ void printImages(const ImageSummary& images) {
 
 void printScans(const ScanSummary& scans) {
   print("    scan      %d beams over %.2f deg (%s), max. range %.2f m, %.0f %% returns\n", scans.beams,
-        scans.aperture_rad * kDegrees, scans.right_to_left ? "counter-clockwise" : "clockwise",
+        scans.aperture_rad * kDegreesPerRadian, scans.right_to_left ? "counter-clockwise" : "clockwise",
         scans.max_range_m, 100 * scans.valid_share);
 }
 
@@ -77,14 +76,14 @@ void printSensor(const SensorReport& sensor) {
   if (sensor.robot_from_sensor && sensor.used) {
     const auto pose = yawPitchRoll(*sensor.robot_from_sensor);
     print("    on robot  x %.3f y %.3f z %.3f m, yaw %.1f pitch %.1f roll %.1f deg%s\n", pose.x, pose.y,
-          pose.z, pose.yaw * kDegrees, pose.pitch * kDegrees, pose.roll * kDegrees,
+          pose.z, pose.yaw * kDegreesPerRadian, pose.pitch * kDegreesPerRadian, pose.roll * kDegreesPerRadian,
           sensor.pose_changes ? " (first record; changes)" : "");
   }
   if (sensor.images) printImages(*sensor.images);
   if (sensor.scans) printScans(*sensor.scans);
   if (sensor.path_length_m)
     print("    odometry  path %.2f m, turns %.0f deg\n", *sensor.path_length_m,
-          sensor.odometry_turn_rad * kDegrees);
+          sensor.odometry_turn_rad * kDegreesPerRadian);
 }
 
 void printReport(const RawlogReport& report) {

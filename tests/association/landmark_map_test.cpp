@@ -249,10 +249,10 @@ TEST(LandmarkMap, TwoGroupsOfSightingsAreTwoObjects) {
   const LandmarkId mixed = born(map, sightingAt(0, 0));
   for (int i = 1; i < 20; ++i)
     map.update(sightingAt(i % 2 ? 0.02 * (i % 5) : 0.7 + 0.02 * (i % 5), 0), belongsTo(mixed));
-  const auto parted = map.splitMixed();
-  ASSERT_EQ(parted.size(), 1u);
-  EXPECT_EQ(parted[0].first, mixed);
-  const Landmark *a = map.find(mixed), *b = map.find(parted[0].second);
+  const auto split_pairs = map.splitMixed();
+  ASSERT_EQ(split_pairs.size(), 1u);
+  EXPECT_EQ(split_pairs[0].first, mixed);
+  const Landmark *a = map.find(mixed), *b = map.find(split_pairs[0].second);
   ASSERT_TRUE(a && b);
   EXPECT_NEAR(std::abs(a->position.x() - b->position.x()), 0.7, 0.05);
   EXPECT_EQ(a->observations + b->observations, 20);
@@ -265,9 +265,9 @@ TEST(LandmarkMap, AMovedLandmarkIsPartedWhereItsSightingsWent) {
   for (int i = 1; i < 20; ++i)
     map.update(sightingAt(i % 2 ? 0.02 * (i % 5) : 0.7 + 0.02 * (i % 5), 0), belongsTo(mixed));
   map.move(mixed, poseFromYpr(4, 1, 0, M_PI / 2, 0, 0));
-  const auto parted = map.splitMixed();
-  ASSERT_EQ(parted.size(), 1u);
-  const Landmark *a = map.find(mixed), *b = map.find(parted[0].second);
+  const auto split_pairs = map.splitMixed();
+  ASSERT_EQ(split_pairs.size(), 1u);
+  const Landmark *a = map.find(mixed), *b = map.find(split_pairs[0].second);
   EXPECT_NEAR(std::abs(a->position.y() - b->position.y()), 0.7, 0.05);
   EXPECT_NEAR(a->position.x(), 4, 0.05);
   EXPECT_NEAR(b->position.x(), 4, 0.05);

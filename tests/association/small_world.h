@@ -91,8 +91,7 @@ inline std::vector<AssociatedFrame> runOnline(const SmallWorld& world, Associato
       out.back().boxes.push_back({"chair", seen.measurement.detection.box, static_cast<int>(id.value),
                                   !association.landmark.valid(), association.probability});
     }
-    if (f % 20 == 19)
-      for (const auto& [removed, kept] : map.mergeDuplicates()) associator.merged(removed, kept);
+    if (f % 20 == 19 && !map.mergeDuplicates().empty()) associator.identitiesChanged(map.identity());
   }
   return out;
 }

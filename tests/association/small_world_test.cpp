@@ -67,7 +67,8 @@ TEST(SmallWorld, HindsightFindsEveryChairOnce) {
     SoftAssociator associator;
     LandmarkMap map;
     runOnline(world, associator, map);
-    const auto result = reassociate(world.frames, map.landmarks(), *associator.model(), map.rules());
+    const auto result =
+        reassociate(world.frames, map.landmarks(), map.identity(), *associator.model(), map.rules());
     const auto errors = evaluateAssociations(world.truth, writtenDown(world, result));
     batch.add(errors);
     EXPECT_GE(errors.accuracy, 0.97) << "seed " << seed;
@@ -80,7 +81,7 @@ TEST(SmallWorld, HindsightFindsEveryChairOnce) {
 
 TEST(Reassociation, PosteriorsSumToOneAndTheFirstSightingIsNew) {
   const SmallWorld world = rowOfChairs(3);
-  const auto result = reassociate(world.frames, {}, AssociationModel{}, LandmarkRules{});
+  const auto result = reassociate(world.frames, {}, {}, AssociationModel{}, LandmarkRules{});
   std::set<LandmarkId> known;
   ASSERT_EQ(result.decisions.size(), world.frames.size());
   for (std::size_t f = 0; f < world.frames.size(); ++f) {
@@ -99,8 +100,8 @@ TEST(Reassociation, PosteriorsSumToOneAndTheFirstSightingIsNew) {
 TEST(Reassociation, SettlesAndIsTheSameAgain) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const SmallWorld world = rowOfChairs(seed);
-    const auto first = reassociate(world.frames, {}, AssociationModel{}, LandmarkRules{});
-    const auto second = reassociate(world.frames, {}, AssociationModel{}, LandmarkRules{});
+    const auto first = reassociate(world.frames, {}, {}, AssociationModel{}, LandmarkRules{});
+    const auto second = reassociate(world.frames, {}, {}, AssociationModel{}, LandmarkRules{});
     EXPECT_TRUE(first.settled) << "seed " << seed << " after " << first.rounds << " rounds";
     ASSERT_EQ(first.landmarks.size(), second.landmarks.size());
     for (std::size_t j = 0; j < first.landmarks.size(); ++j)
@@ -126,7 +127,7 @@ TEST(Reassociation, PartsALandmarkOfTwoChairs) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const auto world = inTurns(seed, {{0, 0}, {0.7, 0}});
     const auto result =
-        reassociate(world.frames, {landmarkAt(0, 0.35, 0, 0.3)}, AssociationModel{}, LandmarkRules{});
+        reassociate(world.frames, {landmarkAt(0, 0.35, 0, 0.3)}, {}, AssociationModel{}, LandmarkRules{});
     ASSERT_EQ(result.landmarks.size(), 2u) << "seed " << seed;
     const auto errors = evaluateAssociations(world.truth, writtenDown(world, result));
     EXPECT_EQ(errors.accuracy, 1) << "seed " << seed;
@@ -136,7 +137,7 @@ TEST(Reassociation, PartsALandmarkOfTwoChairs) {
 TEST(Reassociation, JoinsTwoLandmarksOfOneChair) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const auto world = inTurns(seed, {{0, 0}});
-    const auto result = reassociate(world.frames, {landmarkAt(3, -0.15, 0), landmarkAt(4, 0.15, 0)},
+    const auto result = reassociate(world.frames, {landmarkAt(3, -0.15, 0), landmarkAt(4, 0.15, 0)}, {},
                                     AssociationModel{}, LandmarkRules{});
     ASSERT_EQ(result.landmarks.size(), 1u) << "seed " << seed;
     EXPECT_LT(result.landmarks[0].position.head<2>().norm(), 0.04);
@@ -146,7 +147,7 @@ TEST(Reassociation, JoinsTwoLandmarksOfOneChair) {
 
 TEST(Reassociation, ALandmarkThatNobodyClaimsGoes) {
   const auto world = inTurns(1, {{0, 0}});
-  const auto result = reassociate(world.frames, {landmarkAt(1, 0, 0), landmarkAt(2, 5, 5)},
+  const auto result = reassociate(world.frames, {landmarkAt(1, 0, 0), landmarkAt(2, 5, 5)}, {},
                                   AssociationModel{}, LandmarkRules{});
   ASSERT_EQ(result.landmarks.size(), 1u);
   EXPECT_EQ(result.landmarks[0].id, LandmarkId{1});
@@ -167,26 +168,9 @@ TEST(SmallWorld, ChairsSideBySideStayTwo) {
     const auto errors = evaluateAssociations(world.truth, runOnline(world, associator, map));
     EXPECT_EQ(map.landmarks().size(), 2u) << "seed " << seed;
     EXPECT_EQ(errors.accuracy, 1) << "seed " << seed;
-    const auto result = reassociate(world.frames, {}, *associator.model(), map.rules());
+    const auto result = reassociate(world.frames, {}, {}, *associator.model(), map.rules());
     EXPECT_EQ(result.landmarks.size(), 2u) << "seed " << seed;
   }
-}
-
-TEST(SmallWorld, AMovedChairIsBornAgainAndItsOldPlaceDies) {
-  SmallWorld world;
-  for (int frame = 0; frame < 20; ++frame) {
-    addFrame(world);
-    addSighting(world, 0, frame < 10 ? 0 : 2, 0, 0.07, 0.6, frame < 10 ? 0 : 1);
-  }
-  SoftAssociator associator;
-  LandmarkMap map;
-  runOnline(world, associator, map);
-  ASSERT_EQ(map.landmarks().size(), 2u);
-  EXPECT_EQ(map.confirmed().size(), 2u);
-  const LandmarkId old = map.landmarks()[0].id;
-  for (int i = 0; i < 20; ++i) map.seenThrough(old, 15);
-  ASSERT_EQ(map.confirmed().size(), 1u);
-  EXPECT_NEAR(map.confirmed()[0].position.x(), 2, 1e-6);
 }
 
 // Thirty frames at one place, then thirty at another while the first place is seen empty: hindsight replays
@@ -210,7 +194,9 @@ TEST(Reassociation, AMovedChairIsWhereItWasSeenLast) {
       for (const auto old : before) map.miss(old);
   }
   ASSERT_EQ(before.size(), 1u);
-  const auto result = reassociate(frames, map.landmarks(), *associator.model(), map.rules());
+  ASSERT_EQ(map.confirmed().size(), 1u) << "the misses outweigh the sightings while the run goes on, too";
+  EXPECT_NEAR(map.confirmed().front().position.x(), 4, 0.02);
+  const auto result = reassociate(frames, map.landmarks(), map.identity(), *associator.model(), map.rules());
   map.adopt(frames, result);
   ASSERT_EQ(map.confirmed().size(), 1u);
   EXPECT_NEAR(map.confirmed().front().position.x(), 4, 0.02);

@@ -123,7 +123,9 @@ TEST(SoftAssociator, FeaturePointsRememberTheirLandmark) {
       << "without points: neutral";
   between.measurement.features = {15, 16, 17, 18, 19, 20, 21, 22};
   EXPECT_GT(probabilityOf(associator.associate({between}, landmarks)[0], LandmarkId{2}), 0.6);
-  associator.merged(LandmarkId{2}, LandmarkId{1});
+  LandmarkIdentity identity;
+  identity.merge(LandmarkId{2}, LandmarkId{1});
+  associator.identitiesChanged(identity);
   EXPECT_GT(probabilityOf(associator.associate({between}, landmarks)[0], LandmarkId{1}), 0.6);
 }
 

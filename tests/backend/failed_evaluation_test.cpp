@@ -36,8 +36,6 @@ TEST_F(FailedEvaluation, HasNoCovariancesNoPriorAndNoChiSquared) {
     FactorGraph graph = loopWith(poison);
     EXPECT_TRUE(std::isnan(graph.chiSquared()));
     EXPECT_FALSE(graph.landmarkCovariances());
-    EXPECT_FALSE(graph.poseCovariance(NodeId{5}));
-    EXPECT_FALSE(graph.jointCovariance(NodeId{5}, LandmarkId{0}));
     EXPECT_FALSE(graph.marginalize({.nodes = {NodeId{5}, NodeId{6}}}));
     EXPECT_FALSE(graph.optimize().usable);
   }

@@ -11,7 +11,7 @@ namespace {
 std::vector<double> numbers(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
-std::vector<double> sizeOf(const ObjectShape& shape) {
+std::vector<double> sizeBlock(const ObjectShape& shape) {
   return {shape.width, shape.depth, shape.height};
 }
 
@@ -62,7 +62,7 @@ Specimen boxAtMeasurement(Random& random) {
   f.box = projectShape(shape, world_from_camera.inverse() * world_from_object, f.camera).value().full;
   Specimen s{sharedCost(f, shape.kind), blocksOf(world_from_camera * f.robot_from_camera.inverse())};
   s.blocks.push_back({{place.x(), place.y(), place.z(), yaw}});
-  s.blocks.push_back({sizeOf(shape)});
+  s.blocks.push_back({sizeBlock(shape)});
   return s;
 }
 
@@ -116,7 +116,7 @@ Specimen pointLandmarkAtMeasurement(Random& random) {
   Specimen s{sharedCost(PointLandmarkFactor{}, shape.kind),
              {{numbers(poseFromYpr(place.x(), place.y(), place.z(), yaw, 0, 0) * inside)}}};
   s.blocks.push_back({{place.x(), place.y(), place.z(), yaw}});
-  s.blocks.push_back({sizeOf(shape)});
+  s.blocks.push_back({sizeBlock(shape)});
   return s;
 }
 
@@ -139,7 +139,7 @@ Specimen marginalPriorAtMeasurement(Random& random) {
   for (auto& value : prior.root.reshaped()) value = random.uniform(-2, 2);
   Specimen s{sharedCost(prior), blocksOf(pose)};
   s.blocks.push_back({{landmark.position.x(), landmark.position.y(), landmark.position.z(), landmark.yaw}});
-  s.blocks.push_back({sizeOf(landmark.shape)});
+  s.blocks.push_back({sizeBlock(landmark.shape)});
   s.blocks.push_back({numbers(point)});
   return s;
 }

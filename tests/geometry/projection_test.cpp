@@ -7,13 +7,14 @@
 #include <numbers>
 
 #include "random_poses.h"
+#include "roomgraph/geometry/projected_bounds.h"
 
 namespace roomgraph {
 namespace {
 
 using test::Random;
 
-const PinholeCamera kSquarePixels{640, 480, 525, 525, 319.5, 239.5, {}};
+const PinholeCamera kTallPixels{640, 480, 525, 480, 319.5, 239.5, {}};
 constexpr double kNear = 0.05;
 
 // Every point that can lie on the outline of the model in front of the near plane: its edges (of a cylinder:
@@ -41,7 +42,7 @@ std::optional<Box2> sampledBounds(const ObjectShape& shape, const Pose3& camera_
   for (const auto& point : outline(shape, per_edge)) {
     const Eigen::Vector3d p = camera_from_object * point;
     if (p.z() < kNear) continue;
-    const Eigen::Vector2d pixel = kSquarePixels.project(p);
+    const Eigen::Vector2d pixel = kTallPixels.project(p);
     box = {std::min(box.u_min, pixel.x()), std::min(box.v_min, pixel.y()), std::max(box.u_max, pixel.x()),
            std::max(box.v_max, pixel.y())};
   }
@@ -71,19 +72,19 @@ TEST(ProjectShape, InFrontEqualsSampling) {
     Pose3 pose = random.pose(0);
     pose.translation() =
         Eigen::Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2.8, 7));
-    const auto projected = projectShape(shape, pose, kSquarePixels);
+    const auto projected = projectShape(shape, pose, kTallPixels);
     const Box2 full = *sampledBounds(shape, pose, 3);
-    const Box2 visible = clipped(full, kSquarePixels.width, kSquarePixels.height);
+    const Box2 visible = clipped(full, kTallPixels.width, kTallPixels.height);
     ASSERT_EQ(projected.has_value(), !visible.empty());
     if (!projected) continue;
     ++seen;
     expectNear(projected->full, full, 0.05);
     expectNear(projected->visible, visible, 0.05);
-    EXPECT_EQ(projected->cut_left, full.u_min < 0);
-    EXPECT_EQ(projected->cut_top, full.v_min < 0);
-    EXPECT_EQ(projected->cut_right, full.u_max > kSquarePixels.width);
-    EXPECT_EQ(projected->cut_bottom, full.v_max > kSquarePixels.height);
-    cut += projected->cut_left || projected->cut_top || projected->cut_right || projected->cut_bottom;
+    EXPECT_EQ(projected->cut.left, full.u_min < 0);
+    EXPECT_EQ(projected->cut.top, full.v_min < 0);
+    EXPECT_EQ(projected->cut.right, full.u_max > kTallPixels.width);
+    EXPECT_EQ(projected->cut.bottom, full.v_max > kTallPixels.height);
+    cut += projected->cut.any();
   }
   EXPECT_GT(seen, 200);
   EXPECT_GT(cut, 30);
@@ -99,9 +100,9 @@ TEST(ProjectShape, PartlyBehindTheCameraEqualsSampling) {
     pose.translation() =
         Eigen::Vector3d(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-0.8, 1));
     const auto full = sampledBounds(shape, pose, 20000);
-    const auto projected = projectShape(shape, pose, kSquarePixels);
+    const auto projected = projectShape(shape, pose, kTallPixels);
     if (!full) continue;
-    const Box2 visible = clipped(*full, kSquarePixels.width, kSquarePixels.height);
+    const Box2 visible = clipped(*full, kTallPixels.width, kTallPixels.height);
     if (visible.width() < 3 || visible.height() < 3) continue;  // its border decides whether there is any
     ++partly;
     ASSERT_TRUE(projected.has_value());
@@ -115,12 +116,12 @@ TEST(ProjectShape, BehindOrBesideGivesNothing) {
   const ObjectShape shape{ShapeKind::kCuboid, 1, 1, 1};
   Pose3 pose = Pose3::Identity();
   pose.translation().z() = -3;
-  EXPECT_FALSE(projectShape(shape, pose, kSquarePixels).has_value());
+  EXPECT_FALSE(projectShape(shape, pose, kTallPixels).has_value());
   pose.translation() = Eigen::Vector3d(20, 0, 3);
-  EXPECT_FALSE(projectShape(shape, pose, kSquarePixels).has_value());
+  EXPECT_FALSE(projectShape(shape, pose, kTallPixels).has_value());
 }
 
-TEST(ProjectCircle, EqualsSampling) {
+TEST(CircleBounds, EqualSampling) {
   Random random(3);
   int in_front = 0;
   for (int round = 0; round < 200; ++round) {
@@ -134,20 +135,24 @@ TEST(ProjectCircle, EqualsSampling) {
       const double angle = 2 * std::numbers::pi * k / 20000;
       const Eigen::Vector3d p = center + radius * (std::cos(angle) * e1 + std::sin(angle) * e2);
       nearest = std::min(nearest, p.z());
-      const Eigen::Vector2d pixel = kSquarePixels.project(p);
+      const Eigen::Vector2d pixel = kTallPixels.project(p);
       sampled = {std::min(sampled.u_min, pixel.x()), std::min(sampled.v_min, pixel.y()),
                  std::max(sampled.u_max, pixel.x()), std::max(sampled.v_max, pixel.y())};
     }
-    const auto box = projectCircle(center, normal, radius, kSquarePixels);
-    if (nearest < -1e-3) {
-      EXPECT_FALSE(box.has_value());
-    }
     if (nearest < 0.05) continue;
     ++in_front;
-    ASSERT_TRUE(box.has_value());
-    expectNear(*box, sampled, 0.05);
+    const auto u = circleBounds(center, normal, radius, 0, kTallPixels.fx, kTallPixels.cx);
+    const auto v = circleBounds(center, normal, radius, 1, kTallPixels.fy, kTallPixels.cy);
+    expectNear({u[0], v[0], u[1], v[1]}, sampled, 0.05);
   }
   EXPECT_GT(in_front, 100);
+}
+
+TEST(CircleBounds, ACircleSeenEdgeOnHasNoWidth) {
+  // In the plane x = 0 through the camera's centre: its image is a line u = cx.
+  const auto u = circleBounds<double>({0, 0, 3}, {1, 0, 0}, 0.5, 0, kTallPixels.fx, kTallPixels.cx);
+  EXPECT_NEAR(u[0], kTallPixels.cx, 1e-9);
+  EXPECT_NEAR(u[1], kTallPixels.cx, 1e-9);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "cylinder_generator.h"
 #include "edge_agreement.h"
 #include "leg_line.h"
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 #include "scene.h"
 
 namespace roomgraph {
@@ -125,7 +125,7 @@ TEST(Vanishing, CornersRecoverCuboids) {
       const PlacedShape truth = sofaAt(x, y, wrapAngle(std::numbers::pi + std::atan2(y, x) + turn(random)));
       const auto projected = project(truth, e);
       ASSERT_TRUE(projected);
-      if (projected->cut_left || projected->cut_right || projected->cut_bottom) continue;
+      if (projected->cut.left || projected->cut.right || projected->cut.bottom) continue;
       e.box = projected->visible;
       double best = 0;
       for (const PlacedShape& p : cuboidsFromCorners(e))

@@ -9,8 +9,8 @@
 #include "cuboid_generator.h"
 #include "cylinder_generator.h"
 #include "door_generator.h"
-#include "quantile.h"
 #include "rectangle_fit.h"
+#include "roomgraph/core/order_statistics.h"
 #include "scene.h"
 
 namespace roomgraph {

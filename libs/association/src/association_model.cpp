@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "alternative_weights.h"
+
 namespace roomgraph {
 
 void AssociationModel::declare(ParameterVisitor& v) {

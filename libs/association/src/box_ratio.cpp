@@ -30,10 +30,10 @@ double boxDensity(const Box2& box, const std::optional<ProjectedShape>& projecte
   const Box2 model = projected ? projected->visible : Box2{far, far, far, far};
   const auto inside = sidesInside(box, camera);
   double density = 1;
-  if (inside[0]) density *= sideDensity(model.u_min - box.u_min, box.width(), noise);
-  if (inside[1]) density *= sideDensity(model.v_min - box.v_min, box.height(), noise);
-  if (inside[2]) density *= sideDensity(model.u_max - box.u_max, box.width(), noise);
-  if (inside[3]) density *= sideDensity(model.v_max - box.v_max, box.height(), noise);
+  if (inside.left) density *= sideDensity(model.u_min - box.u_min, box.width(), noise);
+  if (inside.top) density *= sideDensity(model.v_min - box.v_min, box.height(), noise);
+  if (inside.right) density *= sideDensity(model.u_max - box.u_max, box.width(), noise);
+  if (inside.bottom) density *= sideDensity(model.v_max - box.v_max, box.height(), noise);
   return density;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frame decision from exclusive and non-exclusive alternatives by solveExclusive().
-#include "roomgraph/association/frame_decision.h"
+#include "frame_decision.h"
 
 #include <algorithm>
 #include <map>

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <complex>
 
+#include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/association/reassociation.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr int kPlaceIterations = 8;
-constexpr double kLeastTrust = 1e-3;     // keeps the mean defined when every depth seems to have failed
-constexpr double kLeastVariance = 1e-4;  // sightings of one object share errors
+constexpr double kLeastTrust = 1e-3;  // keeps the mean defined when every depth seems to have failed
 
 void estimatePlace(Landmark& landmark, const std::vector<const WorldMeasurement*>& sightings,
                    const std::vector<double>& weights, const MeasurementModel& model) {
@@ -64,7 +64,7 @@ void estimateSize(Landmark& landmark, const std::vector<const WorldMeasurement*>
   double total = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const double weight = weights[i] * wholeness(sightings[i]->measurement);
+    const double weight = weights[i] * visibleFraction(sightings[i]->measurement);
     const auto& shape = sightings[i]->measurement.proposal.shape;
     sum += weight * Eigen::Vector3d(shape.width, shape.depth, shape.height);
     total += weight;

@@ -10,11 +10,10 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kCarriedInformation = 0.3;
-constexpr double kOutlier = 16;        // squared Mahalanobis distance
-constexpr double kMostDoubt = 1e4;     // factor on the covariance of such a sighting
-constexpr double kLabelPrior = 0.5;    // pseudo-votes per class
-constexpr double kMaxSizeWeight = 50;  // sizes may follow an object seen better later
+constexpr double kOutlier = 16;         // squared Mahalanobis distance
+constexpr double kMostInflation = 1e4;  // largest factor on the covariance of an outlier
+constexpr double kLabelPrior = 0.5;     // pseudo-votes per class
+constexpr double kMaxSizeWeight = 50;   // sizes may follow an object seen better later
 constexpr std::size_t kMaxRecent = 40;
 constexpr std::size_t kLeastOnOneSide = 3;
 constexpr double kLeastShare = 0.25, kMaxSpread = 0.25;  // of the weight; of the distance
@@ -75,16 +74,15 @@ void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   Eigen::Vector4d innovation;
   innovation.head<3>() = seen.world_from_object.translation() - landmark.position;
   innovation[3] = use_yaw ? wrapAngle(yaw - landmark.yaw) : 0;
-  // A measurement far off in yaw is the other reading of a symmetric shape: it says nothing about the fine
-  // angle.
+  // A measurement far off in yaw is the other symmetric solution: it does not measure the angle.
   const bool fine = use_yaw && std::abs(innovation[3]) < M_PI / 4;
   if (!fine) innovation[3] = 0;
   Eigen::Matrix4d noise = seen.covariance;
-  if (seen.measurement.detection.carried) noise /= kCarriedInformation;
-  // What lies far off was taken for this landmark for other reasons than its place.
+  if (seen.measurement.detection.carried) noise /= kCarriedShare;
+  // An outlier in place was assigned for other reasons (track, features).
   const Eigen::Matrix2d joint = (landmark.covariance + noise).topLeftCorner<2, 2>();
   const double squared = innovation.head<2>().dot(joint.inverse() * innovation.head<2>());
-  if (squared > kOutlier) noise *= std::min(std::pow(squared / kOutlier, 2), kMostDoubt);
+  if (squared > kOutlier) noise *= std::min(std::pow(squared / kOutlier, 2), kMostInflation);
   if (!fine) {
     noise.row(3).setZero();
     noise.col(3).setZero();
@@ -99,9 +97,7 @@ void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   const Eigen::Matrix4d fused =
       rest * landmark.covariance * rest.transpose() + gain * noise * gain.transpose();
   landmark.covariance = (fused + fused.transpose()) / 2;
-  // Measurements of one object share errors (same view, same model): a floor keeps the estimate open to new
-  // views.
-  for (int i = 0; i < 4; ++i) landmark.covariance(i, i) = std::max(landmark.covariance(i, i), 1e-4);
+  for (int i = 0; i < 4; ++i) landmark.covariance(i, i) = std::max(landmark.covariance(i, i), kLeastVariance);
   if (!landmark.has_yaw && seen.measurement.proposal.has_yaw) {
     landmark.yaw = yaw;
     landmark.has_yaw = true;
@@ -121,7 +117,7 @@ void voteYaw(Landmark& landmark, LandmarkRecord& record, const WorldMeasurement&
 }
 
 void fuseSize(Landmark& landmark, LandmarkRecord& record, const ObjectMeasurement& seen) {
-  const double weight = sightingWeight(seen) * wholeness(seen);
+  const double weight = sightingWeight(seen) * visibleFraction(seen);
   record.size_weight = std::min(record.size_weight + weight, kMaxSizeWeight);
   if (record.size_weight <= 0) return;
   const double share = weight / record.size_weight;
@@ -149,9 +145,10 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen) {
 
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned) {
   record.evidence += other.evidence;
-  record.doubts.insert(record.doubts.end(), other.doubts.begin(), other.doubts.end());
-  std::stable_sort(record.doubts.begin(), record.doubts.end(),
-                   [](const Doubt& a, const Doubt& b) { return a.after < b.after; });
+  record.existence_updates.insert(record.existence_updates.end(), other.existence_updates.begin(),
+                                  other.existence_updates.end());
+  std::stable_sort(record.existence_updates.begin(), record.existence_updates.end(),
+                   [](const ExistenceUpdate& a, const ExistenceUpdate& b) { return a.after < b.after; });
   record.ray_support = std::max(record.ray_support, other.ray_support);
   record.front += turned ? other.back : other.front;
   record.back += turned ? other.front : other.back;

@@ -6,15 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "roomgraph/geometry/place_covariance.h"
+#include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr int kMaxRays = 20;
 constexpr double kMaxRaySupport = 1;
-constexpr double kPrecise_m = 0.3;    // standard deviation on the ground that says where an object is
-constexpr double kClearMajority = 3;  // detectors take sofas for chairs often, so a lead says little
+constexpr double kPrecise_m = 0.3;  // standard deviation on the ground up to which a sighting counts fully
+constexpr double kClearMajority =
+    3;  // ratio of label votes that changes the class: detectors often confuse classes
 
 double widthOf(const ObjectShape& shape) {
   return std::max(shape.width, shape.depth);
@@ -36,8 +37,8 @@ Landmark* LandmarkMap::get(LandmarkId id) {
   return const_cast<Landmark*>(find(id));
 }
 
-// A carried box repeats what was seen before; a sighting that hardly says where the object is, or says that
-// it is elsewhere, cannot tell that it is here.
+// Likelihood ratio of "exists" against "does not" for a sighting. It is nearer to 1 for boxes carried from an
+// earlier frame and for places of large variance, and 1 for a place that does not fit the landmark.
 double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const {
   const ObjectMeasurement& measurement = seen.measurement;
   double share =
@@ -45,7 +46,7 @@ double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasure
   const double variance = seen.covariance.topLeftCorner<2, 2>().trace();
   share *= std::min(1.0, kPrecise_m * kPrecise_m / variance);
   if (isElsewhere(landmark, seen)) share = 0;
-  // The poorer a sighting, the less it says either way: with a score of 0 nothing but a box was seen.
+  // Below the neutral score the evidence fades to none: a score of 0 means that only a box was seen.
   const double score = measurement.proposal.score;
   if (score < options_.neutral_score) share *= score / options_.neutral_score;
   return std::exp(options_.score_gain * share * (score - options_.neutral_score));
@@ -54,9 +55,9 @@ double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasure
 LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& association) {
   const ObjectMeasurement& measurement = seen.measurement;
   Landmark* landmark = get(association.landmark);
-  const bool fresh = landmark == nullptr;
-  if (fresh) {
-    landmarks_.push_back(bornFrom(seen, LandmarkId{next_id_++}, rules().birth_existence));
+  const bool is_new = landmark == nullptr;
+  if (is_new) {
+    landmarks_.push_back(initializeLandmark(seen, identity_.create(), rules().birth_existence));
     landmark = &landmarks_.back();
   }
   LandmarkRecord& record = records_[landmark->id];
@@ -65,10 +66,10 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& 
   if (label != landmark->class_name) {
     if (record.labels[label] <= kClearMajority * record.labels[landmark->class_name]) return landmark->id;
     const Landmark before = *landmark;
-    *landmark = bornFrom(seen, before.id, before.existence);
+    *landmark = initializeLandmark(seen, before.id, before.existence);
     landmark->class_posterior = before.class_posterior;
     landmark->observations = before.observations;
-  } else if (!fresh) {
+  } else if (!is_new) {
     weigh(*landmark, likelihoodRatio(*landmark, seen));
     fusePlace(*landmark, seen);
     ++landmark->observations;
@@ -104,32 +105,34 @@ int LandmarkMap::together(LandmarkId a, LandmarkId b) const {
 // Bayes' rule with the likelihood ratio of "exists" against "does not".
 void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
   const double exists = ratio * landmark.existence;
-  // Never beyond recall: an object hidden for long may be seen again, one seen for long may be gone.
+  // Clamped, so that existence can recover: a hidden object may be seen again, one seen for long may be
+  // removed.
   landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 1 - 1e-9);
 }
 
-void LandmarkMap::doubt(LandmarkId id, double log_ratio) {
+void LandmarkMap::updateExistence(LandmarkId id, double log_ratio) {
   Landmark* landmark = get(id);
   if (!landmark) return;
   weigh(*landmark, std::exp(log_ratio));
-  records_[id].doubts.push_back({frame_, log_ratio});
+  records_[id].existence_updates.push_back({frame_, log_ratio});
 }
 
 void LandmarkMap::miss(LandmarkId id) {
-  doubt(id, std::log((1 - options_.detection_probability) / (1 - options_.false_alarm_probability)));
+  updateExistence(id,
+                  std::log((1 - options_.detection_probability) / (1 - options_.false_alarm_probability)));
 }
 
 void LandmarkMap::seenThrough(LandmarkId id, int rays) {
-  doubt(id, -options_.ray_gain * std::clamp(rays, 0, kMaxRays));
+  updateExistence(id, -options_.ray_gain * std::clamp(rays, 0, kMaxRays));
 }
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
   if (!find(id)) return;
-  // Something is there, which need not be what the landmark is taken for.
+  // Returns show that something is there, not of which class: their total support is limited.
   double& support = records_[id].ray_support;
   const double gain = std::min(options_.ray_gain * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
   support += gain;
-  doubt(id, gain);
+  updateExistence(id, gain);
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
@@ -152,10 +155,10 @@ void LandmarkMap::move(LandmarkId id, const Pose3& new_from_old) {
   const Pose3 moved = new_from_old * landmark->worldFromObject();
   landmark->position = moved.translation();
   landmark->yaw = planarPart(moved).yaw;
-  landmark->covariance = turned(landmark->covariance, new_from_old.linear());
+  landmark->covariance = rotateCovariance(landmark->covariance, new_from_old.linear());
 }
 
-// The one seen more often says where it is and how large.
+// Place and size are those of the landmark with more observations.
 void LandmarkMap::join(Landmark& kept, const Landmark& removed) {
   const LandmarkId id = kept.id;
   const double existence = 1 - (1 - kept.existence) * (1 - removed.existence);
@@ -188,6 +191,7 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
         continue;
       }
       merged.emplace_back(landmarks_[j].id, landmarks_[i].id);
+      identity_.merge(landmarks_[j].id, landmarks_[i].id);
       join(landmarks_[i], Landmark(landmarks_[j]));
       landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(j));
     }
@@ -196,7 +200,7 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
 }
 
 std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
-  std::vector<std::pair<LandmarkId, LandmarkId>> parted;
+  std::vector<std::pair<LandmarkId, LandmarkId>> split_pairs;
   const std::size_t known = landmarks_.size();
   for (std::size_t i = 0; i < known; ++i) {
     Landmark& landmark = landmarks_[i];
@@ -205,7 +209,7 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
     const auto split = findSplit(sightings, rules().duplicates.splitDistance(landmark.shape));
     if (!split) continue;
     Landmark made = landmark;
-    made.id = LandmarkId{next_id_++};
+    made.id = identity_.split(landmark.id);
     landmark.position.head<2>() = split->first;
     made.position.head<2>() = split->second;
     made.observations = static_cast<int>(std::lround(split->second_share * landmark.observations));
@@ -216,32 +220,37 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
     record.recent.clear(), other.recent.clear();
     for (std::size_t k = 0; k < sightings.size(); ++k)
       (split->is_second[k] ? other : record).recent.push_back(sightings[k]);
-    parted.emplace_back(landmark.id, made.id);
+    split_pairs.emplace_back(landmark.id, made.id);
     landmarks_.push_back(made);
   }
-  return parted;
+  return split_pairs;
 }
 
 void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                         const Reassociation& result) {
-  for (const auto& [removed, kept] : result.merged)
-    if (records_.contains(removed)) joinRecords(records_[kept], records_[removed], false);
-  std::multimap<FrameId, std::pair<LandmarkId, double>> doubts;
+  const std::size_t known_changes = identity_.changes().size();
+  identity_ = result.identity;
+  for (std::size_t i = known_changes; i < identity_.changes().size(); ++i) {
+    const auto& [kind, removed, kept] = identity_.changes()[i];
+    if (kind == IdentityChange::Kind::kMerge && records_.contains(removed))
+      joinRecords(records_[kept], records_[removed], false);
+  }
+  std::multimap<FrameId, std::pair<LandmarkId, double>> existence_updates;
   for (const auto& landmark : result.landmarks)
-    for (const auto& [after, log_ratio] : records_[landmark.id].doubts)
-      doubts.emplace(after, std::pair{landmark.id, log_ratio});
-  // Replayed as if seen for the first time, for the votes; then place and size as re-estimated.
+    for (const auto& [after, log_ratio] : records_[landmark.id].existence_updates)
+      existence_updates.emplace(after, std::pair{landmark.id, log_ratio});
+  // The sightings are fused again from the beginning, for existence and votes; then place and size are set to
+  // those of the re-association.
   landmarks_ = result.landmarks;
   for (auto& landmark : landmarks_) {
     landmark.existence = rules().birth_existence;
     landmark.observations = 0;
-    next_id_ = std::max(next_id_, landmark.id.value + 1);
   }
   records_.clear(), together_.clear(), in_frame_.clear();
-  auto next = doubts.begin();
+  auto next = existence_updates.begin();
   const auto weighUntil = [&](FrameId frame) {
-    for (; next != doubts.end() && next->first < frame; ++next)
-      doubt(next->second.first, next->second.second);
+    for (; next != existence_updates.end() && next->first < frame; ++next)
+      updateExistence(next->second.first, next->second.second);
   };
   for (std::size_t f = 0; f < by_frame.size(); ++f) {
     if (!by_frame[f].empty()) weighUntil(by_frame[f].front().measurement.frame);
@@ -267,8 +276,8 @@ std::vector<Landmark> LandmarkMap::confirmed() const {
     if (landmark.existence >= options_.confirm_existence &&
         landmark.observations >= options_.confirm_observations)
       sure.push_back(landmark);
-  // Two things cannot be in one place: of overlapping landmarks (a sofa now and then labelled chair) the
-  // better seen stays.
+  // Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
+  // more evidence stays.
   std::stable_sort(sure.begin(), sure.end(), [this](const Landmark& a, const Landmark& b) {
     return records_.at(a.id).evidence > records_.at(b.id).evidence;
   });

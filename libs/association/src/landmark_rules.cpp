@@ -8,11 +8,10 @@ namespace roomgraph {
 namespace {
 
 constexpr double kOneThing = 0.5;
-constexpr double kCarried = 0.3;  // a carried box repeats the last detection
 
 }  // namespace
 
-Landmark bornFrom(const WorldMeasurement& seen, LandmarkId id, double existence) {
+Landmark initializeLandmark(const WorldMeasurement& seen, LandmarkId id, double existence) {
   const auto& proposal = seen.measurement.proposal;
   Landmark landmark;
   landmark.id = id;
@@ -30,10 +29,10 @@ Landmark bornFrom(const WorldMeasurement& seen, LandmarkId id, double existence)
 }
 
 double sightingWeight(const ObjectMeasurement& measurement) {
-  return measurement.proposal.score * (measurement.detection.carried ? kCarried : 1);
+  return measurement.proposal.score * (measurement.detection.carried ? kCarriedShare : 1);
 }
 
-double wholeness(const ObjectMeasurement& measurement) {
+double visibleFraction(const ObjectMeasurement& measurement) {
   const auto& projected = measurement.proposal.projected;
   const double full = projected.full.area();
   return full > 0 ? std::clamp(projected.visible.area() / full, 0.0, 1.0) : 1;

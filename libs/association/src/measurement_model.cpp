@@ -9,8 +9,9 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kSamePlace = 0.5;      // share of the smaller footprint
-constexpr double kNeverCertain = 0.98;  // existence that shuts out another thing in the same place
+constexpr double kSamePlace = 0.5;  // share of the smaller footprint
+constexpr double kMostSuppression =
+    0.98;  // cap on how much an existing landmark suppresses "new" at its place
 constexpr double kRayLength_m = 8;
 constexpr double kLeastRange_m = 0.3;  // nearer: no viewing ray
 
@@ -146,10 +147,10 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
     const double overlap =
         footprintOverlap(proposal.shape, seen.world_from_object, landmark.shape, landmark.worldFromObject());
     if (overlap < kSamePlace) continue;
-    // Two things cannot stand in one place: what is surely there leaves little room for something new.
+    // Two objects cannot stand in one place: a landmark of high existence makes "new" improbable there.
     const double area = std::max(0.1, landmark.shape.width * landmark.shape.depth);
     out.other_class.emplace_back(landmark.id, wrong_label * landmark.existence / area);
-    out.fresh *= 1 - kNeverCertain * landmark.existence;
+    out.fresh *= 1 - kMostSuppression * landmark.existence;
   }
   return out;
 }

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "roomgraph/association/frame_decision.h"
+#include "alternative_weights.h"
 #include "roomgraph/association/landmark_fusion.h"
 #include "track_memory.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 using Frames = std::vector<std::vector<WorldMeasurement>>;
 using Decisions = std::vector<std::vector<BatchDecision>>;
-constexpr double kUnknown = 0.01;   // share of the objects that a whole run has left without a landmark
-constexpr int kLeastSightings = 3;  // of a landmark that competes for sightings of others
+constexpr double kNewObjectPriorInBatch = 0.01;  // prior of a new object once the whole run is known
+constexpr int kLeastSightings = 3;               // that a landmark needs to compete for sightings of others
 
 using Priors = std::vector<std::vector<std::vector<double>>>;  // by frame, measurement, alternative
 
@@ -67,7 +67,7 @@ Evidence gather(const Frames& frames, const Decisions& last, const std::vector<L
     out.shares.emplace_back();
     for (std::size_t k = 0; k < frames[f].size(); ++k) {
       out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks));
-      out.alternatives[f].back().fresh *= kUnknown;
+      out.alternatives[f].back().fresh *= kNewObjectPriorInBatch;
       const LandmarkId own = last.empty() ? LandmarkId{} : last[f][k].landmark;
       out.shares[f].push_back(featureShares(frames[f][k].measurement, own, idsOf(out.alternatives[f][k]),
                                             votes, model.neutral_features));
@@ -116,7 +116,7 @@ std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidenc
 // gate, or make new ones, in order of time, which later ones in gate join. Landmarks so used become known.
 Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
                    const Decisions& last, const std::vector<Landmark>& weak, std::vector<Landmark>& landmarks,
-                   std::int64_t& next_id, const MeasurementModel& model, double birth_existence) {
+                   LandmarkIdentity& identity, const MeasurementModel& model, double birth_existence) {
   const std::size_t known = landmarks.size();
   landmarks.insert(landmarks.end(), weak.begin(), weak.end());
   Decisions out;
@@ -136,8 +136,8 @@ Decisions complete(const Frames& frames, const std::vector<std::vector<Associati
         if (density > best) best = density, id = landmarks[j].id;
       }
       if (!id.valid()) {
-        id = LandmarkId{next_id++};
-        landmarks.push_back(bornFrom(seen, id, birth_existence));
+        id = identity.create();
+        landmarks.push_back(initializeLandmark(seen, id, birth_existence));
       }
       taken.insert(id);
     }
@@ -176,7 +176,7 @@ std::optional<Split> twoObjects(const Landmark& landmark, const Sightings& sight
   return findSplit(places, rule.splitDistance(landmark.shape));
 }
 
-// Takes out landmarks with few sightings: those must first fail to fit anything else.
+// Takes out landmarks with few sightings: they get only sightings that fit no other landmark.
 std::vector<Landmark> takeWeak(std::vector<Landmark>& landmarks) {
   const auto weak = std::stable_partition(landmarks.begin(), landmarks.end(), [](const Landmark& landmark) {
     return landmark.observations >= kLeastSightings;
@@ -186,7 +186,7 @@ std::vector<Landmark> takeWeak(std::vector<Landmark>& landmarks) {
   return out;
 }
 
-// Places every landmark by its sightings; those without any go.
+// Estimates every landmark from its sightings; those without any are dropped.
 void replace(const Frames& frames, const Decisions& decisions, std::vector<Landmark>& landmarks,
              const MeasurementModel& model) {
   const auto by_landmark = byLandmark(frames, decisions);
@@ -197,16 +197,16 @@ void replace(const Frames& frames, const Decisions& decisions, std::vector<Landm
   }
 }
 
-// Landmarks of two objects become two, for the next round to sort out whose sightings are whose.
-void partMixed(const Frames& frames, const Decisions& decisions, std::vector<Landmark>& landmarks,
-               std::int64_t& next_id, const DuplicateRule& rule) {
+// Splits landmarks of two objects; the next round divides their sightings.
+void splitMixed(const Frames& frames, const Decisions& decisions, std::vector<Landmark>& landmarks,
+                LandmarkIdentity& identity, const DuplicateRule& rule) {
   const auto by_landmark = byLandmark(frames, decisions);
   const std::size_t known = landmarks.size();
   for (std::size_t j = 0; j < known; ++j) {
     const auto split = twoObjects(landmarks[j], by_landmark.at(landmarks[j].id), rule);
     if (!split) continue;
     Landmark other = landmarks[j];
-    other.id = LandmarkId{next_id++};
+    other.id = identity.split(landmarks[j].id);
     landmarks[j].position.head<2>() = split->first;
     other.position.head<2>() = split->second;
     landmarks.push_back(other);
@@ -222,11 +222,10 @@ SeenTogether countTogether(const Decisions& decisions) {
   return out;
 }
 
-// Joins duplicates: the one seen more often stays where it is and takes the other's sightings.
+// Merges duplicates: the landmark with more observations keeps its place and takes the other's sightings.
 void joinDuplicates(const DuplicateRule& rule, Decisions& decisions, std::vector<Landmark>& landmarks,
-                    std::vector<std::pair<LandmarkId, LandmarkId>>& merged) {
+                    LandmarkIdentity& identity) {
   const SeenTogether together = countTogether(decisions);
-  std::map<LandmarkId, LandmarkId> kept_of;
   std::stable_sort(landmarks.begin(), landmarks.end(),
                    [](const Landmark& a, const Landmark& b) { return a.observations > b.observations; });
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -237,16 +236,13 @@ void joinDuplicates(const DuplicateRule& rule, Decisions& decisions, std::vector
         ++j;
         continue;
       }
-      kept_of[landmarks[j].id] = landmarks[i].id;
-      merged.emplace_back(landmarks[j].id, landmarks[i].id);
+      identity.merge(landmarks[j].id, landmarks[i].id);
       landmarks[i].existence = 1 - (1 - landmarks[i].existence) * (1 - landmarks[j].existence);
       landmarks.erase(landmarks.begin() + static_cast<std::ptrdiff_t>(j));
     }
   }
   for (auto& frame : decisions)
-    for (auto& decision : frame)
-      if (const auto found = kept_of.find(decision.landmark); found != kept_of.end())
-        decision.landmark = found->second;
+    for (auto& decision : frame) decision.landmark = identity.today(decision.landmark);
   std::sort(landmarks.begin(), landmarks.end(),
             [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
 }
@@ -259,35 +255,25 @@ bool sameLandmarks(const Decisions& a, const Decisions& b) {
 }
 
 // Posterior over what is left after merging; `first`: of the landmark's first sighting, which made it.
-void rename(BatchDecision& decision, const std::map<LandmarkId, LandmarkId>& kept_of, bool first) {
+void rename(BatchDecision& decision, const LandmarkIdentity& identity, bool first) {
   auto& association = decision.association;
   association.landmark = first ? LandmarkId{} : decision.landmark;
-  WeightedLandmarks posterior;
-  for (auto [id, probability] : association.posterior) {
-    for (auto kept = kept_of.find(id); kept != kept_of.end(); kept = kept_of.find(id)) id = kept->second;
-    // What was new when it was decided is the landmark that was made of it.
-    if (!id.valid() || id == decision.landmark) id = association.landmark;
-    const auto same = std::find_if(posterior.begin(), posterior.end(),
-                                   [&](const auto& entry) { return entry.first == id; });
-    if (same == posterior.end()) {
-      posterior.emplace_back(id, probability);
-    } else {
-      same->second = std::min(1.0, same->second + probability);  // rounding
-    }
-  }
-  association.posterior = posterior;
-  for (const auto& [id, probability] : posterior)
+  association.posterior = renamed(association.posterior, [&](LandmarkId old) {
+    const LandmarkId id = identity.today(old);
+    // "New" at the time of the decision is the landmark that was created from it.
+    return !id.valid() || id == decision.landmark ? association.landmark : id;
+  });
+  for (const auto& [id, probability] : association.posterior)
     if (id == association.landmark) association.probability = probability;
 }
 
-// As the decisions would have been written down at the time.
+// First sightings are marked as new, as they were decided at the time.
 void nameFirstSightings(Reassociation& result) {
-  std::map<LandmarkId, LandmarkId> kept_of(result.merged.begin(), result.merged.end());
   std::set<LandmarkId> known;
   for (auto& frame : result.decisions) {
     std::set<LandmarkId> now;
     for (auto& decision : frame) {
-      rename(decision, kept_of, !known.contains(decision.landmark));
+      rename(decision, result.identity, !known.contains(decision.landmark));
       now.insert(decision.landmark);
     }
     known.merge(now);
@@ -296,26 +282,28 @@ void nameFirstSightings(Reassociation& result) {
 
 }  // namespace
 
-Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
+Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial, LandmarkIdentity identity,
                           const AssociationModel& model, const LandmarkRules& rules, int max_rounds) {
   Reassociation out;
   out.landmarks = std::move(initial);
-  std::int64_t next_id = 0;
-  for (const auto& landmark : out.landmarks) next_id = std::max(next_id, landmark.id.value + 1);
+  out.identity = std::move(identity);
+  for (const auto& landmark : out.landmarks) out.identity.reserve(landmark.id);
   while (out.rounds < max_rounds && !out.settled) {
     ++out.rounds;
-    // Landmarks come and go in the first half of the rounds only: then places and decisions must settle.
+    // Landmarks are created, merged, split and dropped in the first half of the rounds only, so that the rest
+    // converges.
     const bool open = out.rounds <= (max_rounds + 1) / 2;
     const std::vector<Landmark> weak = open ? takeWeak(out.landmarks) : std::vector<Landmark>{};
     const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
     Decisions decisions =
         complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions, weak,
-                 out.landmarks, next_id, model.measurement, rules.birth_existence);
+                 out.landmarks, out.identity, model.measurement, rules.birth_existence);
     replace(by_frame, decisions, out.landmarks, model.measurement);
-    if (open) joinDuplicates(rules.duplicates, decisions, out.landmarks, out.merged);
+    if (open) joinDuplicates(rules.duplicates, decisions, out.landmarks, out.identity);
     out.settled = sameLandmarks(decisions, out.decisions);
     out.decisions = std::move(decisions);
-    if (open && !out.settled) partMixed(by_frame, out.decisions, out.landmarks, next_id, rules.duplicates);
+    if (open && !out.settled)
+      splitMixed(by_frame, out.decisions, out.landmarks, out.identity, rules.duplicates);
   }
   nameFirstSightings(out);
   return out;

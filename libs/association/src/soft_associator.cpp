@@ -2,6 +2,8 @@
 // Per-frame posterior from measurement model, track prior and feature ownership.
 #include "soft_associator.h"
 
+#include "alternative_weights.h"
+
 namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(SoftAssociator, Associator, roomgraph)
@@ -26,9 +28,9 @@ void SoftAssociator::assigned(const WorldMeasurement& measurement, LandmarkId la
   features_.own(measurement.measurement.features, landmark);
 }
 
-void SoftAssociator::merged(LandmarkId removed, LandmarkId kept) {
-  tracks_.merged(removed, kept);
-  features_.merged(removed, kept);
+void SoftAssociator::identitiesChanged(const LandmarkIdentity& identity) {
+  tracks_.resolve(identity);
+  features_.resolve(identity);
 }
 
 }  // namespace roomgraph

@@ -17,7 +17,7 @@ class SoftAssociator : public Associator {
   std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,
                                      const std::vector<Landmark>& landmarks) override;
   void assigned(const WorldMeasurement& measurement, LandmarkId landmark) override;
-  void merged(LandmarkId removed, LandmarkId kept) override;
+  void identitiesChanged(const LandmarkIdentity& identity) override;
   const AssociationModel* model() const override { return &model_; }
 
  private:

@@ -53,12 +53,11 @@ void TrackMemory::named(const ObjectMeasurement& measurement, LandmarkId landmar
   posterior.erase(fresh);
 }
 
-void TrackMemory::merged(LandmarkId removed, LandmarkId kept) {
+void TrackMemory::resolve(const LandmarkIdentity& identity) {
   for (auto& [key, past] : tracks_) {
-    const auto found = past.posterior.find(removed);
-    if (found == past.posterior.end()) continue;
-    past.posterior[kept] += found->second;
-    past.posterior.erase(removed);
+    std::map<LandmarkId, double> resolved;
+    for (const auto& [id, probability] : past.posterior) resolved[identity.today(id)] += probability;
+    past.posterior = std::move(resolved);
   }
 }
 
@@ -67,9 +66,8 @@ void FeatureOwners::own(const std::vector<std::int64_t>& features, LandmarkId la
   while (owners_.size() > kMaxFeatures) owners_.erase(owners_.begin());
 }
 
-void FeatureOwners::merged(LandmarkId removed, LandmarkId kept) {
-  for (auto& [feature, owner] : owners_)
-    if (owner == removed) owner = kept;
+void FeatureOwners::resolve(const LandmarkIdentity& identity) {
+  for (auto& [feature, owner] : owners_) owner = identity.today(owner);
 }
 
 std::vector<double> FeatureOwners::shares(const std::vector<std::int64_t>& features,

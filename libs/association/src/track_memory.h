@@ -21,7 +21,8 @@ class TrackMemory {
   void remember(const ObjectMeasurement& measurement, const WeightedLandmarks& posterior);
   /// Tells the landmark a measurement went to; one that was just made takes over what "new" had.
   void named(const ObjectMeasurement& measurement, LandmarkId landmark);
-  void merged(LandmarkId removed, LandmarkId kept);
+  /// Replaces the ids of merged landmarks by those they were merged into.
+  void resolve(const LandmarkIdentity& identity);
 
  private:
   struct Past {
@@ -38,7 +39,8 @@ class TrackMemory {
 class FeatureOwners {
  public:
   void own(const std::vector<std::int64_t>& features, LandmarkId landmark);
-  void merged(LandmarkId removed, LandmarkId kept);
+  /// Replaces the ids of merged landmarks by those they were merged into.
+  void resolve(const LandmarkIdentity& identity);
 
   /// p0 of each of `ids`: share of the points that belong to it, with `weight` points spread evenly; even
   /// without points.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "roomgraph/geometry/shape_math.h"
+
 namespace roomgraph {
 namespace {
 
@@ -35,10 +37,6 @@ Eigen::Matrix<double, 3, 4> turnDerivative(const Eigen::Quaterniond& from, const
 
 double wrapped(double angle) {
   return std::atan2(std::sin(angle), std::cos(angle));
-}
-
-Eigen::Vector3d sizeOf(const ObjectShape& shape) {
-  return {shape.width, shape.depth, shape.height};
 }
 
 void set(double* jacobian, const Eigen::MatrixXd& value) {

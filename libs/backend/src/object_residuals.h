@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "projected_box.h"
 #include "residuals.h"
 #include "roomgraph/geometry/box_sides.h"
+#include "roomgraph/geometry/projected_bounds.h"
 
 namespace roomgraph {
 
@@ -58,7 +58,7 @@ struct CameraPointResidual {
 
 struct LandmarkBoxResidual {
   LandmarkBoxResidual(const LandmarkBoxFactor& f, ShapeKind shape)
-      : factor(f), kind(shape), compared(sidesInside(f.box, f.camera)) {}
+      : factor(f), kind(shape), compared(sidesInside(f.box, f.camera).inOrder()) {}
 
   template <class T>
   bool operator()(const T* t, const T* q, const T* landmark, const T* size, T* out) const {
@@ -68,8 +68,8 @@ struct LandmarkBoxResidual {
     Mat3<T> axes;
     axes << c, -s, T(0), s, c, T(0), T(0), T(0), T(1);
     const auto sides =
-        projectedSides<T>(kind, Eigen::Map<const Vec3<T>>(size), view.rotation * axes,
-                          view.see(Eigen::Map<const Vec3<T>>(landmark)), factor.camera, kNear_m);
+        projectedBounds<T>(kind, Eigen::Map<const Vec3<T>>(size), view.rotation * axes,
+                           view.see(Eigen::Map<const Vec3<T>>(landmark)), factor.camera, kNear_m);
     const double measured[] = {factor.box.u_min, factor.box.v_min, factor.box.u_max, factor.box.v_max};
     for (std::size_t i = 0; i < 4; ++i) {
       out[i] = T(0);
@@ -86,25 +86,6 @@ struct LandmarkBoxResidual {
   std::array<bool, 4> compared;
 };
 
-/// Distance of a point (object frame) from the model's volume, (horizontal, vertical); geometry's
-/// distanceOutside as a template.
-template <class T>
-std::array<T, 2> distanceFromModel(ShapeKind kind, const Vec3<T>& size, const Vec3<T>& point) {
-  using std::sqrt;
-  const auto positive = [](const T& value) { return value > T(0) ? value : T(0); };
-  const auto norm = [](const T& x, const T& y) {
-    const T square = x * x + y * y;
-    return square > T(0) ? T(sqrt(square)) : T(0);  // the root has no derivative at 0
-  };
-  const T vertical = point.z() < T(0) ? T(-point.z()) : positive(T(point.z() - size[2]));
-  if (kind == ShapeKind::kCylinder)
-    return {positive(T(norm(point.x(), point.y()) - (size[0] + size[1]) / 4.0)), vertical};
-  const auto beyond = [&](const T& x, const T& extent) {
-    return positive(T((x < T(0) ? T(-x) : x) - extent / 2.0));
-  };
-  return {norm(beyond(point.x(), size[1]), beyond(point.y(), size[0])), vertical};
-}
-
 struct PointLandmarkResidual {
   PointLandmarkResidual(const PointLandmarkFactor& f, ShapeKind shape) : factor(f), kind(shape) {}
 
@@ -114,7 +95,7 @@ struct PointLandmarkResidual {
     const Vec3<T> away = Eigen::Map<const Vec3<T>>(point) - Eigen::Map<const Vec3<T>>(landmark);
     const T c = cos(landmark[3]), s = sin(landmark[3]);
     const Vec3<T> inside(c * away.x() + s * away.y(), c * away.y() - s * away.x(), away.z());
-    const auto distance = distanceFromModel<T>(kind, Eigen::Map<const Vec3<T>>(size), inside);
+    const auto distance = distanceOutside<T>(kind, Eigen::Map<const Vec3<T>>(size), inside);
     out[0] = distance[0] / factor.sigma_horizontal_m;
     out[1] = distance[1] / factor.sigma_vertical_m;
     return true;

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "projected_box.h"
 #include "roomgraph/backend/factors.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 

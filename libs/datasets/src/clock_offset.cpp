@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "median.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 

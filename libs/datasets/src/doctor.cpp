@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "findings.h"
+#include "roomgraph/geometry/degree.h"
 #include "sensor_choice.h"
 
 namespace roomgraph {
 namespace {
-
-constexpr double kRad = 180 / M_PI;
 
 void checkTimes(const SensorReport& sensor, Findings& out) {
   constexpr double kLongGapS = 1, kGapIntervals = 10;
@@ -50,13 +49,14 @@ void checkAperture(const ScanSummary& scans, Findings& out) {
     return;
   }
   if (scans.beams < 2) return;
-  const double step = aperture / (scans.beams - 1) * kRad, rival = aperture / scans.beams * kRad;
+  const double step = aperture / (scans.beams - 1) * kDegreesPerRadian,
+               rival = aperture / scans.beams * kDegreesPerRadian;
   // A full circle may count the beam at which it closes once or twice.
-  const bool full_circle = 360 - aperture * kRad < 1.01 * step;
+  const bool full_circle = 360 - aperture * kDegreesPerRadian < 1.01 * step;
   if (!full_circle && !usualStep(step) && usualStep(rival))
     out.note(
         format("%d beams over %.2f deg are %.4f deg apart; with one interval more it would be %.4f",
-               scans.beams, aperture * kRad, step, rival),
+               scans.beams, aperture * kDegreesPerRadian, step, rival),
         "aperture is the angle from the first beam to the last: (beams - 1) * step; check which was meant");
   if (!scans.rotation_ratio) return;
   if (*scans.rotation_ratio < 0)
@@ -65,7 +65,7 @@ void checkAperture(const ScanSummary& scans, Findings& out) {
   else if (std::abs(*scans.rotation_ratio - 1) > 0.15)
     out.warning(format("odometry turns %.2f times as much as the scans show", *scans.rotation_ratio),
                 format("if odometry is right, the aperture is %.1f deg instead of %.1f",
-                       aperture * kRad * *scans.rotation_ratio, aperture * kRad));
+                       aperture * kDegreesPerRadian * *scans.rotation_ratio, aperture * kDegreesPerRadian));
 }
 
 void checkScans(const SensorReport& sensor, Findings& out) {

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "findings.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kDegrees = 180 / M_PI;
 constexpr double kLeastHeightM = 0.1;  // of a sensor on a robot; lower ones are not placed at all
 constexpr double kAnyTilt = 0.35;  // rad; a floor seen steeper than this is another problem than the scale
 
@@ -29,7 +29,7 @@ void checkCamera(const char* which, const PinholeCamera& camera, int width, Find
   }
   const double off_x = std::abs(camera.cx / camera.width - 0.5),
                off_y = std::abs(camera.cy / camera.height - 0.5);
-  const double view = 2 * std::atan(0.5 * camera.width / camera.fx) * kDegrees;
+  const double view = 2 * std::atan(0.5 * camera.width / camera.fx) * kDegreesPerRadian;
   if (off_x > 0.3 || off_y > 0.3)
     out.warning(format("%s principal point (%.1f, %.1f) is far from the centre", which, camera.cx, camera.cy),
                 "check the calibration and the image size it was made for");
@@ -142,7 +142,7 @@ void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Fi
     out.warning(
         format("the floor is seen %.2f m below the sensor and tilted by %.1f deg; by its pose it should "
                "be %.2f m below and level",
-               floor->sensor_height_m, floor->tilt_rad * kDegrees, height_m),
+               floor->sensor_height_m, floor->tilt_rad * kDegreesPerRadian, height_m),
         "place the sensor, e.g. " + option + formatPose(floor->fitting_pose) +
             " (m, deg), which puts the floor where it belongs");
   else if (at_origin)

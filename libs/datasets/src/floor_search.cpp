@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "roomgraph/geometry/degree.h"
+
 namespace roomgraph {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kThickness = 0.015;                // of the plane, share of th
 constexpr double kBelow = 0.06, kMostBelow = 0.04;  // what counts as below, and the share that may lie there
 constexpr double kLeastShare = 0.08;                // of the measured points on the floor
 constexpr std::size_t kLeastPoints = 100;
-const double kUpGate = std::cos(30 * M_PI / 180), kNormalGate = std::cos(20 * M_PI / 180);
+const double kUpGate = std::cos(30 * kDegree), kNormalGate = std::cos(20 * kDegree);
 
 struct Sample {
   Eigen::Vector3d point, normal;

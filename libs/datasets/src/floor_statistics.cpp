@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "floor_search.h"
-#include "median.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "median.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

@@ -14,11 +14,11 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/trim.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kFarthestM = 1000;
 
 std::vector<std::string> splitAtCommas(const std::string& text) {

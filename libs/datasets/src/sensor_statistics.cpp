@@ -7,7 +7,7 @@
 
 #include "frame_conversion.h"
 #include "image_memory.h"
-#include "median.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {
@@ -15,14 +15,6 @@ namespace {
 constexpr int kImageStride = 10;  // every n-th image is looked at for its depths,
 constexpr int kPixelStride = 7;   // and in it every n-th pixel, along both axes
 constexpr std::size_t kMaxScans = 20000;
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -2,8 +2,8 @@
 // Rotation of a proposal's covariance from the camera's ground frame into the world.
 #include "measurement_in_world.h"
 
+#include "roomgraph/geometry/covariance.h"
 #include "roomgraph/geometry/ground.h"
-#include "roomgraph/geometry/place_covariance.h"
 
 namespace roomgraph {
 
@@ -14,7 +14,7 @@ WorldMeasurement measurementInWorld(const ObjectMeasurement& measurement, const 
   const double heading = planarPart(world_from_ground).yaw;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(heading).toRotationMatrix();
-  out.covariance = turned(measurement.proposal.covariance, turn);
+  out.covariance = rotateCovariance(measurement.proposal.covariance, turn);
   out.covariance.topLeftCorner<2, 2>() += pose_sigma_m * pose_sigma_m * Eigen::Matrix2d::Identity();
   return out;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "roomgraph/geometry/place_covariance.h"
+#include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 
@@ -21,7 +21,7 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landma
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
   if (std::abs(wrapAngle(node_yaw + factor.yaw_in_robot - landmark.yaw)) > std::numbers::pi / 2)
     factor.yaw_in_robot = wrapAngle(factor.yaw_in_robot + std::numbers::pi);
-  factor.covariance = turned(decision.seen.covariance, node.world_from_robot.linear().transpose());
+  factor.covariance = rotateCovariance(decision.seen.covariance, node.world_from_robot.linear().transpose());
   factor.weight = decision.association.probability * measurement.confidence * measurement.proposal.score;
   return factor;
 }
@@ -113,7 +113,7 @@ constexpr double kLeastWeight = 1e-9;  // a visit that weighs nothing would leav
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
   sighting.yaw_in_robot = wrapAngle(sighting.yaw_in_robot + planarPart(world_from_robot).yaw);
-  sighting.covariance = turned(sighting.covariance, world_from_robot.linear());
+  sighting.covariance = rotateCovariance(sighting.covariance, world_from_robot.linear());
   return sighting;
 }
 
@@ -121,7 +121,7 @@ LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
   in_world.node = node.id;
   in_world.position_in_robot = node.world_from_robot.inverse() * in_world.position_in_robot;
   in_world.yaw_in_robot = wrapAngle(in_world.yaw_in_robot - planarPart(node.world_from_robot).yaw);
-  in_world.covariance = turned(in_world.covariance, node.world_from_robot.linear().transpose());
+  in_world.covariance = rotateCovariance(in_world.covariance, node.world_from_robot.linear().transpose());
   return in_world;
 }
 

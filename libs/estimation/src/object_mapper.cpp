@@ -101,12 +101,12 @@ void ObjectMapper::tidy() {
   const auto parted = landmarks_.splitMixed();
   for (const auto& [first, second] : parted) shareSightings(first, second);
   const auto merged = landmarks_.mergeDuplicates();
-  for (const auto& [removed, kept] : merged) {
-    associator_->merged(removed, kept);
+  for (const auto& [removed, kept] : merged)
     for (auto& frame : frames_)
       for (auto& decision : frame.decisions) rename(decision, removed, kept);
-  }
-  if (!merged.empty() || !parted.empty()) respan();
+  if (merged.empty() && parted.empty()) return;
+  associator_->identitiesChanged(landmarks_.identity());
+  respan();
 }
 
 // A landmark became two: what was seen of it belongs to the nearer one.
@@ -140,8 +140,8 @@ bool ObjectMapper::reassociate() {
   const AssociationModel* model = associator_->model();
   if (!model || frames_.empty()) return false;
   const auto by_frame = measurementsInWorld();
-  const Reassociation result =
-      roomgraph::reassociate(by_frame, landmarks_.landmarks(), *model, landmarks_.rules());
+  const Reassociation result = roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
+                                                      *model, landmarks_.rules());
   landmarks_.adopt(by_frame, result);
   bool changed = false;
   for (std::size_t f = 0; f < frames_.size(); ++f) {

@@ -3,10 +3,10 @@
 #include "roomgraph/evaluation/object_error.h"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "assignment.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
@@ -44,8 +44,8 @@ void compare(const EvaluatedObject& truth, const EvaluatedObject& landmark, cons
                      3;
   out.iou3d = iou3dOf(truth, landmark, rule.shape);
   if (rule.symmetry > 0 && truth.has_yaw && landmark.has_yaw)
-    out.yaw_error_deg = std::abs(wrapAngle((landmark.yaw - truth.yaw) * rule.symmetry)) / rule.symmetry *
-                        180 / std::numbers::pi;
+    out.yaw_error_deg =
+        std::abs(wrapAngle((landmark.yaw - truth.yaw) * rule.symmetry)) / rule.symmetry * kDegreesPerRadian;
 }
 
 // State of one comparison: the landmarks in the truth's world and what has been said about each.

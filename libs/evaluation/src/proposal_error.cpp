@@ -5,12 +5,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kGoodIou = 0.4;
 
 // Errors of one proposal.
@@ -21,7 +21,7 @@ struct Error {
 
 double yawError(const Pose3& ground_from_a, const Pose3& ground_from_b, int symmetry) {
   const double difference = planarPart(ground_from_a).yaw - planarPart(ground_from_b).yaw;
-  return std::abs(wrapAngle(difference * symmetry)) / symmetry * kDegrees;
+  return std::abs(wrapAngle(difference * symmetry)) / symmetry * kDegreesPerRadian;
 }
 
 Error errorOf(const Proposal& p, const ProposalCase& c) {
@@ -130,7 +130,7 @@ GroundFigures evaluateGround(const std::vector<GroundCase>& cases) {
     if (!c.estimate || !c.estimate->from_depth) continue;
     ++f.found;
     const Plane& plane = c.estimate->plane;
-    angles.push_back(std::acos(std::clamp(plane.normal.dot(c.truth.normal), -1.0, 1.0)) * kDegrees);
+    angles.push_back(std::acos(std::clamp(plane.normal.dot(c.truth.normal), -1.0, 1.0)) * kDegreesPerRadian);
     heights.push_back(std::abs(plane.offset - c.truth.offset));
     nees.push_back(groundNees(*c.estimate, c.truth));
     good += angles.back() <= 1 && heights.back() <= 0.02;

@@ -2,10 +2,9 @@
 // Reader of relation files and errors of the interpolated estimate.
 #include "roomgraph/evaluation/relations.h"
 
-#include <numbers>
-
 #include "number_table.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 
@@ -35,7 +34,7 @@ RelationErrors evaluateRelations(const std::vector<Relation>& relations, const T
     }
     const Pose3 error = relation.pose.inverse() * (x1->inverse() * *x2);
     trans.push_back(error.translation().norm());
-    rot.push_back(rotationAngle(error) * 180 / std::numbers::pi);
+    rot.push_back(rotationAngle(error) * kDegreesPerRadian);
   }
   out.used = static_cast<int>(trans.size());
   out.trans_m = summarize(trans);

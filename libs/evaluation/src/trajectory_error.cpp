@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 std::size_t lowerBound(const std::vector<StampedPose>& poses, double t) {
   return static_cast<std::size_t>(
@@ -71,7 +70,7 @@ void addRelativeErrors(const std::vector<PosePair>& pairs, const TrajectoryOptio
     const Pose3 estimate = pairs[i].estimate.inverse() * pairs[*j].estimate;
     const Pose3 error = truth.inverse() * estimate;
     trans.push_back(error.translation().norm());
-    rot.push_back(rotationAngle(error) * kDegPerRad);
+    rot.push_back(rotationAngle(error) * kDegreesPerRadian);
   }
   out.rpe_trans_m = summarize(trans);
   out.rpe_rot_deg = summarize(rot);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of shapes, footprint polygon, and distance of a point from the volume.
+// Names of shapes; footprint and distance of a point for plain numbers.
 #include "roomgraph/geometry/shape.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
+
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 
@@ -29,25 +28,12 @@ ShapeKind shapeKindFromString(const std::string& name) {
 }
 
 std::vector<Eigen::Vector2d> footprint(const ObjectShape& shape, int circle) {
-  std::vector<Eigen::Vector2d> corners;
-  if (shape.kind == ShapeKind::kCylinder) {
-    for (int i = 0; i < circle; ++i) {
-      const double angle = 2 * std::numbers::pi * i / circle;
-      corners.emplace_back(shape.radius() * std::cos(angle), shape.radius() * std::sin(angle));
-    }
-    return corners;
-  }
-  const double x = shape.depth / 2, y = shape.width / 2;
-  return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
+  return footprintCorners<double>(shape.kind, sizeOf(shape), circle);
 }
 
 Eigen::Vector2d distanceOutside(const ObjectShape& shape, const Eigen::Vector3d& point) {
-  const double vertical = std::max({0.0, -point.z(), point.z() - shape.height});
-  if (shape.kind == ShapeKind::kCylinder)
-    return {std::max(0.0, point.head<2>().norm() - shape.radius()), vertical};
-  const double dx = std::max(0.0, std::abs(point.x()) - shape.depth / 2);
-  const double dy = std::max(0.0, std::abs(point.y()) - shape.width / 2);
-  return {std::hypot(dx, dy), vertical};
+  const auto [horizontal, vertical] = distanceOutside<double>(shape.kind, sizeOf(shape), point);
+  return {horizontal, vertical};
 }
 
 }  // namespace roomgraph

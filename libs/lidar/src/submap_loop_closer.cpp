@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "grid_refinement.h"
+#include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 
@@ -278,10 +279,8 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
   model.floor_sigma_rad = floor_sigma_rad_;
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-odom_from_a.yaw).toRotationMatrix();
   return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,
-                 turn * poseCovariance(fine, model) * turn.transpose(), candidate.path_m};
+                 rotateCovariance(poseCovariance(fine, model), -odom_from_a.yaw), candidate.path_m};
 }
 
 bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
@@ -297,9 +296,7 @@ RelativePose SubmapLoopCloser::toRelativePose(const Closure& closure) const {
   out.t_a = scans_[static_cast<std::size_t>(closure.a)].t;
   out.t_b = scans_[static_cast<std::size_t>(closure.b)].t;
   out.a_from_b = toPose3(closure.a_from_b);
-  const int axes[3] = {0, 1, 5};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out.covariance(axes[i], axes[j]) = closure.covariance(i, j);
+  out.covariance = planarCovariance(closure.covariance, 1);
   out.planar = true;
   out.source = "lidar";
   return out;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "correlative_search.h"
+#include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 
@@ -183,9 +184,7 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   model.floor_sigma_rad = floor_sigma_rad_;
   const Eigen::Matrix3d in_odom = poseCovariance(refinement, model);
   // Movement is expressed in the frame of the robot at the scan before.
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-last_pose_.yaw).toRotationMatrix();
-  return turn * in_odom * turn.transpose();
+  return rotateCovariance(in_odom, -last_pose_.yaw);
 }
 
 void SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {

@@ -2,25 +2,13 @@
 // Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
+#include "roomgraph/geometry/covariance.h"
+
 namespace roomgraph {
 namespace {
 
 constexpr double kPriorHorizon_s =
     0.15;  // a source may be extrapolated this far to predict another's movement
-
-Matrix6d planarCovariance(const Eigen::Matrix3d& of_x_y_yaw) {
-  Matrix6d out = Matrix6d::Zero();
-  const int index[3] = {0, 1, 5};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) out(index[i], index[j]) = of_x_y_yaw(i, j);
-  return out;
-}
-
-Matrix6d turned(const Matrix6d& covariance, const Eigen::Matrix3d& rotation) {
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = rotation;
-  return turn * covariance * turn.transpose();
-}
 
 // What the camera's movement is for the robot it is mounted on.
 Pose3 ofRobot(const Pose3& camera_movement, const Pose3& robot_from_camera) {
@@ -56,7 +44,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
   const TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
   if (result.tracked)
     motion_.visual.add(frame.t, ofRobot(result.odom_from_camera, robot_from_camera_), result.segment,
-                       turned(result.step_covariance, robot_from_camera_.linear()));
+                       rotateCovariance(result.step_covariance, robot_from_camera_.linear()));
   return result;
 }
 
@@ -82,7 +70,7 @@ std::vector<RelativePose> FrontEnds::takeImageClosures() {
 
 void FrontEnds::toRobot(RelativePose& of_camera) const {
   of_camera.a_from_b = ofRobot(of_camera.a_from_b, robot_from_camera_);
-  of_camera.covariance = turned(of_camera.covariance, robot_from_camera_.linear());
+  of_camera.covariance = rotateCovariance(of_camera.covariance, robot_from_camera_.linear());
 }
 
 std::optional<RelativePose> FrontEnds::verify(const RelativePose& proposed) {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "leg_line.h"
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 #include "roomgraph/proposals/shape_fit.h"
 
 namespace roomgraph {

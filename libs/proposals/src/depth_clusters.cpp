@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "plane_fit.h"
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

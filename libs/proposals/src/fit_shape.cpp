@@ -5,7 +5,8 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "plane_fit.h"
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
+#include "roomgraph/geometry/shape_math.h"
 #include "roomgraph/proposals/shape_fit.h"
 
 namespace roomgraph {
@@ -43,25 +44,18 @@ PointDistance pointDistance(const PlacedShape& p, double cos_yaw, double sin_yaw
                             const Eigen::Vector3d& point) {
   const double dx = point.x() - p.x, dy = point.y() - p.y;
   const Eigen::Vector2d q(cos_yaw * dx + sin_yaw * dy, cos_yaw * dy - sin_yaw * dx);
-  // Parts of the distance along the model's own axes; each is 0 inside.
-  double along = 0, across = 0, radial = 0;
-  const double height = point.z() - p.z;
-  const double above = std::max(0.0, height - p.shape.height), below = std::max(0.0, -height);
-  if (p.shape.kind == ShapeKind::kCylinder) {
-    const double reach = q.norm();
-    radial = std::max(0.0, reach - p.shape.radius());
-    if (radial > 0) along = radial * q.x() / reach, across = radial * q.y() / reach;
-  } else {
-    along = std::copysign(std::max(0.0, std::abs(q.x()) - p.shape.depth / 2), q.x());
-    across = std::copysign(std::max(0.0, std::abs(q.y()) - p.shape.width / 2), q.y());
-  }
+  const Eigen::Vector3d size = sizeOf(p.shape), in_object(q.x(), q.y(), point.z() - p.z);
+  const Eigen::Vector3d offset = offsetOutside<double>(p.shape.kind, size, in_object);
   PointDistance out;
-  out.value = std::sqrt(along * along + across * across + above * above + below * below);
+  out.value = std::sqrt(offset.x() * offset.x() + offset.y() * offset.y() + offset.z() * offset.z());
   if (out.value <= 0) return out;
-  const double a = along / out.value, b = across / out.value;
-  out.gradient << sin_yaw * b - cos_yaw * a, -sin_yaw * a - cos_yaw * b, a * q.y() - b * q.x(),
-      -std::abs(b) / 2, -std::abs(a) / 2, -above / out.value;
-  if (p.shape.kind == ShapeKind::kCylinder) out.gradient.segment<2>(3).setConstant(-radial / out.value / 4);
+  const double a = offset.x() / out.value, b = offset.y() / out.value;
+  out.gradient << sin_yaw * b - cos_yaw * a, -sin_yaw * a - cos_yaw * b, a * q.y() - b * q.x(), -std::abs(b) / 2,
+      -std::abs(a) / 2, -std::max(0.0, offset.z()) / out.value;
+  if (p.shape.kind == ShapeKind::kCylinder) {
+    const double radial = distanceOutside<double>(p.shape.kind, size, in_object)[0];
+    out.gradient.segment<2>(3).setConstant(-radial / out.value / 4);
+  }
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

@@ -7,17 +7,15 @@
 
 #include "depth_clusters.h"
 #include "find_edges.h"
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {
 
-void markBorder(BoxEvidence& e) {
-  constexpr double kBorder = 3;  // px
-  e.cut.left = e.box.u_min <= kBorder;
-  e.cut.top = e.box.v_min <= kBorder;
-  e.cut.right = e.box.u_max >= e.camera.width - kBorder;
-  e.cut.bottom = e.box.v_max >= e.camera.height - kBorder;
+BoxSides sidesAtBorder(const BoxEvidence& e) {
+  constexpr double kBorder_px = 3;
+  const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
+  return {!inside.left, !inside.top, !inside.right, !inside.bottom};
 }
 
 // Whether most of what lies along the line from a to b (px, just outside the box) stands nearer than the
@@ -84,7 +82,7 @@ BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const F
   e.hidden = {};
   e.segments = supportedSegments(e.edges.segments, mask, e.box);
   if (mask.points.empty()) addDistances(e.edges);
-  markBorder(e);
+  e.cut = sidesAtBorder(e);
   markHidden(e, frame);
   return e;
 }

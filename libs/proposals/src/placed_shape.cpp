@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "quantile.h"
+#include "roomgraph/core/order_statistics.h"
 
 namespace roomgraph {
 namespace {

@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "roomgraph/geometry/degree.h"
 #include "scene_parts.h"
 
 namespace roomgraph {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 /// Points around everything that the picture must show: the ends of every row of known cells, objects, path.
 /// A tighter fit than the corners of the bounding box when the rooms lie askew.
@@ -68,7 +66,7 @@ SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map,
     const Eigen::Vector3d ahead = last * Eigen::Vector3d(1.2, 0, 0);
     camera_.setProjectiveFOVdeg(55);
     camera_.setPointingAt(static_cast<float>(ahead.x()), static_cast<float>(ahead.y()), 0.5f);
-    camera_.setAzimuthDegrees(static_cast<float>(planarPart(last).yaw * kDegrees + 180));
+    camera_.setAzimuthDegrees(static_cast<float>(planarPart(last).yaw * kDegreesPerRadian + 180));
     camera_.setElevationDegrees(32);
     camera_.setZoomDistance(6.5f);
     update();
@@ -78,8 +76,8 @@ SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map,
 // MRPT's camera model in orbit mode; its own matrices exist only while it renders.
 void SceneView::update() {
   viewport_->getCamera() = camera_;
-  const double azimuth = static_cast<double>(camera_.getAzimuthDegrees()) / kDegrees;
-  const double elevation = static_cast<double>(camera_.getElevationDegrees()) / kDegrees;
+  const double azimuth = static_cast<double>(camera_.getAzimuthDegrees()) / kDegreesPerRadian;
+  const double elevation = static_cast<double>(camera_.getElevationDegrees()) / kDegreesPerRadian;
   const double distance = static_cast<double>(camera_.getZoomDistance());
   const Eigen::Vector3d forward(-std::cos(azimuth) * std::cos(elevation),
                                 -std::sin(azimuth) * std::cos(elevation), -std::sin(elevation));
@@ -90,9 +88,9 @@ void SceneView::update() {
                               distance * forward;
   const double aspect = static_cast<double>(width_) / height_;
   // Half the picture's height: in metres (orthographic), or at depth 1 m (perspective).
-  const double half = orthographic()
-                          ? distance / 4 / std::min(aspect, 1.0)
-                          : std::tan(static_cast<double>(camera_.getProjectiveFOVdeg()) / kDegrees / 2);
+  const double half =
+      orthographic() ? distance / 4 / std::min(aspect, 1.0)
+                     : std::tan(static_cast<double>(camera_.getProjectiveFOVdeg()) / kDegreesPerRadian / 2);
   clip_from_world_.setIdentity();
   clip_from_world_.row(0) << right.transpose() / (half * aspect), -right.dot(eye) / (half * aspect);
   clip_from_world_.row(1) << up.transpose() / half, -up.dot(eye) / half;

@@ -6,8 +6,8 @@
 
 namespace roomgraph {
 
-/// No selection by energy, for comparison: per detection the proposal with the generator's best score,
-/// whatever it is, with confidence 1. The first of equals.
+/// Baseline without energies: per detection the proposal with the highest generator score (of equals the
+/// first), with confidence 1.
 class BestScoreSelector : public ProposalSelector {
   DEFINE_MRPT_OBJECT(BestScoreSelector, roomgraph)
  public:

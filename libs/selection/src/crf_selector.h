@@ -12,15 +12,15 @@ struct ObjectWindow;  // private: the objects of the last frames
 
 /// The full selection of method.md sec. 3 over a sliding window, output for the newest frame only.
 ///
-/// The window taken together is the code of its objects, each where it should be seen now; objects that left
-/// the image are not expected. beta* is the likeness of the frame's code to it, and the index map to it
-/// continues the objects' tracks (identityLinks), also over frames that missed them. Links to the frame just
-/// before weigh s (1 - beta), links over missed frames s (1 - beta*).
+/// The code of the window is that of its objects at their predicted places in the image; objects predicted
+/// outside the image are left out. beta* is the similarity of the frame's code to it, and the index map to it
+/// continues the objects' tracks (identityLinks), also over frames without a detection. Links to the previous
+/// frame have the weight s (1 - beta), links over missed frames s (1 - beta*).
 ///
 /// Per detection the exact minimiser of its object's chain is reported, among the proposals whose unary
 /// energy alone is at most `max_energy`; its confidence is its marginal among all states. "At least once
-/// within the window" (Eq. 7) binds objects that have been followed for a whole window. With s = 0 choices
-/// are those of UnarySelector.
+/// within the window" (Eq. 7) applies to objects that have been tracked for a whole window. With s = 0 the
+/// choices are those of UnarySelector.
 class CrfSelector : public ProposalSelector {
   DEFINE_MRPT_OBJECT(CrfSelector, roomgraph)
  public:

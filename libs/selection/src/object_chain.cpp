@@ -8,19 +8,19 @@
 namespace roomgraph {
 namespace {
 
-// The map of each axis that takes the area `from` to `to`, applied to `box`. A side that the image border cut
-// says nothing about the object: there the area's own side counts.
+// The affine map of each axis that takes the area `from` to `to`, applied to `box`. A side cut by the image
+// border is no side of the object: there the side of `to` is taken.
 Box2 movedAlong(const Box2& box, const ProjectedShape& from, const Box2& to) {
   const Box2& full = from.full;
   const double su = to.width() / full.width(), sv = to.height() / full.height();
-  return {from.cut_left ? to.u_min : to.u_min + su * (box.u_min - full.u_min),
-          from.cut_top ? to.v_min : to.v_min + sv * (box.v_min - full.v_min),
-          from.cut_right ? to.u_max : to.u_min + su * (box.u_max - full.u_min),
-          from.cut_bottom ? to.v_max : to.v_min + sv * (box.v_max - full.v_min)};
+  return {from.cut.left ? to.u_min : to.u_min + su * (box.u_min - full.u_min),
+          from.cut.top ? to.v_min : to.v_min + sv * (box.v_min - full.v_min),
+          from.cut.right ? to.u_max : to.u_min + su * (box.u_max - full.u_min),
+          from.cut.bottom ? to.v_max : to.v_min + sv * (box.v_max - full.v_min)};
 }
 
-// Bounds of the box's corners under the camera's turn alone, as if the object were far away.
-std::optional<Box2> turned(const Sighting& sighting, const Viewpoint& view) {
+// Bounds of the box's corners under the camera's rotation alone, as if the object were at infinity.
+std::optional<Box2> boxUnderRotation(const Sighting& sighting, const Viewpoint& view) {
   const Eigen::Matrix3d now_from_before =
       view.world_from_camera.linear().transpose() * sighting.view.world_from_camera.linear();
   const Box2& b = sighting.box;
@@ -68,7 +68,7 @@ Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, do
 std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view) {
   std::optional<Box2> box;
   if (sighting.shapes.empty()) {
-    box = turned(sighting, view);
+    box = boxUnderRotation(sighting, view);
   } else {
     const auto best = std::min_element(sighting.unary.begin() + 1, sighting.unary.end());
     const auto& shape = sighting.shapes[static_cast<std::size_t>(best - sighting.unary.begin() - 1)];

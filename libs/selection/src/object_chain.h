@@ -10,7 +10,7 @@
 
 namespace roomgraph {
 
-/// An object in one frame: a detection with its proposals, as later frames need it.
+/// One sighting of an object: what later frames need of a detection and its proposals.
 struct Sighting {
   int frame = 0;  ///< count of the frame, set when it enters the window
   Box2 box;       ///< of the detection, px
@@ -33,16 +33,16 @@ struct ObjectChain {
 Sighting makeSighting(const Detection& detection, const std::vector<const Proposal*>& proposals,
                       const Viewpoint& view, const std::vector<FeatureTrack>& features);
 
-/// Pairwise energies w P between the states of two sightings, w = s (1 - beta) (Eq. 3, 6). "None" has no
-/// area: after a proposal it overlaps as little as can be and costs w, if there was anything to choose;
+/// Pairwise energies w P between the states of two sightings, w = s (1 - beta) (Eq. 3, 6). The state "none"
+/// has no area: after a proposal its overlap is 0 and it costs w (unless the sighting has no proposals);
 /// before a proposal, or before another "none", it costs nothing. So a bad link, whose P is at most 1, never
-/// makes "none" cheaper than a proposal in the newest frame, and an object that could not be modelled before
-/// is not held against a proposal now. Only a proposal with a bad link on either side can be worth dropping.
+/// makes "none" cheaper than a proposal in the newest frame, and an earlier sighting without proposals adds
+/// no cost to a proposal now.
 Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, double weight);
 
-/// Where the detection's box should be in another view, cut by its border: the sighting's best shape, carried
-/// there, says how the box moves and grows; without proposals the box turns with the camera. Nothing when
-/// outside.
+/// Predicted box of the detection in another view, cut by the image border: moved and scaled like the
+/// projection of the sighting's best shape; without proposals, moved by the camera's rotation alone. Nothing
+/// when outside.
 std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view);
 
 /// The chain of one object over its sightings (frames without one are left out: their only state is "none").

@@ -13,7 +13,7 @@ void forget(std::vector<ObjectChain>& objects, int oldest) {
   std::erase_if(objects, [](const ObjectChain& object) { return object.sightings.empty(); });
 }
 
-// The window's objects as they should be seen now; `places` says which object each is.
+// The window's objects at their predicted places; `places` holds the index of each in the window.
 std::vector<LabelledBox> expected(const std::vector<ObjectChain>& objects, const Viewpoint& view,
                                   std::vector<int>& places) {
   std::vector<LabelledBox> boxes;

@@ -17,15 +17,16 @@ struct ObjectWindow {
 
 /// How the newest frame continues the window.
 struct WindowStep {
-  double beta = 1;           ///< likeness to the frame before (Eq. 5); 1 in the first frame
-  double beta_star = 1;      ///< likeness to the window taken together
+  double beta = 1;           ///< similarity to the previous frame (Eq. 5); 1 in the first frame
+  double beta_star = 1;      ///< similarity to the code of the window
   std::vector<int> objects;  ///< per detection its place in ObjectWindow::objects
 };
 
-/// Moves the window on by a frame: forgets what lies `frames` or more behind, links the frame's sightings
-/// (one per detection, `labels` beside them) to the objects of the window and starts new objects for the
+/// Advances the window by a frame: drops sightings that are `frames` or more old, links the frame's sightings
+/// (one per detection, with their `labels`) to the objects of the window, and starts new objects for the
 /// rest.
 WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
-                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames, double min_overlap);
+                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames,
+                   double min_overlap);
 
 }  // namespace roomgraph

@@ -18,17 +18,17 @@ namespace roomgraph {
 /// lower is better.
 double unaryPotential(const Proposal& proposal, const Detection& detection);
 
-/// Unary energy alpha U (first sum of Eq. 3), in [-1, 0], scaled by .5 + .5 score: the generator's own score
-/// breaks ties between shapes that fit the box alike.
+/// Unary energy alpha U (first sum of Eq. 3), in [-1, 0], scaled by .5 + .5 score: the generator's score
+/// decides between shapes that fit the box equally well.
 double unaryEnergy(const Proposal& proposal, const Detection& detection);
 
-/// A camera and where it stood.
+/// A camera and its pose.
 struct Viewpoint {
   PinholeCamera camera;
   Pose3 world_from_camera = Pose3::Identity();
 };
 
-/// A proposal fixed in world, so that later frames can predict where it is seen.
+/// A proposal in world coordinates, so that later frames can predict its image.
 struct ShapeInWorld {
   ObjectShape shape;
   Pose3 world_from_object = Pose3::Identity();

@@ -28,11 +28,11 @@ struct LabelledBox {
   std::uint8_t label = 0;
 };
 
-/// Semantic code of a frame (paper sec. V-B2, method.md sec. 2): the bytes of its labels, read as one reads a
-/// page.
+/// Semantic code of a frame (paper sec. V-B2, method.md sec. 2): the bytes of its labels in
+/// reading order.
 struct SemanticCode {
   std::vector<std::uint8_t> labels;  ///< in reading order
-  std::vector<int> objects;          ///< which object of the frame stands at each position
+  std::vector<int> objects;          ///< index of the object at each position
   int bits() const { return 8 * static_cast<int>(labels.size()); }
 };
 
@@ -40,22 +40,20 @@ struct SemanticCode {
 /// side; rows from top to bottom, inside a row by the centre's column.
 SemanticCode semanticCode(const std::vector<LabelledBox>& objects);
 
-/// Two codes laid side by side.
+/// Matching of two codes.
 struct CodeMatch {
-  double beta = 1;         ///< Eq. 5, in [0, 1]; two empty codes are alike: 1
+  double beta = 1;         ///< Eq. 5, in [0, 1]; 1 for two empty codes
   std::vector<int> gamma;  ///< per object of b the object of a that it matches, -1: none
 };
 
-/// Longest common subsequence of the labels; of several, that with the largest sum of overlaps. `overlap(i,
-/// k)`
-/// >= 0 is how well object i of a, moved as predicted, covers object k of b.
+/// Longest common subsequence of the labels; of several, that with the largest sum of overlaps.
+/// `overlap(i, k)` >= 0: of the predicted box of object i of a with object k of b.
 CodeMatch matchCodes(const SemanticCode& a, const SemanticCode& b, const Eigen::MatrixXd& overlap);
 
-/// Links that may carry an object's identity from a to b; per object of b the object of a, -1: none. Gamma
-/// alone cannot: when two chairs change places in the reading order it links each to the other, and it links
-/// any two chairs when nothing else is left. So only pairs of one label with at least `min_overlap` (> 0)
-/// count, the largest overlaps are linked first, and gamma adds kOrderVoice to those it agrees with: it
-/// decides where the motion leaves it open.
+/// Data association of objects from a to b; per object of b the object of a, -1: none. Gamma alone does not
+/// suffice: it swaps two chairs that change their reading order, and links any two chairs when no others are
+/// left. So only pairs of one label with an overlap of at least `min_overlap` (> 0) are linked, the largest
+/// first; pairs that gamma links get a bonus of kOrderVoice, which decides between similar overlaps.
 std::vector<int> identityLinks(const SemanticCode& a, const SemanticCode& b, const CodeMatch& match,
                                const Eigen::MatrixXd& overlap, double min_overlap);
 inline constexpr double kOrderVoice = 0.1;

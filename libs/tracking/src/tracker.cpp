@@ -10,6 +10,7 @@
 #include "bundle_adjustment.h"
 #include "keyframe_insertion.h"
 #include "place_recognition.h"
+#include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph::tracking {
 namespace {
@@ -38,13 +39,6 @@ cv::Mat grayOf(const Frame& frame) {
 int countDepth(const Features& features) {
   return static_cast<int>(
       std::count_if(features.depth.begin(), features.depth.end(), [](float z) { return z > 0; }));
-}
-
-/// Covariance (translation, rotation) turned from frame b into frame a.
-Matrix6d turned(const Matrix6d& covariance, const Pose3& a_from_b) {
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = a_from_b.linear();
-  return turn * covariance * turn.transpose();
 }
 
 /// Lower bound for errors that the residuals do not show: calibration, depth bias, consistent mismatches.
@@ -175,7 +169,8 @@ void Tracker::addKeyframe(const View& view) {
 
 Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution) {
   // Both ends of the step were located in the map with an error of their own.
-  const Matrix6d sum = turned(solution.covariance, previous_from_current) + last_covariance_;
+  const Matrix6d sum =
+      rotateCovariance(solution.covariance, previous_from_current.linear()) + last_covariance_;
   last_covariance_ = solution.covariance;
   return parameters_.covariance_scale * sum +
          floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
@@ -187,8 +182,9 @@ RelativePose Tracker::loopOf(int keyframe, double t, const Pose3& keyframe_from_
   closure.t_a = map_.keyframe(keyframe).t;
   closure.t_b = t;
   closure.a_from_b = keyframe_from_camera;
-  closure.covariance = parameters_.covariance_scale * turned(covariance, keyframe_from_camera) +
-                       floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
+  closure.covariance =
+      parameters_.covariance_scale * rotateCovariance(covariance, keyframe_from_camera.linear()) +
+      floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
   closure.source = "tracking";
   return closure;
 }

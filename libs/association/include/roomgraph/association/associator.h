@@ -2,10 +2,9 @@
 // Interface of data association: measurements of one frame to landmarks, with posterior.
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/world_measurement.h"
 #include "roomgraph/core/stage.h"
 
@@ -16,9 +15,9 @@ struct AssociationModel;
 /// Decision for one measurement (method.md sec. 4, E-step).
 struct Association {
   std::size_t measurement = 0;
-  LandmarkId landmark;                                   ///< invalid: a new landmark
-  double probability = 1;                                ///< of the decision
-  std::vector<std::pair<LandmarkId, double>> posterior;  ///< over the gate and "new" (invalid id); sums to 1
+  LandmarkId landmark;          ///< invalid: a new landmark
+  double probability = 1;       ///< of the decision
+  WeightedLandmarks posterior;  ///< over the gate and "new" (invalid id); sums to 1
 };
 
 /// Measurements of one frame + landmarks -> posterior over {landmarks of the class in gate} and {new}.
@@ -32,8 +31,8 @@ class Associator : public Stage {
   virtual void assigned(const WorldMeasurement& measurement, LandmarkId landmark) {
     (void)measurement, (void)landmark;
   }
-  /// Tells that two landmarks turned out to be one object.
-  virtual void merged(LandmarkId removed, LandmarkId kept) { (void)removed, (void)kept; }
+  /// Tells that landmarks were merged or split: ids that the associator remembers are to be resolved anew.
+  virtual void identitiesChanged(const LandmarkIdentity& identity) { (void)identity; }
   /// What re-association of a whole run (reassociate()) weighs measurements with; null: this associator's
   /// decisions are final.
   virtual const AssociationModel* model() const { return nullptr; }

@@ -12,44 +12,44 @@
 
 namespace roomgraph {
 
-/// Where a landmark was seen, for finding out that it is two.
+/// Place of one sighting, for the test whether a landmark is two objects.
 struct PlaceSketch {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   double sigma_m = 0;  ///< larger standard deviation on the ground
   double weight = 1;
 };
 
-/// Evidence for or against a landmark's existence other than a sighting: a miss, or rays.
-struct Doubt {
-  FrameId after;  ///< the last frame with measurements before it
-  double log_ratio = 0;
+/// Change of a landmark's existence by something other than a sighting: a miss, or rays.
+struct ExistenceUpdate {
+  FrameId after;         ///< the last frame with measurements before it
+  double log_ratio = 0;  ///< added to the log odds of existence
 };
 
 /// What is remembered about a landmark beside its estimate.
 struct LandmarkRecord {
-  double evidence = 0;                   ///< sum of the sightings' scores
-  double ray_support = 0;                ///< log odds of existence that rays gave in favour
-  std::vector<Doubt> doubts;             ///< in order of time
-  std::map<std::string, double> labels;  ///< class -> sum of the detector's scores
-  double front = 0, back = 0;            ///< votes for the landmark's yaw and for the opposite one
-  double size_weight = 0;                ///< of the sightings in its size
+  double evidence = 0;                             ///< sum of the sightings' weights
+  double ray_support = 0;                          ///< log odds of existence that rays gave in favour
+  std::vector<ExistenceUpdate> existence_updates;  ///< in order of time
+  std::map<std::string, double> labels;            ///< class -> sum of the sightings' weights
+  double front = 0, back = 0;                      ///< votes for the landmark's yaw and for the opposite one
+  double size_weight = 0;                          ///< of the sightings in its size
   std::deque<PlaceSketch> recent;
 };
 
-/// Whether a sighting lies so far off the landmark that it was given to it for other reasons than its place.
+/// Whether the sighting's place is an outlier with respect to the landmark (it was assigned for other
+/// reasons).
 bool isElsewhere(const Landmark& landmark, const WorldMeasurement& seen);
-/// Kalman update of (x, y, z, yaw) with a direct measurement; one of little weight counts as a less certain
-/// one.
+/// Kalman update of (x, y, z, yaw); the covariance of carried boxes and of outliers is inflated.
 void fusePlace(Landmark& landmark, const WorldMeasurement& seen);
-/// Front against back: the yaw turns round when more weight has seen it the other way.
+/// Votes for the front: the yaw is reversed when sightings with the opposite yaw have more weight.
 void voteYaw(Landmark& landmark, LandmarkRecord& record, const WorldMeasurement& seen);
-/// Mean size, by weight and by how much of the object the image shows.
+/// Mean size, weighted by the sighting's weight and its visible fraction.
 void fuseSize(Landmark& landmark, LandmarkRecord& record, const ObjectMeasurement& seen);
-/// Counts a label and keeps the class posterior: the votes with a small even prior (Dirichlet) over the
-/// classes met.
+/// Adds a vote for the label and updates the class posterior: votes with an even Dirichlet prior over the
+/// classes seen.
 void voteLabel(Landmark& landmark, LandmarkRecord& record, const ObjectMeasurement& seen);
 void remember(LandmarkRecord& record, const WorldMeasurement& seen);
-/// Adds what is known about `other`, whose yaw may point the other way.
+/// Adds the record of a merged landmark; `turned`: its yaw is the opposite one.
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned);
 
 /// Two groups of sightings that one object cannot explain.
@@ -60,7 +60,7 @@ struct Split {
 };
 
 /// Looks for two modes at least `least_distance_m` apart, each with a quarter of the weight and three
-/// sightings, each narrow against their distance; sightings too vague to tell are left out.
+/// sightings, each narrow against their distance; sightings with a large standard deviation are left out.
 std::optional<Split> findSplit(const std::vector<PlaceSketch>& sightings, double least_distance_m);
 
 }  // namespace roomgraph

@@ -7,6 +7,7 @@
 
 #include "roomgraph/association/associator.h"
 #include "roomgraph/association/landmark_fusion.h"
+#include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/landmark_options.h"
 #include "roomgraph/association/reassociation.h"
 
@@ -14,52 +15,54 @@ namespace roomgraph {
 
 /// Recursive estimate of the landmarks between two optimisations of the graph: Kalman update of place,
 /// weighted mean of the size, votes for class and front, Bernoulli filter for existence, merging and
-/// splitting. The one owner of landmarks while a run goes on.
+/// splitting. The only owner of landmarks and of their ids during a run.
 class LandmarkMap {
  public:
   explicit LandmarkMap(const LandmarkOptions& options = {}) : options_(options) {}
 
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
   const Landmark* find(LandmarkId id) const;
+  const LandmarkIdentity& identity() const { return identity_; }
   const LandmarkRules& rules() const { return options_.rules; }
 
   /// Fuses a measurement into its landmark, or makes a new one; returns the landmark's id. A measurement of
   /// another class than its landmark's only votes for its label; when that label has far more votes, the
-  /// landmark becomes what it says.
+  /// landmark takes class, shape and place of the measurement.
   LandmarkId update(const WorldMeasurement& measurement, const Association& association);
 
   /// Lowers the existence of a landmark that should have been detected and was not.
   void miss(LandmarkId id);
 
-  /// Rays of a sensor that passed through the landmark's volume, or ended inside its footprint: evidence
-  /// against and for it. Rays of one scan hit the same thing, so only the first ones count.
+  /// Number of rays of one scan that passed through the landmark's volume (evidence against it), or ended
+  /// inside its footprint (evidence for it). Rays of a scan are not independent: their number is limited.
   void seenThrough(LandmarkId id, int rays);
   void supported(LandmarkId id, int rays);
 
-  /// Sets place, yaw and covariance after an optimisation of the graph.
+  /// Sets place (m, world), yaw (rad) and covariance of (x, y, z, yaw) after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
 
   /// Takes a landmark, with what is remembered of its places, into another frame.
   void move(LandmarkId id, const Pose3& new_from_old);
 
-  /// Joins landmarks of one class that are one object; returns (removed, kept) pairs.
+  /// Merges landmarks of one class that are one object; returns (removed, kept) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> mergeDuplicates();
 
-  /// Parts landmarks whose recent sightings form two groups farther apart than one object allows; returns
-  /// (parted, made) pairs.
+  /// Splits landmarks whose recent sightings form two groups farther apart than one object allows; returns
+  /// (split, created) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> splitMixed();
 
-  /// Takes over the outcome of a re-association of all measurements. Existence is what the sightings given
-  /// to a landmark say, and, in the order of time, its misses and rays, which it keeps.
+  /// Replaces the landmarks by those of a re-association of all measurements. Existence is computed anew from
+  /// the sightings assigned to each landmark and, in the order of time, its recorded misses and rays.
   void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
 
-  /// Landmarks sure enough to be shown: existence and number of observations reach the configured limits.
+  /// Landmarks for the map: existence and number of observations reach the configured limits, and no other
+  /// confirmed landmark with more evidence overlaps them.
   std::vector<Landmark> confirmed() const;
 
  private:
   Landmark* get(LandmarkId id);
   void weigh(Landmark& landmark, double ratio) const;
-  void doubt(LandmarkId id, double log_ratio);
+  void updateExistence(LandmarkId id, double log_ratio);
   double likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const;
   void countTogether(FrameId frame, LandmarkId id);
   void join(Landmark& kept, const Landmark& removed);
@@ -71,7 +74,7 @@ class LandmarkMap {
   SeenTogether together_;
   FrameId frame_;
   std::vector<LandmarkId> in_frame_;
-  std::int64_t next_id_ = 0;
+  LandmarkIdentity identity_;
 };
 
 }  // namespace roomgraph

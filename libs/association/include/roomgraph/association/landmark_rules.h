@@ -11,19 +11,26 @@
 
 namespace roomgraph {
 
-/// The landmark that a first sighting makes.
-Landmark bornFrom(const WorldMeasurement& seen, LandmarkId id, double existence);
+/// Factor on weight and information of a sighting whose box was carried from an earlier frame: it repeats the
+/// last detection.
+inline constexpr double kCarriedShare = 0.3;
+/// Lower bound of the variances of a landmark, m^2 or rad^2: its sightings share errors (same view, same
+/// model), so that averaging cannot make it arbitrarily precise.
+inline constexpr double kLeastVariance = 1e-4;
 
-/// How much a sighting says about the object, in [0, 1]: its score, less when features carried the box here.
+/// The landmark created from its first sighting.
+Landmark initializeLandmark(const WorldMeasurement& seen, LandmarkId id, double existence);
+
+/// Weight of a sighting in [0, 1]: its score, less when the box was carried from an earlier frame.
 double sightingWeight(const ObjectMeasurement& measurement);
 
-/// Share of the projected model that lies inside the image, in [0, 1]: cut boxes say little about the size.
-double wholeness(const ObjectMeasurement& measurement);
+/// Share of the projected model that lies inside the image, in [0, 1].
+double visibleFraction(const ObjectMeasurement& measurement);
 
 /// In how many frames two landmarks were seen side by side; the smaller id first.
 using SeenTogether = std::map<std::pair<LandmarkId, LandmarkId>, int>;
 
-/// When two landmarks of a class are one object, and when one is two.
+/// Criterion for merging two landmarks of a class, and for splitting one.
 struct DuplicateRule {
   double merge_overlap = 0.2;
   double merge_distance_ratio = 0.6;

@@ -2,16 +2,14 @@
 // Likelihood of a measurement given a landmark or a new object: place, class and box.
 #pragma once
 
-#include <utility>
 #include <vector>
 
+#include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/world_measurement.h"
 #include "roomgraph/core/parameters.h"
 #include "roomgraph/observations/landmark.h"
 
 namespace roomgraph {
-
-using WeightedLandmarks = std::vector<std::pair<LandmarkId, double>>;
 
 /// What a measurement may be, each with its density in 1/m^2 (not normalised).
 struct Alternatives {
@@ -40,10 +38,10 @@ struct MeasurementModel {
   /// Whether the measurement can be the landmark: class, and gate or viewing ray.
   bool inGate(const WorldMeasurement& seen, const Landmark& landmark) const;
 
-  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail now
-  /// and then by more than their covariance says; and, for those whose depth came from something in front or
-  /// behind (the likelier the lower their score), a stripe along the viewing ray, which counts as much as the
-  /// boxRatio says.
+  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail
+  /// now and then by more than their covariance says; and, for those whose depth came from something in front
+  /// or behind (the likelier the lower their score), a stripe along the viewing ray, which counts as much as
+  /// the boxRatio says.
   double density(const WorldMeasurement& seen, const Landmark& landmark) const;
 
   /// How much better (or worse) the landmark explains the detection's box than the proposal itself does:

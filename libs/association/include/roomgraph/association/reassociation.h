@@ -2,10 +2,10 @@
 // Batch re-association of a whole run: forward-backward E-step alternating with landmark estimation.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "roomgraph/association/association_model.h"
+#include "roomgraph/association/associator.h"
 #include "roomgraph/association/landmark_rules.h"
 
 namespace roomgraph {
@@ -19,7 +19,7 @@ struct BatchDecision {
 struct Reassociation {
   std::vector<std::vector<BatchDecision>> decisions;  ///< by frame and measurement, as they came in
   std::vector<Landmark> landmarks;  ///< those with sightings, by id; place, yaw and size anew
-  std::vector<std::pair<LandmarkId, LandmarkId>> merged;  ///< (removed, kept)
+  LandmarkIdentity identity;        ///< the one given, with the merges and splits made here
   int rounds = 0;
   bool settled = false;  ///< the last round changed no decision
 };
@@ -28,10 +28,10 @@ struct Reassociation {
 /// with the past and the future of its track; landmarks are placed again by a robust mean of their
 /// sightings, duplicates become one, landmarks that nobody claims go, unclaimed measurements make new ones;
 /// at most `max_rounds` times, until no decision changes. `by_frame`: in order of time, with poses as they
-/// are known now. Deterministic; touches no state.
+/// are known now. `identity`: of the landmarks in `initial`. Deterministic; touches no state.
 Reassociation reassociate(const std::vector<std::vector<WorldMeasurement>>& by_frame,
-                          std::vector<Landmark> initial, const AssociationModel& model,
-                          const LandmarkRules& rules, int max_rounds = 10);
+                          std::vector<Landmark> initial, LandmarkIdentity identity,
+                          const AssociationModel& model, const LandmarkRules& rules, int max_rounds = 10);
 
 /// Robust mean of a landmark's sightings: place (Student t, information weighted), yaw (axis first, then
 /// front against back by vote), size; each sighting counts with its weight. Keeps the landmark's class and

@@ -33,8 +33,6 @@ struct SolveReport {
 struct PlanarGraph;
 using NodeTimes = std::map<NodeId, double>;  ///< s
 
-using Matrix10d = Eigen::Matrix<double, 10, 10>;
-
 /// Poses, landmarks, points and the factors between them; robust non-linear least squares (method.md Eq. 9).
 /// Ids are the caller's; every id used in a factor must have been added before. Throws std::out_of_range
 /// otherwise. Nothing here depends on the number of threads: the same input gives the same bits.
@@ -74,14 +72,6 @@ class FactorGraph {
   /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is
   /// singular or cannot be evaluated. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
-  /// Marginal covariance of a pose: translation in world, then rotation vector w with R = exp(w) R_estimated.
-  /// Zero for a fixed pose; nothing when the problem is singular.
-  std::optional<Matrix6d> poseCovariance(NodeId id) const;
-  /// Joint marginal covariance of a pose (first 6, as above) and a landmark (x, y, z, yaw).
-  std::optional<Matrix10d> jointCovariance(NodeId node, LandmarkId landmark) const;
-  /// The same for several landmarks, from one decomposition.
-  std::optional<std::map<LandmarkId, Matrix10d>> jointCovariances(
-      NodeId node, const std::vector<LandmarkId>& landmarks) const;
 
   /// What is left for `keep` when everything else is removed (Schur complement at the current estimate). It
   /// takes in every factor that touches something removed, and every MarginalPrior; factors among kept

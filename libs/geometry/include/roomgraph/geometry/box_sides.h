@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sides of a detected box that lie inside the image rather than on its border.
+// Flags for the four sides of an image box, and which sides lie inside the image rather than on its border.
 #pragma once
 
 #include <array>
@@ -9,11 +9,21 @@
 
 namespace roomgraph {
 
-/// Which sides (left, top, right, bottom) of a measured box lie inside the image, not on its border.
-inline std::array<bool, 4> sidesInside(const Box2& box, const PinholeCamera& camera) {
-  constexpr double kBorder_px = 2;  // a detector's box hardly ever ends on the very last pixel
-  return {box.u_min > kBorder_px, box.v_min > kBorder_px, box.u_max < camera.width - kBorder_px,
-          box.v_max < camera.height - kBorder_px};
+/// A flag for every side of an image box.
+struct BoxSides {
+  bool left = false, top = false, right = false, bottom = false;
+
+  bool any() const { return left || top || right || bottom; }
+  /// In the order of a box's coordinates: u_min, v_min, u_max, v_max.
+  std::array<bool, 4> inOrder() const { return {left, top, right, bottom}; }
+  bool operator==(const BoxSides&) const = default;
+};
+
+/// Which sides of a measured box lie inside the image, farther than `border_px` from its border: a detector's
+/// box hardly ever ends on the very last pixel.
+inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera, double border_px = 2) {
+  return {box.u_min > border_px, box.v_min > border_px, box.u_max < camera.width - border_px,
+          box.v_max < camera.height - border_px};
 }
 
 }  // namespace roomgraph

@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounding box of a projected object model, and of a projected circle.
+// Bounding box of a projected object model.
 #pragma once
 
 #include <optional>
 
-#include "roomgraph/geometry/box.h"
+#include "roomgraph/geometry/box_sides.h"
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/shape.h"
 
 namespace roomgraph {
 
-/// Image extent of a projected model.
+/// Image extent of a projected model, px.
 struct ProjectedShape {
   Box2 full;     ///< bounds of the part in front of the camera, may reach outside the image
   Box2 visible;  ///< the same, cut by the image border
-  bool cut_left = false, cut_top = false, cut_right = false, cut_bottom = false;  ///< sides outside the image
+  BoxSides cut;  ///< sides of `full` outside the image
 };
 
 /// Bounding box of the model's silhouette (paper Eq. 13: b = min/max of the projected shape). Edges are
 /// clipped at `near_m`; nothing when the whole model is behind it or outside the image.
 std::optional<ProjectedShape> projectShape(const ObjectShape& shape, const Pose3& camera_from_object,
                                            const PinholeCamera& camera, double near_m = 0.05);
-
-/// Bounds of a circle's image (radius r, centre c, unit normal n; camera frame) from its dual conic
-/// (adjugate); exact for a circle wholly in front of the camera. Nothing otherwise.
-std::optional<Box2> projectCircle(const Eigen::Vector3d& center, const Eigen::Vector3d& normal, double radius,
-                                  const PinholeCamera& camera);
 
 }  // namespace roomgraph

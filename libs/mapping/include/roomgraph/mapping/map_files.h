@@ -24,14 +24,9 @@ struct LandmarksOrigin {
 
 /// landmarks.json of the interface: a header (frame, units, recording, version), then for each landmark id,
 /// class, model, x, y, z, yaw, size_wdh, footprint, covariance, existence, class_posterior, observations,
-/// first_seen and last_seen (where known); besides, `shape` and `has_yaw`, which the reader needs to give
-/// back the same.
+/// first_seen and last_seen (where known), `shape` and `has_yaw`.
 void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file,
                        const LandmarksOrigin& origin = {});
-/// Reads landmarks.json (key `landmarks`) or a truth file (key `objects`). Required of an entry: id, class,
-/// x, y, z, size_wdh; the rest may be absent (no yaw: has_yaw = false; no posterior: the class itself). Truth
-/// files name what a distractor is in `kind`: it becomes the landmark's model.
-std::vector<Landmark> loadLandmarksJson(const std::filesystem::path& file);
 
 /// map.pgm + map.yaml as ROS map_server / nav2 read them (254 free, 0 occupied, 205 unknown; first row =
 /// largest y); `stem` without extension.

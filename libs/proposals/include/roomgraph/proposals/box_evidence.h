@@ -5,17 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "roomgraph/geometry/box_sides.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/proposals/box_edges.h"
 #include "roomgraph/proposals/depth_mask.h"
 
 namespace roomgraph {
-
-/// A flag for every side of a box.
-struct BoxSides {
-  bool left = false, top = false, right = false, bottom = false;
-};
 
 /// Everything a shape generator knows about one detection. The ground frame (geometry/ground.h) has its origin on
 /// the floor below the camera, x along the optical axis' horizontal direction, y left, z up.

@@ -1,29 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Image bounds of an object model, templated for automatic differentiation.
+// Image bounds of a shape model as a template for numbers and automatic differentiation.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "roomgraph/geometry/camera.h"
-#include "roomgraph/geometry/shape.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 
-// The image bounds of a model (paper Eq. 13) as a template, so that automatic differentiation sees through
-// them: the same definition as geometry's projectShape, which is for plain numbers; a test compares the two.
-
+/// Bounds of image points in pixels, in the order u_min, v_min, u_max, v_max.
 template <class T>
-using Vec3 = Eigen::Matrix<T, 3, 1>;
-template <class T>
-using Mat3 = Eigen::Matrix<T, 3, 3>;
-
-/// Bounds in pixels that grow with every point: u_min, v_min, u_max, v_max.
-template <class T>
-struct Sides {
+struct ImageBounds {
   std::array<T, 4> value;
   bool any = false;
 
@@ -39,8 +29,8 @@ struct Sides {
   }
 };
 
-/// Bounds of one image axis of a circle wholly in front of the camera, from its dual conic c c' - r^2 (I - n
-/// n') (adjugate).
+/// Bounds along one image axis (0: u, 1: v) of a circle wholly in front of the camera (camera frame): tangent
+/// lines from the dual conic c c' - r^2 (I - n n') of the circle's plane image.
 template <class T>
 std::array<T, 2> circleBounds(const Vec3<T>& center, const Vec3<T>& normal, const T& radius, int axis,
                               double focal, double principal) {
@@ -58,71 +48,62 @@ std::array<T, 2> circleBounds(const Vec3<T>& center, const Vec3<T>& normal, cons
 
 template <class T>
 void addCircle(const Vec3<T>& center, const Vec3<T>& normal, const T& radius, const PinholeCamera& camera,
-               Sides<T>& sides) {
+               ImageBounds<T>& bounds) {
   const auto u = circleBounds(center, normal, radius, 0, camera.fx, camera.cx);
   const auto v = circleBounds(center, normal, radius, 1, camera.fy, camera.cy);
-  sides.add(u[0], v[0]);
-  sides.add(u[1], v[1]);
+  bounds.add(u[0], v[0]);
+  bounds.add(u[1], v[1]);
 }
 
+/// Adds the first end of an edge and where the edge crosses the near plane; the second end is the next edge's
+/// first.
 template <class T>
 void addClippedEdge(const Vec3<T>& p, const Vec3<T>& q, const PinholeCamera& camera, double near_m,
-                    Sides<T>& sides) {
+                    ImageBounds<T>& bounds) {
   const bool p_seen = p.z() >= T(near_m), q_seen = q.z() >= T(near_m);
-  if (p_seen) sides.add(p, camera);
+  if (p_seen) bounds.add(p, camera);
   if (p_seen == q_seen) return;
   const T ratio = (T(near_m) - p.z()) / (q.z() - p.z());
-  sides.add(Vec3<T>(p + ratio * (q - p)), camera);
+  bounds.add(Vec3<T>(p + ratio * (q - p)), camera);
 }
 
-/// Corners of the footprint; size = (width, depth, height). A circle becomes a polygon of 48 corners.
+/// Bounds (u_min, v_min, u_max, v_max) of the model's silhouette (paper Eq. 13), not cut by the image border;
+/// the object's axes and bottom centre are in the camera frame. A cylinder wholly in front of the camera is
+/// exact, one cut by the near plane is a prism of 48 sides. Edges are clipped at `near_m`; nothing when all
+/// of the model is behind.
 template <class T>
-std::vector<Eigen::Matrix<T, 2, 1>> footprintCorners(ShapeKind kind, const Vec3<T>& size) {
-  std::vector<Eigen::Matrix<T, 2, 1>> corners;
-  if (kind != ShapeKind::kCylinder) {
-    const T x = size[1] / 2.0, y = size[0] / 2.0;
-    return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
-  }
-  constexpr int kCorners = 48;
-  const T radius = (size[0] + size[1]) / 4.0;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2 * M_PI * i / kCorners;
-    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return corners;
-}
-
-/// Bounds (u_min, v_min, u_max, v_max) of a model's image, not cut by the image border; the object's axes and
-/// bottom centre are in the camera frame. Edges are clipped at `near_m`; nothing when all of it is behind.
-template <class T>
-std::optional<std::array<T, 4>> projectedSides(ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes,
-                                               const Vec3<T>& bottom, const PinholeCamera& camera,
-                                               double near_m = 0.05) {
+std::optional<std::array<T, 4>> projectedBounds(ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes,
+                                                const Vec3<T>& bottom, const PinholeCamera& camera,
+                                                double near_m = 0.05) {
   using std::sqrt;
-  Sides<T> sides;
+  constexpr int kCircle = 48;
+  ImageBounds<T> bounds;
   const Vec3<T> up = axes.col(2), top = bottom + size[2] * up;
-  const T radius = (size[0] + size[1]) / 4.0;
+  const T radius = radiusOf(size);
   const T level = up.x() * up.x() + up.y() * up.y();
   const T reach = level > T(0) ? T(radius * sqrt(level)) : T(0);
   const T nearest = (top.z() < bottom.z() ? top.z() : bottom.z()) - reach;
   if (kind == ShapeKind::kCylinder && nearest > T(near_m)) {
-    addCircle(bottom, up, radius, camera, sides);
-    addCircle(top, up, radius, camera, sides);
-    return sides.value;
+    addCircle(bottom, up, radius, camera, bounds);
+    addCircle(top, up, radius, camera, bounds);
+    return bounds.value;
   }
+  const auto corners = footprintCorners(kind, size, kCircle);
   std::vector<Vec3<T>> low, high;
-  for (const auto& corner : footprintCorners(kind, size)) {
+  low.reserve(corners.size());
+  high.reserve(corners.size());
+  for (const auto& corner : corners) {
     low.push_back(bottom + axes.col(0) * corner.x() + axes.col(1) * corner.y());
     high.push_back(low.back() + size[2] * up);
   }
   for (std::size_t i = 0; i < low.size(); ++i) {
     const std::size_t next = (i + 1) % low.size();
-    addClippedEdge(low[i], low[next], camera, near_m, sides);
-    addClippedEdge(high[i], high[next], camera, near_m, sides);
-    addClippedEdge(low[i], high[i], camera, near_m, sides);
+    addClippedEdge(low[i], low[next], camera, near_m, bounds);
+    addClippedEdge(high[i], high[next], camera, near_m, bounds);
+    addClippedEdge(low[i], high[i], camera, near_m, bounds);
   }
-  if (!sides.any) return std::nullopt;
-  return sides.value;
+  if (!bounds.any) return std::nullopt;
+  return bounds.value;
 }
 
 }  // namespace roomgraph
