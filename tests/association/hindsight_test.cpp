@@ -33,7 +33,7 @@ TEST(Hindsight, TheFutureOfATrackDecidesItsBeginning) {
   const std::vector<Landmark> chairs{wellKnown(0, 0), wellKnown(1, 1)};
   const AssociationModel model;
   ASSERT_GT(model.measurement.density(frames[0][0], chairs[0]), 2 * model.measurement.density(frames[0][0], chairs[1]));
-  const auto result = reassociate(frames, chairs, model, LandmarkRules{});
+  const auto result = reassociate(frames, chairs, {}, model, LandmarkRules{});
   ASSERT_EQ(result.landmarks.size(), 2u);
   for (const auto& decision : result.decisions[1]) {
     const bool right = decision.association.measurement == 1;
@@ -52,7 +52,7 @@ TEST(Hindsight, AStraySightingIsNoObjectOfItsOwn) {
   const double density = model.measurement.density(frames.back()[0], chair);
   ASSERT_LT(density, model.measurement.new_density_per_m2);
   ASSERT_GT(density, 0.1 * model.measurement.new_density_per_m2);
-  const auto result = reassociate(frames, {chair}, model, LandmarkRules{});
+  const auto result = reassociate(frames, {chair}, {}, model, LandmarkRules{});
   ASSERT_EQ(result.landmarks.size(), 1u);
   EXPECT_EQ(result.landmarks[0].observations, 11);
 }

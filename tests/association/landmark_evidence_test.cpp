@@ -93,7 +93,7 @@ TEST(LandmarkEvidence, HindsightWeighsDoubtsAtTheirTime) {
   }
   const double odds = 0.01 / 0.99 * std::exp(3 * 5 * (0.9 - 0.3));
   EXPECT_NEAR(map.find(id)->existence, odds / (1 + odds), 1e-9);
-  const Reassociation result = reassociate(frames, map.landmarks(), AssociationModel{}, map.rules());
+  const Reassociation result = reassociate(frames, map.landmarks(), map.identity(), AssociationModel{}, map.rules());
   ASSERT_EQ(result.landmarks.size(), 1u);
   map.adopt(frames, result);
   EXPECT_NEAR(map.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9);
