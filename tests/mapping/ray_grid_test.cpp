@@ -61,8 +61,12 @@ Scan oneBeam(double t, double range_m) {
   return scan;
 }
 
+// Within 3 cm: the place may lie on the border of two cells.
 bool isWall(const mrpt::maps::COccupancyGridMap2D& grid, double x, double y) {
-  return grid.getPos(static_cast<float>(x), static_cast<float>(y)) < 0.4F;
+  for (const double dx : {-0.03, 0.0, 0.03})
+    for (const double dy : {-0.03, 0.0, 0.03})
+      if (grid.getPos(static_cast<float>(x + dx), static_cast<float>(y + dy)) < 0.4F) return true;
+  return false;
 }
 
 // Within two seconds a robot that neither moves nor turns says nothing new.
