@@ -152,24 +152,24 @@ Landmark trusted(std::int64_t id) {
   return landmark;
 }
 
-TEST(PartByTime, TheTwoVisitsShareNoLandmark) {
+TEST(SplitByTime, TheTwoVisitsShareNoLandmark) {
   const std::vector<Landmark> landmarks{trusted(0), trusted(1), trusted(2), trusted(3), trusted(4)};
   const std::map<LandmarkId, SeenSpan> spans{{LandmarkId{0}, {0, 20}},
                                              {LandmarkId{1}, {5, 22}},
                                              {LandmarkId{2}, {18, 90}},  // seen in both
                                              {LandmarkId{3}, {80, 95}},
                                              {LandmarkId{4}, {85, 99}}};
-  const auto visits = partByTime(landmarks, spans, 100, 40, 2);
+  const auto visits = splitByTime(landmarks, spans, 100, 40, 2);
   ASSERT_EQ(visits.size(), 1u);
   ASSERT_EQ(visits[0].recent.size(), 2u);
   EXPECT_EQ(visits[0].recent[0].id.value, 3);
   ASSERT_EQ(visits[0].old.size(), 2u);
   EXPECT_EQ(visits[0].old[1].id.value, 1);
-  EXPECT_TRUE(partByTime(landmarks, spans, 100, 40, 3).empty());
-  EXPECT_TRUE(partByTime(landmarks, spans, 100, 10, 2).empty()) << "the parting lies too far back";
+  EXPECT_TRUE(splitByTime(landmarks, spans, 100, 40, 3).empty());
+  EXPECT_TRUE(splitByTime(landmarks, spans, 100, 10, 2).empty()) << "the split lies too far back";
   auto doubtful = landmarks;
   doubtful[3].existence = 0.2;
-  EXPECT_TRUE(partByTime(doubtful, spans, 100, 40, 2).empty());
+  EXPECT_TRUE(splitByTime(doubtful, spans, 100, 40, 2).empty());
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/association/landmark_identity.h"
+
 namespace roomgraph {
 namespace {
 
@@ -65,8 +67,8 @@ std::optional<Pose2> MapAnchor::recognise(const std::vector<Landmark>& seen, con
 
 std::vector<Landmark> joined(std::vector<Landmark> landmarks, const std::vector<Landmark>& earlier) {
   const std::vector<Landmark> now = landmarks;
-  std::int64_t next_id = 0;
-  for (const auto& landmark : now) next_id = std::max(next_id, landmark.id.value + 1);
+  LandmarkIdentity identity;
+  for (const auto& landmark : now) identity.reserve(landmark.id);
   for (Landmark old : earlier) {
     const double near = std::max(old.shape.width, old.shape.depth) / 2;
     const bool there = std::any_of(now.begin(), now.end(), [&](const Landmark& landmark) {
@@ -74,7 +76,7 @@ std::vector<Landmark> joined(std::vector<Landmark> landmarks, const std::vector<
              (landmark.position - old.position).head<2>().norm() < near;
     });
     if (there) continue;
-    old.id = LandmarkId{next_id++};
+    old.id = identity.create();
     landmarks.push_back(old);
   }
   return landmarks;

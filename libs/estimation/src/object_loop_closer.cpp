@@ -30,7 +30,7 @@ RelativePose proposal(double t_a, double t_b, const Pose2& map_from_query, const
 
 }  // namespace
 
-std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
+std::vector<Visits> splitByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
                                double recent_s, std::size_t min_each) {
   std::set<double> times;
   for (const auto& landmark : landmarks)
@@ -38,13 +38,13 @@ std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const See
         span != spans.end() && span->second.first >= now - recent_s)
       times.insert(span->second.first);
   std::vector<Visits> out;
-  for (const double parting : times) {
+  for (const double split_t : times) {
     Visits visits;
     for (const auto& landmark : landmarks) {
       const auto span = spans.find(landmark.id);
       if (span == spans.end() || !trustworthy(landmark)) continue;
-      if (span->second.first >= parting) visits.recent.push_back(landmark);
-      if (span->second.last < parting) visits.old.push_back(landmark);
+      if (span->second.first >= split_t) visits.recent.push_back(landmark);
+      if (span->second.last < split_t) visits.old.push_back(landmark);
     }
     if (std::min(visits.recent.size(), visits.old.size()) >= min_each) out.push_back(std::move(visits));
   }
@@ -57,7 +57,7 @@ std::optional<RelativePose> ObjectLoopCloser::search(const ObjectMapper& objects
   nodes_since_search_ = 0;
   const auto& rule = options_.constellation;
   for (const Visits& visits :
-       partByTime(objects.landmarks().landmarks(), objects.seenSpans(), poses.nodes().back().t,
+       splitByTime(objects.landmarks().landmarks(), objects.seenSpans(), poses.nodes().back().t,
                   options_.recent_s, static_cast<std::size_t>(rule.min_pairs))) {
     const auto match = matchConstellation(visits.recent, visits.old, rule);
     if (!match) continue;

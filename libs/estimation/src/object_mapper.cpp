@@ -2,10 +2,11 @@
 // Association and fusion of measurements, evidence of misses and beams, merging and splitting of landmarks.
 #include "roomgraph/estimation/object_mapper.h"
 
-#include <algorithm>
+#include <functional>
 #include <set>
 
 #include "measurement_in_world.h"
+#include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/reassociation.h"
 #include "visibility.h"
 
@@ -14,22 +15,10 @@ namespace {
 
 constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place say the same
 
-// Two landmarks were one: their shares of the posterior belong together.
-void rename(ObjectDecision& decision, LandmarkId removed, LandmarkId kept) {
-  if (decision.landmark == removed) decision.landmark = kept;
-  if (decision.association.landmark == removed) decision.association.landmark = kept;
-  auto& posterior = decision.association.posterior;
-  const auto find = [&](LandmarkId id) {
-    return std::find_if(posterior.begin(), posterior.end(), [id](const auto& p) { return p.first == id; });
-  };
-  const auto old = find(removed);
-  if (old == posterior.end()) return;
-  if (const auto other = find(kept); other != posterior.end()) {
-    other->second = std::min(1.0, other->second + old->second);  // rounding
-    posterior.erase(old);
-  } else {
-    old->first = kept;
-  }
+void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)>& id_today) {
+  decision.landmark = id_today(decision.landmark);
+  decision.association.landmark = id_today(decision.association.landmark);
+  decision.association.posterior = renamed(decision.association.posterior, id_today);
 }
 
 // Those with depth; the mapper remembers no more of the others than which object they lie on.
@@ -98,18 +87,19 @@ void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot, cons
 }
 
 void ObjectMapper::tidy() {
-  const auto parted = landmarks_.splitMixed();
-  for (const auto& [first, second] : parted) shareSightings(first, second);
+  const auto split = landmarks_.splitMixed();
+  for (const auto& [first, second] : split) shareSightings(first, second);
   const auto merged = landmarks_.mergeDuplicates();
-  for (const auto& [removed, kept] : merged)
-    for (auto& frame : frames_)
-      for (auto& decision : frame.decisions) rename(decision, removed, kept);
-  if (merged.empty() && parted.empty()) return;
-  associator_->identitiesChanged(landmarks_.identity());
+  if (merged.empty() && split.empty()) return;
+  const LandmarkIdentity& identity = landmarks_.identity();
+  for (auto& frame : frames_)
+    for (auto& decision : frame.decisions)
+      rename(decision, [&identity](LandmarkId id) { return identity.today(id); });
+  associator_->identitiesChanged(identity);
   respan();
 }
 
-// A landmark became two: what was seen of it belongs to the nearer one.
+// A landmark was split: its sightings belong to the nearer one.
 void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
   const Eigen::Vector3d first_place = landmarks_.find(first)->position;
   const Eigen::Vector3d second_place = landmarks_.find(second)->position;
@@ -119,7 +109,8 @@ void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
       if (decision.landmark != first) continue;
       const Eigen::Vector3d place =
           (world_from_camera * decision.seen.measurement.proposal.camera_from_object).translation();
-      if ((place - second_place).norm() < (place - first_place).norm()) rename(decision, first, second);
+      if ((place - second_place).norm() < (place - first_place).norm())
+        rename(decision, [first, second](LandmarkId id) { return id == first ? second : id; });
     }
   }
 }

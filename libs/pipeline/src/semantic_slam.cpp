@@ -47,18 +47,18 @@ StepReport SemanticSlam::step(const Frame& frame) {
   ++counts_.frames;
   if (isMounted(frame)) estimator_.setPlanar();
 
-  const FrameDetections detections = detect(frame);  // sec. 1.1
+  const FrameDetections detections = detect(frame);                       // sec. 1.1
   const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
-  const TrackingResult tracked = track(frame, people);  // sec. 4, factor 1
-  localize(frame.t);  // sec. 4, M-step
-  const FrameProposals proposals = propose(frame, detections.boxes);  // sec. 1.2 to 1.D
+  const TrackingResult tracked = track(frame, people);                    // sec. 4, factor 1
+  localize(frame.t);                                                      // sec. 4, M-step
+  const FrameProposals proposals = propose(frame, detections.boxes);      // sec. 1.2 to 1.D
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
     mapper_.add(frame, floor);
     if (detections.current()) {
-      const auto measurements = select(frame, proposals, tracked.features);  // sec. 3
+      const auto measurements = select(frame, proposals, tracked.features);      // sec. 3
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
     }
   }

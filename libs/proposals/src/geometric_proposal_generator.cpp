@@ -93,7 +93,7 @@ ProposalTrace traceOf(int index, const BoxEvidence& evidence, const InitialScore
 
 void GeometricProposalGenerator::declareParameters(ParameterVisitor& v) {
   v.add("use_depth", use_depth_,
-        {.doc = "False: from the box and the ground alone, as without a depth camera "
+        {.doc = "Whether depth is used. false: box and ground alone, as without a depth camera "
                 "([ground] class = ExpectedGroundDetector does the same for the ground)."});
   v.add("max_proposals", limits_.max_count, {.doc = "Proposals kept per detection.", .min = 1, .max = 5});
   v.add("min_box_iou", limits_.min_iou,

@@ -33,21 +33,23 @@ struct ObjectsInGraph {
   ObjectFactors factors;
 };
 
-/// Per key pose and landmark one sighting and one box: the errors of sightings from one place are nearly the
-/// same, so that many count like one, and those from neighbouring places are alike: a single visit says
-/// little of the robot's way (BackendOptions::landmark_information_share). But the error of one direction is
-/// the same again when the robot comes back. Hence sides: what was seen from one direction in two visits or
-/// more is also a landmark of its own, as far off the landmark as it likes, that ties the visits to each
-/// other. All sightings of a visit count like one, from the key pose in the middle. Points that were seen on
-/// a landmark from several key poses. Weights are association probability x selection confidence x
-/// initialisation score. Measurements under another class' label say nothing of the place; those that rather
-/// lie along the viewing ray, because their depth failed (`model`; may be null), little.
+/// Builds the factors of all landmarks:
+/// * One mean sighting and one box per key pose and landmark. Errors of sightings from nearby poses are correlated, so
+///   only a share of their information counts (BackendOptions::landmark_information_share).
+/// * Sides: the error of one direction of view repeats when the robot comes back. What was seen from one direction in
+///   two visits or more is therefore also a landmark of its own, not tied to the landmark it belongs to, which connects
+///   the visits. The sightings of one visit are averaged to one, at the key pose in the middle of the visit.
+/// * Points that were seen on a landmark from several key poses, and the usual size of the landmark's class.
+///
+/// Weights are association probability x selection confidence x initialisation score. A measurement of another class
+/// than its landmark's gives no factor. `model` (may be null) lowers the weight of measurements that fit the viewing
+/// ray but not the depth, because their depth failed.
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
 
-/// Factor between a key pose and the landmark a measurement was given to. A yaw that looks the other way than
-/// the landmark's is turned round: front and back of an object are easily confused, its direction is not.
+/// Factor between a key pose and the landmark of a measurement. A yaw that differs from the landmark's by more than a
+/// quarter turn is turned by half a turn: front and back of an object are easily confused, its axis is not.
 LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landmark, const KeyPose& node,
                           const Pose3& node_from_camera);
 

@@ -18,9 +18,9 @@ struct Visits {
   std::vector<Landmark> recent, old;
 };
 
-/// Every way to part the landmarks at a time within `recent_s` before `now`: first seen from then on, and not
+/// Every split of the landmarks at a time within `recent_s` before `now`: first seen from then on, and not
 /// seen any more since; only those with at least `min_each` landmarks in both visits.
-std::vector<Visits> partByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
+std::vector<Visits> splitByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
                                double recent_s, std::size_t min_each);
 
 /// Asks the scans or the images whether a closure is right; refines it.
