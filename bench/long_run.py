@@ -19,7 +19,7 @@ from pathlib import Path
 import seeds
 
 BACK_END = ("window of poses", "whole graph")
-FRAMES = "selection and association"
+FRAMES = ("selection", "association")
 NEAR_START_M = 0.5
 
 
@@ -68,7 +68,7 @@ def describe(values):
 
 
 def table(file, last_minute):
-    stages = {"back end": BACK_END, **{name: (name,) for name in (*BACK_END, FRAMES, "object loop closing",
+    stages = {"back end": BACK_END, "selection and association": FRAMES, **{name: (name,) for name in (*BACK_END, "object loop closing",
               "scan loop closing", "scan matching", "RGB-D odometry", "proposals")}}
     minutes = {name: calls_by_minute(file, of, last_minute) for name, of in stages.items()}
     lines = ["Processor ms per call: mean / 95 % / largest.", "",
