@@ -227,7 +227,7 @@ TEST_F(SensorChoiceTest, PosesTakeThePlaceOfTheRecordedOnes) {
   // The image's depth and colour are one camera, so the optical frame sits where the pose says: 20 deg down.
   Pose3 forward_from_optical = Pose3::Identity();
   forward_from_optical.linear() = bodyFromOptical();
-  const auto& recorded = makeImages(0)->relativePoseIntensityWRTDepth;
+  const auto recorded = makeImages(0)->relativePoseIntensityWRTDepth;
   const Pose3 expected = poseFromYpr(0.1, -0.05, 1.2, 0, M_PI / 9, 0) * toPose3(recorded);
   EXPECT_TRUE(content.frames.at(0).robot_from_camera.isApprox(expected, 1e-6));
   const Content before = read();

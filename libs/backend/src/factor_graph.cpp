@@ -233,7 +233,8 @@ void FactorGraph::add(const Factor& factor) {
   std::visit(
       [this](const auto& f) {
         const Blocks blocks = blocksOf(*impl_, f);
-        const auto id = impl_->problem->AddResidualBlock(costIn(*impl_, f), lossOf(f), blocks);
+        auto* const cost = costIn(*impl_, f);  // throws for a bad factor: before there is a loss to leak
+        const auto id = impl_->problem->AddResidualBlock(cost, lossOf(f), blocks);
         release(*impl_, f);
         impl_->factors.push_back({f, id});
       },
