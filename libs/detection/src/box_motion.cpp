@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/core/order_statistics.h"
+
 namespace roomgraph {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr std::size_t kLeastPairs = 4;
 constexpr double kBaseline_px = 8;  // shorter distances tell nothing about the scale
 constexpr std::size_t kLeastRatios = 6;
 constexpr double kBorder_px = 1.5;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double medianScale(const std::vector<cv::Point2f>& then, const std::vector<cv::Point2f>& now) {
   std::vector<double> ratios;
@@ -45,9 +41,8 @@ std::optional<BoxMotion> fitMotion(const std::vector<cv::Point2f>& then, const s
     u.push_back(now[i].x - motion.scale * then[i].x);
     v.push_back(now[i].y - motion.scale * then[i].y);
   }
-  std::vector<double> sorted_u = u, sorted_v = v;
-  motion.shift_u = median(sorted_u);
-  motion.shift_v = median(sorted_v);
+  motion.shift_u = median(u);
+  motion.shift_v = median(v);
   const double tolerance = std::max(2.0, 0.02 * size_px);
   for (std::size_t i = 0; i < then.size(); ++i)
     if (std::hypot(u[i] - motion.shift_u, v[i] - motion.shift_v) <= tolerance) motion.inliers.push_back(i);

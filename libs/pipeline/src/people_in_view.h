@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// People and other things that are no landmarks: where the last frame saw them, for images and scans.
+// People and whatever else moves by itself: where the last frame saw them, for images and scans.
 #pragma once
 
 #include <vector>
@@ -17,10 +17,10 @@ struct PeopleInView {
   std::vector<DynamicWedge> wedges;  ///< in the robot's frame
 };
 
-/// Boxes, px, of those detections that are no landmarks.
+/// Boxes, px, of the detections whose class moves by itself.
 std::vector<Box2> boxesOfPeople(const std::vector<Detection>& detections, const ObjectDatabase& database);
 
-/// Wedges around the proposals that are no landmarks.
+/// Wedges around the proposals whose class moves by itself.
 PeopleInView peopleInView(const FrameProposals& proposals, const Pose3& robot_from_camera,
                           const ObjectDatabase& database);
 
