@@ -13,7 +13,7 @@ jobs="${JOBS:-$(nproc)}"
 
 # Sizes out of damaged files are to be refused by an exception, as without a sanitizer, not to end the program.
 export ASAN_OPTIONS="allocator_may_return_null=1 ${ASAN_OPTIONS:-}"
-export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan_suppressions.txt ${LSAN_OPTIONS:-}"
+export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan_suppressions.txt print_suppressions=0 ${LSAN_OPTIONS:-}"
 export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan_suppressions.txt ${TSAN_OPTIONS:-}"
 
 test_preset() {

@@ -157,6 +157,34 @@ TEST_F(SensorChoiceTest, TwoCamerasWithOneLabelAreNotMixed) {
                                3)));
 }
 
+// Of one model and with one label, a camera that looks ahead and one that looks to the left.
+TEST_F(SensorChoiceTest, TwoEqualCamerasWithOneLabelAreToldApartByTheirMounts) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 5; ++i)
+    for (const double yaw : {0.0, M_PI / 2}) {
+      const auto images = makeImages(i * 0.1 + yaw * 0.03);
+      images->sensorPose = mrpt::poses::CPose3D(0.1, 0, 1.2, yaw, 0, 0);
+      objects.push_back(images);
+    }
+  writeRawlog(file, objects);
+  const Content content = read();
+  ASSERT_EQ(content.frames.size(), 5u);
+  for (const Frame& frame : content.frames)
+    EXPECT_TRUE(frame.robot_from_camera.isApprox(content.frames[0].robot_from_camera));
+  EXPECT_EQ(content.statistics.skipped.begin()->second, 5);
+}
+
+TEST_F(SensorChoiceTest, AHeadThatPansIsOneCamera) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 20; ++i) {
+    const auto images = makeImages(i * 0.1);
+    images->sensorPose = mrpt::poses::CPose3D(0.1, 0, 1.2 + 0.03 * i, 0.2 * i, 0, 0);  // 2 rad/s, .3 m/s
+    objects.push_back(images);
+  }
+  writeRawlog(file, objects);
+  EXPECT_EQ(read().frames.size(), 20u);
+}
+
 TEST_F(SensorChoiceTest, WhatHasNoLabelCannotBeChosen) {
   const auto advice = [&](const std::vector<Object>& objects) {
     writeRawlog(file, objects);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 
+#include "memory_limit.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 #include "sample_map.h"
@@ -146,6 +147,7 @@ TEST(MapFile, ValuesThatCannotBeAreNamed) {
 
 // A count, or a side of the grid, larger than the file: no memory is taken for it.
 TEST(MapFile, ImpossibleSizesAreErrors) {
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer ends the program at such a size";
   const TemporaryFolder folder;
   CSemanticMap map = test::sampleMap();
   mrpt::io::CMemoryStream memory;

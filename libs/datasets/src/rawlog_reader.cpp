@@ -53,7 +53,7 @@ struct RawlogReader::Impl {
   StampQueue<std::variant<CObservation::Ptr, OdometryReading>> waiting;
   bool source_ended = false;
   std::int64_t frame_count = 0;
-  std::optional<PinholeCamera> camera;  ///< of the first image
+  OneCamera camera;
   std::string missing_image;  ///< reason of the first frame whose image is missing
 };
 
@@ -119,8 +119,7 @@ std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& 
     ++statistics.skipped[groupedReason(frame.reason())];
     return std::nullopt;
   }
-  if (!camera) camera = frame->camera;
-  if (!mayBeOneCamera(*camera, frame->camera)) {
+  if (!camera.takes(*frame)) {
     ++statistics.skipped["CObservation3DRangeScan " + labelText(observation.sensorLabel) +
                          ": not the camera of the first image: several cameras have this label"];
     return std::nullopt;

@@ -76,17 +76,36 @@ std::string listed(const std::vector<std::string>& labels) {
   return names.empty() ? "none" : join(names);
 }
 
+// Up to 2 % of the image a camera may have been calibrated again.
+bool sameIntrinsics(const PinholeCamera& a, const PinholeCamera& b) {
+  const double tolerance_px = 0.02 * a.width;
+  const auto close = [&](double x, double y) { return std::abs(x - y) <= tolerance_px; };
+  return a.width == b.width && a.height == b.height && close(a.fx, b.fx) && close(a.fy, b.fy) &&
+         close(a.cx, b.cx) && close(a.cy, b.cy);
+}
+
+// Faster than heads and lifts of robots move; slack for angles that were read a moment before the image.
+constexpr double kFastestHead_m_s = 1, kFastestHead_rad_s = 4;
+constexpr double kHeadSlack_m = 0.02, kHeadSlack_rad = 0.03;
+
+bool reaches(const Pose3& from, const Pose3& to, double seconds) {
+  const Pose3 motion = from.inverse() * to;
+  return motion.translation().norm() <= kHeadSlack_m + kFastestHead_m_s * seconds &&
+         rotationAngle(motion) <= kHeadSlack_rad + kFastestHead_rad_s * seconds;
+}
+
 }  // namespace
 
 std::string labelText(const std::string& label) {
   return "'" + label + "'";
 }
 
-bool mayBeOneCamera(const PinholeCamera& a, const PinholeCamera& b) {
-  const double tolerance_px = 0.02 * a.width;
-  const auto close = [&](double x, double y) { return std::abs(x - y) <= tolerance_px; };
-  return a.width == b.width && a.height == b.height && close(a.fx, b.fx) && close(a.fy, b.fy) &&
-         close(a.cx, b.cx) && close(a.cy, b.cy);
+bool OneCamera::takes(const Frame& frame) {
+  if (last_ && !(sameIntrinsics(last_->camera, frame.camera) &&
+                 reaches(last_->robot_from_camera, frame.robot_from_camera, std::abs(frame.t - last_->t))))
+    return false;
+  last_ = {frame.t, last_ ? last_->camera : frame.camera, frame.robot_from_camera};
+  return true;
 }
 
 bool SensorChoice::takes(const std::string& label) {

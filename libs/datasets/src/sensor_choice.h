@@ -5,11 +5,12 @@
 #include <mrpt/obs/CObservation.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "roomgraph/datasets/rawlog_reader.h"
-#include "roomgraph/geometry/camera.h"
+#include "roomgraph/observations/frame.h"
 
 namespace roomgraph {
 
@@ -51,9 +52,21 @@ void placeSensor(mrpt::obs::CObservation& observation, const SensorPoses& poses)
 /// Reads no further than until all are found; not at all when none is named.
 void checkLabels(const std::filesystem::path& file, const ReadOptions& options);
 
-/// Whether two images may be of one camera: the same size, focal lengths and principal points that agree to 2 % of
-/// the image. Several cameras that were recorded with one label are told apart by it.
-bool mayBeOneCamera(const PinholeCamera& a, const PinholeCamera& b);
+/// Tells several cameras that were recorded with one label apart: images of the first one alone are taken.
+class OneCamera {
+ public:
+  /// False for another size, other focal lengths or another principal point (by more than 2 % of the image),
+  /// and for a sensor pose that no pan-tilt head reaches in the time since the last image that was taken.
+  bool takes(const Frame& frame);
+
+ private:
+  struct Taken {
+    double t;  ///< s
+    PinholeCamera camera;
+    Pose3 robot_from_camera;
+  };
+  std::optional<Taken> last_;
+};
 
 /// A label as it stands in messages.
 std::string labelText(const std::string& label);
