@@ -2,12 +2,15 @@
 // FactorGraph as a Ceres problem: parameter blocks, manifolds, loss functions, residual blocks.
 #include "roomgraph/backend/factor_graph.h"
 
+#include <ceres/loss_function.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "chordal.h"
 #include "costs.h"
 #include "graph_state.h"
+#include "marginal_prior_cost.h"
 #include "solve.h"
 
 namespace roomgraph {

@@ -2,7 +2,8 @@
 // State behind FactorGraph: parameter blocks by id, factors, and linearisation along tangents.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
 
 #include <Eigen/SparseCore>
 #include <array>

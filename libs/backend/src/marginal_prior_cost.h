@@ -2,7 +2,7 @@
 // Ceres cost function of a marginal prior: dense linear residual on tangents.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
 
 #include "roomgraph/backend/factors.h"
 

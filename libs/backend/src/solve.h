@@ -2,7 +2,9 @@
 // Solver options, silent solve and silent evaluation of a Ceres problem.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include <vector>
 
