@@ -93,7 +93,7 @@ struct GroundResidual {
 
 struct LandmarkResidual {
   explicit LandmarkResidual(const LandmarkFactor& f) : factor(f) {
-    // Without a measured yaw its row is switched off.
+    // Without a measured yaw its row has no weight.
     if (!f.has_yaw) {
       factor.covariance.row(3).setZero();
       factor.covariance.col(3).setZero();

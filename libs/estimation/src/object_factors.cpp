@@ -49,15 +49,15 @@ LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
 
 namespace {
 
-constexpr std::size_t kMinViews = 3;  // key poses from which a point was seen, to be of use
+constexpr std::size_t kMinViews = 3;  // key poses from which a point must be seen
 
-// A point on a landmark, as one key pose sees it.
+// A point on a landmark, seen from one key pose.
 struct PointView {
   CameraPointFactor factor;
   Eigen::Vector3d in_world;
 };
 
-// What was seen of one landmark.
+// Measurements of one landmark.
 struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
   std::map<NodeId, LandmarkBoxFactor> boxes;  // the best of each key pose
@@ -107,8 +107,8 @@ LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model
 
 // Landmarks of the graph that stand for sides; the map's own never get that far.
 constexpr std::int64_t kFirstSide = 1'000'000'000;
-constexpr double kVisitPause_s = 3;    // not seen for so long, a side is visited again
-constexpr double kLeastWeight = 1e-9;  // a visit that weighs nothing would leave its side free
+constexpr double kVisitPause_s = 3;    // a side not seen for so long begins a new visit
+constexpr double kLeastWeight = 1e-9;  // a visit without weight would leave its side undetermined
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
@@ -134,7 +134,7 @@ std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPo
     const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
     const Eigen::Vector3d view = sighting.position_in_robot - node.world_from_robot.translation();
     auto& visits = sides[static_cast<int>(std::floor(std::atan2(view.y(), view.x()) / side_rad))];
-    // Standing still, key poses are rare; gone is what other key poses in between did not see.
+    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the side.
     const bool gone = visits.empty() || (id.value - visits.back().back().node.value > 1 &&
                                          node.t - poses.node(visits.back().back().node).t > kVisitPause_s);
     if (gone) visits.emplace_back();

@@ -41,7 +41,7 @@ class LandmarkMap {
   /// Sets place (m, world), yaw (rad) and covariance of (x, y, z, yaw) after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
 
-  /// Takes a landmark, with what is remembered of its places, into another frame.
+  /// Transforms a landmark, with the positions in its record, into another frame.
   void move(LandmarkId id, const Pose3& new_from_old);
 
   /// Merges landmarks of one class that are one object; returns (removed, kept) pairs.

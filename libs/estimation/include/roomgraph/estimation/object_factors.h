@@ -15,19 +15,19 @@
 
 namespace roomgraph {
 
-/// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
+/// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
   std::vector<LandmarkFactor> sightings;
-  std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as they seem from one side
+  std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as measured from one side
   std::vector<LandmarkFactor> visits;            ///< sightings of sides
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
-  std::map<PointId, Eigen::Vector3d> points;  ///< in world, as the measured depth has them
+  std::map<PointId, Eigen::Vector3d> points;  ///< in world, at the measured depth
   std::vector<CameraPointFactor> views;
   std::vector<PointLandmarkFactor> insides;
 };
 
-/// The landmarks as they are now, and what ties them to the key poses.
+/// The current landmarks, and their factors with the key poses.
 struct ObjectsInGraph {
   std::vector<Landmark> landmarks;
   ObjectFactors factors;
