@@ -10,8 +10,8 @@
 namespace roomgraph {
 namespace {
 
-// Points on a plane come in groups of 25 with one error along the normal, as neighbouring pixels share theirs. A plane's
-// distance at any place is linear in (normal, offset), so its variance follows from the covariance, and can be
+// Points on a plane come in groups of 25 with one error along the normal, as neighbouring pixels share theirs. The
+// plane's distance at any place is linear in (normal, offset), so its variance follows from the covariance, and can be
 // sampled: it is least in the middle of the points, where tilt has no lever, and grows to the sides.
 TEST(PlaneFit, CovarianceIsTheSpreadOverSampledClouds) {
   constexpr int kGroups = 12, kGroupSize = 25, kRuns = 300;
