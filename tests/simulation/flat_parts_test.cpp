@@ -8,7 +8,7 @@
 namespace roomgraph {
 namespace {
 
-Furniture block(double x, double y, double yaw, double w, double d) {
+Furniture blockAt(double x, double y, double yaw, double w, double d) {
   Furniture out;
   out.model = "block";
   out.at_m = {x, y, 0};
@@ -22,7 +22,7 @@ TEST(FlatParts, PolygonsTouchWhereTheirIntersectionHasAnArea) {
   int touching = 0;
   for (int i = 0; i < 500; ++i) {
     const auto draw = [&] {
-      return floorPolygon(block(random.uniform(0, 2), random.uniform(0, 2), random.uniform(-3, 3), random.uniform(0.2, 1), random.uniform(0.2, 1)));
+      return floorPolygon(blockAt(random.uniform(0, 2), random.uniform(0, 2), random.uniform(-3, 3), random.uniform(0.2, 1), random.uniform(0.2, 1)));
     };
     const Polygon a = draw(), b = draw();
     const auto shared = intersectConvex(a, b);

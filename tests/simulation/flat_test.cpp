@@ -9,7 +9,7 @@
 
 #include "errors_of.h"
 #include "floor_plan.h"
-#include "models.h"
+#include "person_model.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/geometry/degree.h"
 #include "roomgraph/geometry/shape.h"
