@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <set>
+#include <opencv2/core.hpp>
 
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/simulation/flat.h"

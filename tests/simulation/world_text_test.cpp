@@ -41,7 +41,9 @@ void expectSame(const Furniture& a, const Furniture& b) {
   EXPECT_LT((a.at_m - b.at_m).norm(), kClose);
   EXPECT_NEAR(a.yaw_rad, b.yaw_rad, kClose);
   ASSERT_EQ(a.size_m.has_value(), b.size_m.has_value());
-  if (a.size_m) EXPECT_LT((*a.size_m - *b.size_m).norm(), kClose);
+  if (a.size_m) {
+    EXPECT_LT((*a.size_m - *b.size_m).norm(), kClose);
+  }
   EXPECT_EQ(a.color.has_value(), b.color.has_value());
 }
 

@@ -140,6 +140,9 @@ FloorGrid floorGridOf(const FlatDraft& draft) {
       square.model = "block";
       obstacles.push_back(floorPolygon(square));
     }
+  for (const auto& room : draft.world.rooms)
+    for (const auto& doorway : room.doorways)
+      if (!passable(doorway)) obstacles.push_back(boxPolygon(doorwayHole(draft.world, room, doorway)));
   return FloorGrid(freeAreas(draft.world), obstacles);
 }
 

@@ -5,14 +5,12 @@
 #include <numbers>
 
 #include "flat_grid.h"
-#include "roomgraph/core/errors.h"
 #include "sensor_path.h"
-#include "world_check.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kMargin_m = 0.06;  ///< beyond the robot's radius: the driven curve rounds the planned corners
+constexpr double kMargin_m = 0.05;  ///< beyond the robot's radius: the driven curve rounds the planned corners
 using Waypoints = std::vector<Eigen::Vector2d>;
 
 /// Places of a room to go to: far from each other and with space around, then in the order of their direction from the
@@ -130,15 +128,6 @@ HandheldSpec handheldAlong(const Waypoints& way, const FlatDraft& draft, Random&
   return out;
 }
 
-bool worldIsSound(const World& world) {
-  try {
-    checkWorld(world);
-    return true;
-  } catch (const ConfigError&) {
-    return false;
-  }
-}
-
 /// Seconds that the way takes; the draft then holds it.
 double adopt(FlatDraft& draft, const Waypoints& way, const RobotPathSpec& robot, Random random) {
   if (draft.options.handheld) {
@@ -170,10 +159,11 @@ bool planWay(FlatDraft& draft, Random& random) {
   const double clearance = robot.radius_m + kMargin_m;
   const FloorGrid grid = floorGridOf(draft);
   const Room& first = draft.world.rooms[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(draft.world.rooms.size()) - 1))];
-  Waypoints reachable;
-  for (double x = first.min_m.x() + 0.3; x < first.max_m.x(); x += 0.5)
-    for (double y = first.min_m.y() + 0.3; y < first.max_m.y(); y += 0.5)
-      if (Waypoints now = grid.reachable({x, y}, clearance); now.size() > reachable.size()) reachable = std::move(now);
+  Eigen::Vector2d start = first.min_m;
+  for (double x = first.min_m.x() + 0.1; x < first.max_m.x(); x += 0.1)
+    for (double y = first.min_m.y() + 0.1; y < first.max_m.y(); y += 0.1)
+      if (grid.clearance({x, y}) > grid.clearance(start)) start = {x, y};
+  const Waypoints reachable = grid.reachable(start, clearance);
   const auto order = roomOrder(draft, reachable, random);
   if (order.size() < draft.world.rooms.size()) return false;
   const Random tail = random;
@@ -190,7 +180,7 @@ bool planWay(FlatDraft& draft, Random& random) {
     if (seconds > kLongest_s) seconds = seconds_of(1);
     for (const double rounds : {2.5, 3.5})
       if (seconds < kShortest_s) seconds = seconds_of(rounds);
-    if (seconds > 20 && seconds < kLongest_s && worldIsSound(draft.world)) return true;
+    if (seconds > 20 && seconds < kLongest_s && isSound(draft.world)) return true;
   }
   return false;
 }
