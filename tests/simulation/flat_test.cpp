@@ -182,12 +182,14 @@ TEST(Flat, WalkersKeepAwayFromTheSensor) {
 
 TEST(Flat, SizesAreNotThoseOfTheObjectDatabase) {
   std::map<std::string, std::pair<Eigen::Vector3d, int>> sums;
-  for (const auto& [seed, world] : flats())
-    for (const auto& object : Scene(world).objects()) {
+  for (const auto& [seed, world] : flats()) {
+    const Scene scene(world);
+    for (const auto& object : scene.objects()) {
       auto& [sum, count] = sums.try_emplace(object.class_name, Eigen::Vector3d::Zero(), 0).first->second;
       sum += object.size_wdh;
       ++count;
     }
+  }
   // Nominal sizes of objects.ini.
   const std::map<std::string, Eigen::Vector3d> nominal{
       {"swivel_chair", {0.62, 0.62, 0.95}}, {"sofa", {1.85, 0.88, 0.82}}, {"door", {0.9, 0.12, 2.05}}};
