@@ -78,6 +78,16 @@ TEST(Simulate, TheRecordingReadsBackWithItsTruth) {
   EXPECT_TRUE(nlohmann::json::parse(folder.read("calibration.json")).contains("robot_from_lidar"));
 }
 
+TEST(Simulate, AnInstantOfTwoSensorsHasOneTruth) {
+  const test::TemporaryFolder folder;
+  World world = shortWorld();
+  world.lidar->delay_s = 0;
+  const auto result = simulate(world, folder.path(), {});
+  EXPECT_EQ(result.frames, 5);
+  EXPECT_EQ(result.scans, 5);
+  EXPECT_EQ(lines(folder.read("groundtruth_robot.txt")), 5u);
+}
+
 TEST(Simulate, TheSameSeedGivesTheSameBytes) {
   const test::TemporaryFolder folder;
   const World world = shortWorld();

@@ -6,6 +6,8 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <cmath>
+
 #include "color_renderer.h"
 #include "parallel.h"
 #include "persistent_detector.h"
@@ -67,6 +69,7 @@ class Simulation {
   void scan(double t);
   void odometry(double t);
   void prepareOdometry();
+  void writeRobotTruth(double t);
   void finish();
   Random random(Stream stream, int index = 0) const {
     return Random(options_.seed, stream, static_cast<std::uint64_t>(index));
@@ -82,6 +85,7 @@ class Simulation {
   std::vector<Pose2> odometry_;
   RawlogWriter rawlog_;
   TruthFile camera_truth_, robot_truth_, odometry_truth_, boxes_, persons_;
+  long last_truth_ms_ = -1;
   Clock frames_, scans_, readings_;
   SimulateResult result_;
 };
@@ -185,12 +189,20 @@ void Simulation::frame(double t) {
     ++result_.detections;
   }
   writePose(camera_truth_, kStart + t, world_from_camera);
-  writePose(robot_truth_, kStart + t, scene_.worldFromRobot(t));
+  writeRobotTruth(t);
   writeBoxes(boxes_, index, kStart + t, exact.views, scene_);
   for (const auto& [object, pose] : scene_.persons(t))
     persons_.line("%.3f %d %.4f %.4f %.4f", kStart + t, scene_.objects()[static_cast<std::size_t>(object)].id,
                   pose.x, pose.y, pose.yaw);
   ++frames_.count;
+}
+
+// Once where an image and a scan are of one instant: a trajectory has no stamp twice.
+void Simulation::writeRobotTruth(double t) {
+  const long written = std::lround(1000 * t);  // stamps of truth files are in milliseconds
+  if (written == last_truth_ms_) return;
+  last_truth_ms_ = written;
+  writePose(robot_truth_, kStart + t, scene_.worldFromRobot(t));
 }
 
 void Simulation::scan(double t) {
@@ -201,7 +213,7 @@ void Simulation::scan(double t) {
   record.timestamp = stamp(t);
   record.sensorLabel = "LIDAR";
   rawlog_.write(record);
-  writePose(robot_truth_, kStart + t, scene_.worldFromRobot(t));
+  writeRobotTruth(t);
   ++scans_.count;
 }
 
