@@ -30,6 +30,9 @@ inline ceres::CostFunction* costOf(const GroundFactor& f) {
 inline ceres::CostFunction* costOf(const LandmarkFactor& f) {
   return automatic<LandmarkResidual, 4, 3, 4, 4>(f);
 }
+inline ceres::CostFunction* costOf(const LandmarkViewFactor& f) {
+  return automatic<LandmarkViewResidual, 4, 4, 4>(f);
+}
 inline ceres::CostFunction* costOf(const LandmarkGroundFactor& f) {
   return automatic<LandmarkGroundResidual, 1, 4>(f);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "measurement_in_world.h"
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
@@ -21,7 +22,10 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landma
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
   if (std::abs(wrapAngle(node_yaw + factor.yaw_in_robot - landmark.yaw)) > std::numbers::pi / 2)
     factor.yaw_in_robot = wrapAngle(factor.yaw_in_robot + std::numbers::pi);
-  factor.covariance = rotateCovariance(decision.seen.covariance, node.world_from_robot.linear().transpose());
+  // Without the uncertainty of the pose, which is the graph's own.
+  const Eigen::Matrix4d in_world =
+      measurementInWorld(measurement, decision.seen.camera, node.world_from_robot * node_from_camera, 0).covariance;
+  factor.covariance = rotateCovariance(in_world, node.world_from_robot.linear().transpose());
   factor.weight = decision.association.probability * measurement.confidence * measurement.proposal.score;
   return factor;
 }
@@ -105,59 +109,55 @@ LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model
           {model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m}};
 }
 
-// Landmarks of the graph that stand for sides; the map's own never get that far.
-constexpr std::int64_t kFirstSide = 1'000'000'000;
-constexpr double kVisitPause_s = 3;    // not seen for so long, a side is visited again
-constexpr double kLeastWeight = 1e-9;  // a visit that weighs nothing would leave its side free
+// Landmarks of the graph that stand for views; the map's own never get that far.
+constexpr std::int64_t kFirstView = 1'000'000'000;
+constexpr double kLeastWeight = 1e-9;  // a view that weighs nothing would be free
 
-LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
-  sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
-  sighting.yaw_in_robot = wrapAngle(sighting.yaw_in_robot + planarPart(world_from_robot).yaw);
-  sighting.covariance = rotateCovariance(sighting.covariance, world_from_robot.linear());
-  return sighting;
+Eigen::Matrix4d covarianceInWorld(const LandmarkFactor& sighting, const Pose3& world_from_robot) {
+  return rotateCovariance(sighting.covariance, world_from_robot.linear());
 }
 
-LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
-  in_world.node = node.id;
-  in_world.position_in_robot = node.world_from_robot.inverse() * in_world.position_in_robot;
-  in_world.yaw_in_robot = wrapAngle(in_world.yaw_in_robot - planarPart(node.world_from_robot).yaw);
-  in_world.covariance = rotateCovariance(in_world.covariance, node.world_from_robot.linear().transpose());
-  return in_world;
-}
+// Sightings of one landmark from one direction, one per key pose.
+using View = std::vector<LandmarkFactor>;
 
-using Visit = std::vector<LandmarkFactor>;  // sightings of one side in a row, placed in world
-
-std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPoses& poses, double side_rad) {
-  std::map<int, std::vector<Visit>> sides;
+std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double angle_rad) {
+  std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
-    const KeyPose& node = poses.node(id);
-    const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
-    const Eigen::Vector3d view = sighting.position_in_robot - node.world_from_robot.translation();
-    auto& visits = sides[static_cast<int>(std::floor(std::atan2(view.y(), view.x()) / side_rad))];
-    // Standing still, key poses are rare; gone is what other key poses in between did not see.
-    const bool gone = visits.empty() || (id.value - visits.back().back().node.value > 1 &&
-                                         node.t - poses.node(visits.back().back().node).t > kVisitPause_s);
-    if (gone) visits.emplace_back();
-    visits.back().push_back(sighting);
+    const LandmarkFactor sighting = meanSighting(group);
+    if (sighting.weight < kLeastWeight) continue;
+    const Eigen::Vector3d ray = poses.node(id).world_from_robot.linear() * sighting.position_in_robot;
+    views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))].push_back(sighting);
   }
-  return sides;
+  return views;
 }
 
-void addRevisits(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
-                 const BackendOptions& options, ObjectFactors& out) {
-  for (const auto& [direction, visits] : visitsBySide(seen, poses, options.landmark_side_rad)) {
-    std::vector<LandmarkFactor> sightings;
-    for (const Visit& visit : visits) {
-      sightings.push_back(seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node)));
-      if (sightings.back().weight < kLeastWeight) sightings.pop_back();
-    }
-    if (sightings.size() < 2) continue;
-    const LandmarkId side{kFirstSide + static_cast<std::int64_t>(out.sides.size())};
-    out.sides[side] = {landmark.position, landmark.yaw, landmark.shape};
-    for (LandmarkFactor& sighting : sightings) {
-      sighting.landmark = side;
+// The error that all sightings of a view share: the repeating part of their mean covariance.
+LandmarkViewFactor sharedError(const View& view, const KeyPoses& poses, const BackendOptions& options) {
+  LandmarkViewFactor factor{.landmark = view.front().landmark, .weight = 0, .robust_width = options.landmark_robust_width};
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  double weights = 0;
+  for (const LandmarkFactor& sighting : view) {
+    sum += sighting.weight * covarianceInWorld(sighting, poses.node(sighting.node).world_from_robot);
+    weights += sighting.weight;
+    factor.weight = std::max(factor.weight, sighting.weight);
+    factor.has_yaw |= sighting.has_yaw;
+  }
+  factor.covariance = options.landmark_repeating_share * sum / weights;
+  return factor;
+}
+
+void addViews(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses, const BackendOptions& options,
+              ObjectFactors& out) {
+  for (const auto& [direction, view] : viewsByDirection(seen, poses, options.landmark_side_rad)) {
+    LandmarkViewFactor shared = sharedError(view, poses, options);
+    shared.view = LandmarkId{kFirstView + static_cast<std::int64_t>(out.views.size())};
+    out.views[shared.view] = {landmark.position, landmark.yaw, landmark.shape};
+    out.shared_errors.push_back(shared);
+    for (LandmarkFactor sighting : view) {
+      sighting.landmark = shared.view;
+      sighting.covariance *= 1 - options.landmark_repeating_share;
       sighting.robust_width = options.landmark_robust_width;
-      out.visits.push_back(sighting);
+      out.sightings.push_back(sighting);
     }
   }
 }
@@ -171,7 +171,7 @@ void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOpti
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& [node, view] : views) {
       middle += view.in_world / static_cast<double>(views.size());
-      out.views.push_back(view.factor);
+      out.point_views.push_back(view.factor);
     }
     out.points[id] = middle;
     out.insides.push_back(
@@ -202,13 +202,7 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
   ObjectFactors out;
   for (const auto& [id, seen] : gathered) {
     const Landmark& landmark = *known.at(id);
-    for (const auto& [node, group] : seen.sightings) {
-      LandmarkFactor mean = meanSighting(group);
-      mean.weight *= options.landmark_information_share;
-      mean.robust_width = options.landmark_robust_width;
-      out.sightings.push_back(mean);
-    }
-    addRevisits(seen, landmark, poses, options, out);
+    addViews(seen, landmark, poses, options, out);
     const ObjectModel* usual = database.find(landmark.class_name);
     if (options.object_boxes && usual) {
       out.sizes.push_back(sizeFactor(landmark, *usual));

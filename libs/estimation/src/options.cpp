@@ -76,6 +76,10 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
            "errors.",
        .min = 1e-4,
        .max = 1});
+  v.add("landmark_repeating_share", o.landmark_repeating_share,
+        {.doc = "Share of a sighting's variance that all sightings of the object from one direction have in common.",
+         .min = 0.01,
+         .max = 0.99});
   v.add("landmark_side_rad", o.landmark_side_rad,
         {.doc =
              "Directions of view within this angle count as one side of a landmark, whose sightings share an "

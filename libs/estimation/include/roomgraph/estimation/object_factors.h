@@ -17,13 +17,13 @@ namespace roomgraph {
 
 /// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
-  std::vector<LandmarkFactor> sightings;
-  std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as they seem from one side
-  std::vector<LandmarkFactor> visits;            ///< sightings of sides
+  std::map<LandmarkId, LandmarkEstimate> views;  ///< landmarks as they seem from one direction
+  std::vector<LandmarkViewFactor> shared_errors; ///< of views against their landmarks
+  std::vector<LandmarkFactor> sightings;         ///< of views
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, as the measured depth has them
-  std::vector<CameraPointFactor> views;
+  std::vector<CameraPointFactor> point_views;
   std::vector<PointLandmarkFactor> insides;
 };
 
