@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "measurement_in_world.h"
+#include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
@@ -61,9 +62,34 @@ struct PointView {
   Eigen::Vector3d in_world;
 };
 
+// Mean size of the shapes that were fitted to the object from one direction. The usual size of its class had
+// its say when they were fitted, so its deviation is how far such a mean is off at most, whatever their
+// number.
+struct MeanSize {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0, largest = 0;
+
+  void add(const ObjectShape& shape, double w) {
+    sum += w * Eigen::Vector3d(shape.width, shape.depth, shape.height);
+    weight += w;
+    largest = std::max(largest, w);
+  }
+  void add(const MeanSize& other) {
+    sum += other.sum;
+    weight += other.weight;
+    largest = std::max(largest, other.largest);
+  }
+  LandmarkSizeFactor factor(LandmarkId id, const ObjectModel& model) const {
+    return {
+        id, sum / weight,
+        Eigen::Vector3d(model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m) / std::sqrt(largest)};
+  }
+};
+
 // What was seen of one landmark.
 struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
+  std::map<NodeId, MeanSize> sizes;
   std::map<NodeId, LandmarkBoxFactor> boxes;  // the best of each key pose
   std::map<PointId, std::map<NodeId, PointView>> points;
 };
@@ -75,6 +101,7 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
+  out.sizes[node.id].add(measurement.proposal.shape, sighting.weight * visibleFraction(measurement));
   LandmarkBoxFactor& best = out.boxes[node.id];
   if (!best.landmark.valid() || sighting.weight > best.weight)
     best = {.node = node.id,
@@ -101,12 +128,6 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
                                 options.point_sigma_px * (0.005 + 0.002 * feature.depth_m * feature.depth_m)},
                            node.world_from_robot * node_from_camera * in_camera});
   }
-}
-
-LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model) {
-  return {landmark.id,
-          {model.width_m, model.depth_m, model.height_m},
-          {model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m}};
 }
 
 // Landmarks of the graph that stand for views; the map's own never get that far.
@@ -146,19 +167,22 @@ LandmarkViewFactor sharedError(const View& view, const KeyPoses& poses, const Ba
   return factor;
 }
 
-void addViews(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses, const BackendOptions& options,
-              ObjectFactors& out) {
+void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
+              const BackendOptions& options, ObjectFactors& out) {
   for (const auto& [direction, view] : viewsByDirection(seen, poses, options.landmark_side_rad)) {
     LandmarkViewFactor shared = sharedError(view, poses, options);
     shared.view = LandmarkId{kFirstView + static_cast<std::int64_t>(out.views.size())};
     out.views[shared.view] = {landmark.position, landmark.yaw, landmark.shape};
     out.shared_errors.push_back(shared);
+    MeanSize size;
     for (LandmarkFactor sighting : view) {
+      size.add(seen.sizes.at(sighting.node));
       sighting.landmark = shared.view;
       sighting.covariance *= 1 - options.landmark_repeating_share;
       sighting.robust_width = options.landmark_robust_width;
       out.sightings.push_back(sighting);
     }
+    if (usual && size.weight > kLeastWeight) out.sizes.push_back(size.factor(landmark.id, *usual));
   }
 }
 
@@ -202,10 +226,9 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
   ObjectFactors out;
   for (const auto& [id, seen] : gathered) {
     const Landmark& landmark = *known.at(id);
-    addViews(seen, landmark, poses, options, out);
     const ObjectModel* usual = database.find(landmark.class_name);
-    if (options.object_boxes && usual) {
-      out.sizes.push_back(sizeFactor(landmark, *usual));
+    addViews(seen, landmark, usual, poses, options, out);
+    if (options.object_boxes) {
       for (auto [node, box] : seen.boxes) {
         box.weight *= options.landmark_information_share;
         out.boxes.push_back(box);
