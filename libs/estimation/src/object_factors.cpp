@@ -134,55 +134,77 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
 constexpr std::int64_t kFirstView = 1'000'000'000;
 constexpr double kLeastWeight = 1e-9;  // a view that weighs nothing would be free
 
-Eigen::Matrix4d covarianceInWorld(const LandmarkFactor& sighting, const Pose3& world_from_robot) {
-  return rotateCovariance(sighting.covariance, world_from_robot.linear());
+constexpr double kVisitPause_s = 3;  // not seen for so long, an object is visited again
+
+LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
+  sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
+  sighting.yaw_in_robot = wrapAngle(sighting.yaw_in_robot + planarPart(world_from_robot).yaw);
+  sighting.covariance = rotateCovariance(sighting.covariance, world_from_robot.linear());
+  return sighting;
 }
 
-// Sightings of one landmark from one direction, one per key pose.
-using View = std::vector<LandmarkFactor>;
+LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
+  in_world.node = node.id;
+  in_world.position_in_robot = node.world_from_robot.inverse() * in_world.position_in_robot;
+  in_world.yaw_in_robot = wrapAngle(in_world.yaw_in_robot - planarPart(node.world_from_robot).yaw);
+  in_world.covariance = rotateCovariance(in_world.covariance, node.world_from_robot.linear().transpose());
+  return in_world;
+}
+
+using Visit = std::vector<LandmarkFactor>;  // sightings from one direction in a row, placed in world
+
+// What was seen from one direction.
+struct View {
+  std::vector<Visit> visits;
+  MeanSize size;
+};
 
 std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double angle_rad) {
   std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
-    const LandmarkFactor sighting = meanSighting(group);
+    const KeyPose& node = poses.node(id);
+    const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
-    const Eigen::Vector3d ray = poses.node(id).world_from_robot.linear() * sighting.position_in_robot;
-    views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))].push_back(sighting);
+    const Eigen::Vector3d ray = sighting.position_in_robot - node.world_from_robot.translation();
+    View& view = views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))];
+    // Standing still, key poses are rare; gone is what other key poses in between did not see.
+    const bool gone =
+        view.visits.empty() || (id.value - view.visits.back().back().node.value > 1 &&
+                                node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);
+    if (gone) view.visits.emplace_back();
+    view.visits.back().push_back(sighting);
+    view.size.add(seen.sizes.at(id));
   }
   return views;
 }
 
-// The error that all sightings of a view share: the repeating part of their mean covariance.
-LandmarkViewFactor sharedError(const View& view, const KeyPoses& poses, const BackendOptions& options) {
-  LandmarkViewFactor factor{.landmark = view.front().landmark, .weight = 0, .robust_width = options.landmark_robust_width};
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  double weights = 0;
-  for (const LandmarkFactor& sighting : view) {
-    sum += sighting.weight * covarianceInWorld(sighting, poses.node(sighting.node).world_from_robot);
-    weights += sighting.weight;
-    factor.weight = std::max(factor.weight, sighting.weight);
-    factor.has_yaw |= sighting.has_yaw;
-  }
-  factor.covariance = options.landmark_repeating_share * sum / weights;
-  return factor;
+// `visits`: mean sightings in world.
+LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const BackendOptions& options) {
+  const LandmarkFactor mean = meanSighting(visits);
+  return {.landmark = mean.landmark,
+          .has_yaw = mean.has_yaw,
+          .covariance = options.landmark_repeating_share * mean.covariance,
+          .weight = mean.weight,
+          .robust_width = options.landmark_robust_width};
 }
 
 void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   for (const auto& [direction, view] : viewsByDirection(seen, poses, options.landmark_side_rad)) {
-    LandmarkViewFactor shared = sharedError(view, poses, options);
-    shared.view = LandmarkId{kFirstView + static_cast<std::int64_t>(out.views.size())};
-    out.views[shared.view] = {landmark.position, landmark.yaw, landmark.shape};
-    out.shared_errors.push_back(shared);
-    MeanSize size;
-    for (LandmarkFactor sighting : view) {
-      size.add(seen.sizes.at(sighting.node));
-      sighting.landmark = shared.view;
+    std::vector<LandmarkFactor> visits;
+    const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
+    for (const Visit& visit : view.visits) {
+      visits.push_back(meanSighting(visit));
+      LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
+      sighting.landmark = id;
       sighting.covariance *= 1 - options.landmark_repeating_share;
       sighting.robust_width = options.landmark_robust_width;
       out.sightings.push_back(sighting);
     }
-    if (usual && size.weight > kLeastWeight) out.sizes.push_back(size.factor(landmark.id, *usual));
+    out.views[id] = {landmark.position, landmark.yaw, landmark.shape};
+    out.shared_errors.push_back(sharedError(visits, options));
+    out.shared_errors.back().view = id;
+    if (usual && view.size.weight > kLeastWeight) out.sizes.push_back(view.size.factor(landmark.id, *usual));
   }
 }
 
