@@ -28,7 +28,7 @@ set(ROOMGRAPH_COMPILE_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dt
 target_compile_options(roomgraph_options INTERFACE "$<BUILD_INTERFACE:${ROOMGRAPH_COMPILE_OPTIONS}>")
 if(ROOMGRAPH_SANITIZE)
   # GCC takes what sanitizers insert for uses of uninitialised values, as its manual says.
-  target_compile_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE} -fno-omit-frame-pointer
+  target_compile_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
                                                      -Wno-maybe-uninitialized)
   target_link_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE})
 endif()

@@ -10,7 +10,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kAnywhere = 2;  // widths of the box over which a hidden side may lie
+constexpr double kAnywhere = 2;  // extents of the box over which a hidden side is uniformly distributed
 
 struct BoxNoise {
   double sigma, hidden;

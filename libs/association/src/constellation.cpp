@@ -10,13 +10,13 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kSameShift_m = 0.5, kSameTurn_rad = 0.2;  // nearer transforms are one and the same
+constexpr double kSameShift_m = 0.5, kSameTurn_rad = 0.2;  // nearer transforms count as equal
 
 Eigen::Vector2d placeOf(const Landmark& landmark) {
   return landmark.position.head<2>();
 }
 
-// Front of a sofa or door against that of another under a turn; half a turn is not told apart.
+// Whether two fronts agree under a rotation, up to half a turn: front and back are easily confused.
 bool fitsYaw(const Landmark& q, const Landmark& m, double turn, double tolerance) {
   if (!q.has_yaw || !m.has_yaw) return true;
   const double difference = std::abs(wrapAngle(q.yaw + turn - m.yaw));
@@ -40,7 +40,7 @@ Pose2 align(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::V
   return {shift.x(), shift.y(), yaw};
 }
 
-// Pairs that a transform brings together, nearest first, each object once.
+// Inliers of a transform: pairs within tolerance, nearest first, each object once.
 ConstellationMatch vote(const Pose2& map_from_query, const std::vector<Landmark>& query,
                         const std::vector<Landmark>& map, const ConstellationOptions& options) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> near;

@@ -16,7 +16,7 @@ struct Component {
   std::vector<Eigen::Index> rows, columns;
 };
 
-// Everything reachable from a row through positive ratios.
+// Connected component of a row in the graph of positive ratios.
 Component reachable(const Eigen::MatrixXd& ratios, Eigen::Index first, std::vector<char>& row_done) {
   Component out;
   std::vector<char> column_done(static_cast<std::size_t>(ratios.cols()), 0);
@@ -62,8 +62,7 @@ bool cutWeakest(Eigen::MatrixXd& ratios) {
   return cut;
 }
 
-// values[r][used]: over the ways to serve rows r.. when the columns in `used` are taken, the sum or the
-// maximum.
+// values[r][used]: sum or maximum over the assignments of the rows from r on when the columns in `used` are taken.
 std::vector<std::vector<double>> completions(const Eigen::MatrixXd& w, bool maximum) {
   const auto rows = static_cast<std::size_t>(w.rows());
   const std::size_t masks = std::size_t{1} << w.cols();
@@ -124,7 +123,7 @@ std::vector<int> mostProbable(const Eigen::MatrixXd& w) {
 
 void solveComponent(const Eigen::MatrixXd& ratios, const Component& component, JointAssignment& out) {
   const Eigen::MatrixXd part = ratios(component.rows, component.columns);
-  // Matchings do not know which side is which: the smaller one is enumerated.
+  // A matching is symmetric in both sides: subsets of the smaller one are enumerated.
   const bool turned = part.cols() > part.rows();
   const Eigen::MatrixXd w = turned ? Eigen::MatrixXd(part.transpose()) : part;
   const Eigen::MatrixXd shares = marginals(w);

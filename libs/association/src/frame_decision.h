@@ -9,9 +9,9 @@
 
 namespace roomgraph {
 
-/// Weight of everything one measurement may be; of any scale.
+/// Weights of the alternatives of one measurement, not normalised.
 struct WeightedAlternatives {
-  WeightedLandmarks exclusive;  ///< landmarks that serve one measurement of a frame only
+  WeightedLandmarks exclusive;  ///< landmarks that take at most one measurement of a frame
   WeightedLandmarks others;     ///< the rest, "new" (invalid id) among it; sum > 0
 };
 

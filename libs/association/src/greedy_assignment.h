@@ -8,7 +8,7 @@
 
 namespace roomgraph {
 
-/// Serves measurements in the order of their most probable alternative; of landmarks each is given once.
+/// Assigns measurements in the order of their most probable alternative; each landmark at most once.
 /// `posteriors[k]` sums to 1 and holds "new" (invalid id).
 std::vector<Association> assignGreedily(
     const std::vector<std::vector<std::pair<LandmarkId, double>>>& posteriors);

@@ -11,7 +11,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kPlaceIterations = 8;
-constexpr double kLeastTrust = 1e-3;  // keeps the mean defined when every depth seems to have failed
+constexpr double kLeastTrust = 1e-3;  // keeps the mean defined when every depth is an outlier
 
 void estimatePlace(Landmark& landmark, const std::vector<const WorldMeasurement*>& sightings,
                    const std::vector<double>& weights, const MeasurementModel& model) {
@@ -37,7 +37,7 @@ void estimatePlace(Landmark& landmark, const std::vector<const WorldMeasurement*
   landmark.covariance.bottomLeftCorner<1, 3>().setZero();
 }
 
-// The axis is the mean of the doubled angles, in which front and back are one; then the fronts vote.
+// The axis is the mean of the doubled angles, which are equal for front and back; the front is decided by vote.
 void estimateYaw(Landmark& landmark, const std::vector<const WorldMeasurement*>& sightings,
                  const std::vector<double>& weights) {
   std::complex<double> doubled = 0;

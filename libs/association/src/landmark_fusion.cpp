@@ -18,7 +18,7 @@ constexpr std::size_t kMaxRecent = 40;
 constexpr std::size_t kLeastOnOneSide = 3;
 constexpr double kLeastShare = 0.25, kMaxSpread = 0.25;  // of the weight; of the distance
 
-// One step of two-means from given centres; the weight-less sides keep theirs.
+// One step of two-means from given centres; a group without weight keeps its centre.
 void assignModes(const std::vector<PlaceSketch>& sightings, Split& split) {
   Eigen::Vector2d sums[2] = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   double weights[2] = {0, 0};
@@ -79,7 +79,7 @@ void fusePlace(Landmark& landmark, const WorldMeasurement& seen) {
   if (!fine) innovation[3] = 0;
   Eigen::Matrix4d noise = seen.covariance;
   if (seen.measurement.detection.carried) noise /= kCarriedShare;
-  // An outlier in place was assigned for other reasons (track, features).
+  // An outlier was assigned by its track or features.
   const Eigen::Matrix2d joint = (landmark.covariance + noise).topLeftCorner<2, 2>();
   const double squared = innovation.head<2>().dot(joint.inverse() * innovation.head<2>());
   if (squared > kOutlier) noise *= std::min(std::pow(squared / kOutlier, 2), kMostInflation);

@@ -89,7 +89,7 @@ void LandmarkMap::countTogether(FrameId frame, LandmarkId id) {
   for (const auto other_id : in_frame_) {
     const Landmark* other = find(other_id);
     if (!other || other_id == id) continue;
-    // Pairs far apart need no counting: they never come into question as duplicates.
+    // Pairs far apart are never duplicates and need no counting.
     const double near = 2 * std::max(widthOf(landmark.shape), widthOf(other->shape));
     if ((other->position - landmark.position).head<2>().norm() < near)
       ++together_[{std::min(id, other_id), std::max(id, other_id)}];
@@ -128,7 +128,7 @@ void LandmarkMap::seenThrough(LandmarkId id, int rays) {
 
 void LandmarkMap::supported(LandmarkId id, int rays) {
   if (!find(id)) return;
-  // Returns show that something is there, not of which class: their total support is limited.
+  // Returns show that something is there, but not its class: their total support is limited.
   double& support = records_[id].ray_support;
   const double gain = std::min(options_.ray_gain * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
   support += gain;

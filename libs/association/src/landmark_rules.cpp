@@ -66,7 +66,7 @@ bool DuplicateRule::same(const Landmark& a, const Landmark& b, int together) con
   const double distance = (a.position - b.position).head<2>().norm();
   if (distance > 2 * width) return false;
   const double overlap = iou3d(a.shape, a.worldFromObject(), b.shape, b.worldFromObject());
-  // Side by side in one frame: two objects, or two boxes around one, which then cover each other.
+  // Both in one frame: two objects, or two boxes around one, which then cover each other.
   if (together > apart_share * std::min(a.observations, b.observations)) return overlap > kOneThing;
   return overlap > merge_overlap || distance < merge_distance_ratio * width;
 }

@@ -24,7 +24,7 @@ std::vector<std::pair<LandmarkId, double>> likelihoods(const WorldMeasurement& s
   for (const auto& landmark : landmarks) {
     if (landmark.class_name != proposal.class_name) continue;
     const Eigen::Vector2d apart = (seen.world_from_object.translation() - landmark.position).head<2>();
-    // Two objects cannot stand closer than their size: beyond that the covariances must not open the gate.
+    // Objects farther apart than their size are two, however large the covariances are.
     const double reach = max_distance_ratio * std::max(proposal.shape.width, landmark.shape.width);
     if (apart.norm() > reach) continue;
     const Eigen::Matrix2d joint =

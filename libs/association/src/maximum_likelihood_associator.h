@@ -7,7 +7,7 @@
 namespace roomgraph {
 
 /// Gaussian likelihood of the horizontal distance with the joint covariance against a constant floor for
-/// "new"; every frame for itself, the most probable pair first. For comparison with SoftAssociator.
+/// "new"; each frame alone, the most probable pair first. For comparison with SoftAssociator.
 class MaximumLikelihoodAssociator : public Associator {
   DEFINE_MRPT_OBJECT(MaximumLikelihoodAssociator, roomgraph)
  public:

@@ -119,8 +119,8 @@ double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landma
 double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
   const double ray = rayDensity(seen, landmark, shared_error_m, gate_sigma);
-  // The proposal's place is already what the box and its depth say; only where the depth failed is the box
-  // more.
+  // The proposal's position already contains the information of box and depth; the box adds some only where the depth
+  // is an outlier.
   return (1 - failed) * placeDensity(seen, landmark) +
          (ray > 0 ? failed * ray * boxRatio(seen, landmark) : 0);
 }
@@ -147,7 +147,7 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
     const double overlap =
         footprintOverlap(proposal.shape, seen.world_from_object, landmark.shape, landmark.worldFromObject());
     if (overlap < kSamePlace) continue;
-    // Two objects cannot stand in one place: a landmark of high existence makes "new" improbable there.
+    // Two objects cannot be in one place: a landmark of high existence makes "new" improbable there.
     const double area = std::max(0.1, landmark.shape.width * landmark.shape.depth);
     out.other_class.emplace_back(landmark.id, wrong_label * landmark.existence / area);
     out.fresh *= 1 - kMostSuppression * landmark.existence;

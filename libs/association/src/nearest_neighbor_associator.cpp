@@ -20,7 +20,7 @@ void NearestNeighborAssociator::declareParameters(ParameterVisitor& v) {
 
 std::vector<Association> NearestNeighborAssociator::associate(
     const std::vector<WorldMeasurement>& measurements, const std::vector<Landmark>& landmarks) {
-  // Any score that falls with the distance gives the same order; "new" comes after all that is in gate.
+  // Any score that falls with the distance gives the same order; "new" comes after every landmark in gate.
   std::vector<std::vector<std::pair<LandmarkId, double>>> scores(measurements.size());
   for (std::size_t k = 0; k < measurements.size(); ++k) {
     const auto& proposal = measurements[k].measurement.proposal;

@@ -6,7 +6,7 @@
 
 namespace roomgraph {
 
-/// The nearest landmark of the class within the gate, nearest pair first; else a new one. Claims certainty.
+/// The nearest landmark of the class within the gate, nearest pair first; else a new one. Probabilities are 1.
 /// For comparison with SoftAssociator.
 class NearestNeighborAssociator : public Associator {
   DEFINE_MRPT_OBJECT(NearestNeighborAssociator, roomgraph)

@@ -21,7 +21,7 @@ constexpr int kLeastSightings = 3;               // that a landmark needs to com
 
 using Priors = std::vector<std::vector<std::vector<double>>>;  // by frame, measurement, alternative
 
-// Everything of the E-step that does not change with the direction of time.
+// Parts of the E-step that are the same forwards and backwards in time.
 struct Evidence {
   std::vector<std::vector<Alternatives>> alternatives;
   Priors shares;  // p0
@@ -38,7 +38,7 @@ FeatureVotes voteFeatures(const Frames& frames, const Decisions& decisions) {
   return votes;
 }
 
-// p0 by the other sightings of the points: a measurement does not vote for itself.
+// p0 from the other sightings of the points, without those of the measurement itself.
 std::vector<double> featureShares(const ObjectMeasurement& measurement, LandmarkId own,
                                   const std::vector<LandmarkId>& ids, const FeatureVotes& votes,
                                   double neutral) {
@@ -84,7 +84,7 @@ std::vector<Association> decide(const Evidence& evidence, std::size_t f, const A
   return decideFrame(frame);
 }
 
-// What the tracks know before each frame; backwards: what they know from after it.
+// Priors from the tracks before each frame; backwards: after it.
 Priors filter(const Frames& frames, const Evidence& evidence, const AssociationModel& model, bool backwards) {
   TrackMemory tracks;
   Priors out(frames.size());
@@ -112,8 +112,8 @@ std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidenc
   return out;
 }
 
-// Measurements without a landmark keep the one they had in `last`; without that they join those of `weak` in
-// gate, or make new ones, in order of time, which later ones in gate join. Landmarks so used become known.
+// In order of time, measurements without a landmark keep the one of their last round (`last`), or get one of `weak` in
+// gate, or initialise one, which later measurements in gate get. These landmarks join the known ones.
 Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
                    const Decisions& last, const std::vector<Landmark>& weak, std::vector<Landmark>& landmarks,
                    LandmarkIdentity& identity, const MeasurementModel& model, double birth_existence) {
@@ -176,7 +176,7 @@ std::optional<Split> twoObjects(const Landmark& landmark, const Sightings& sight
   return findSplit(places, rule.splitDistance(landmark.shape));
 }
 
-// Takes out landmarks with few sightings: they get only sightings that fit no other landmark.
+// Removes landmarks with few sightings, which get only sightings that fit no other landmark.
 std::vector<Landmark> takeWeak(std::vector<Landmark>& landmarks) {
   const auto weak = std::stable_partition(landmarks.begin(), landmarks.end(), [](const Landmark& landmark) {
     return landmark.observations >= kLeastSightings;
@@ -254,13 +254,13 @@ bool sameLandmarks(const Decisions& a, const Decisions& b) {
   });
 }
 
-// Posterior over what is left after merging; `first`: of the landmark's first sighting, which made it.
+// Posterior over the landmarks after merging; `first`: for the sighting that initialised its landmark.
 void rename(BatchDecision& decision, const LandmarkIdentity& identity, bool first) {
   auto& association = decision.association;
   association.landmark = first ? LandmarkId{} : decision.landmark;
   association.posterior = renamed(association.posterior, [&](LandmarkId old) {
     const LandmarkId id = identity.today(old);
-    // "New" at the time of the decision is the landmark that was created from it.
+    // "New" was, at that time, the landmark that was created from it.
     return !id.valid() || id == decision.landmark ? association.landmark : id;
   });
   for (const auto& [id, probability] : association.posterior)

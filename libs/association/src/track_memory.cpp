@@ -8,8 +8,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kMemory_s = 5;              // tracks not seen for so long are gone
-constexpr std::size_t kMaxFeatures = 50000;  // the oldest points go first
+constexpr double kMemory_s = 5;              // tracks not seen for so long are dropped
+constexpr std::size_t kMaxFeatures = 50000;  // the oldest points are dropped first
 
 }  // namespace
 

@@ -9,9 +9,9 @@
 
 namespace roomgraph {
 
-/// The product over the frames of a track (method.md sec. 4), one factor at a time: the posterior of the last
-/// sighting is the prior of the next. Some of it is spread evenly every time, so that a wrong start is
-/// overcome; more of it the less the frame resembles the one before (p_c, proportional to beta, Eq. 5).
+/// The product over the frames of a track (method.md sec. 4), one factor at a time: the posterior of the last sighting
+/// is the prior of the next. In every frame a share of it is spread evenly, so that a wrong initial decision is
+/// overcome: a larger one, the less the frame is like the one before (p_c, proportional to beta, Eq. 5).
 class TrackMemory {
  public:
   /// Prior of each of `ids` (invalid: new), summing to at most 1; even for a track that is new. `forgetting`:
@@ -19,7 +19,7 @@ class TrackMemory {
   std::vector<double> prior(const ObjectMeasurement& measurement, const std::vector<LandmarkId>& ids,
                             double forgetting) const;
   void remember(const ObjectMeasurement& measurement, const WeightedLandmarks& posterior);
-  /// Tells the landmark a measurement went to; one that was just made takes over what "new" had.
+  /// Called with the landmark of a measurement; a new landmark takes over the probability of "new".
   void named(const ObjectMeasurement& measurement, LandmarkId landmark);
   /// Replaces the ids of merged landmarks by those they were merged into.
   void resolve(const LandmarkIdentity& identity);
@@ -29,7 +29,7 @@ class TrackMemory {
     double t = 0;
     std::map<LandmarkId, double> posterior;
   };
-  using Key = std::pair<bool, std::int64_t>;  // the detector's own ids are no gamma chains
+  using Key = std::pair<bool, std::int64_t>;  // flag: the detector's own ids, which are no gamma chains
   static Key keyOf(const ObjectMeasurement& measurement);
 
   std::map<Key, Past> tracks_;
@@ -42,8 +42,8 @@ class FeatureOwners {
   /// Replaces the ids of merged landmarks by those they were merged into.
   void resolve(const LandmarkIdentity& identity);
 
-  /// p0 of each of `ids`: share of the points that belong to it, with `weight` points spread evenly; even
-  /// without points.
+  /// p0 of each of `ids`: share of the points that belong to it, with `weight` points spread evenly; uniform without
+  /// points.
   std::vector<double> shares(const std::vector<std::int64_t>& features, const std::vector<LandmarkId>& ids,
                              double weight) const;
 

@@ -83,7 +83,7 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& matrix) {
 std::optional<std::map<NodeId, Pose3>> chordalPoses(const std::map<NodeId, Pose3>& start, NodeId anchor,
                                                     const std::vector<RelativeEdge>& edges) {
   std::map<NodeId, Pose3> poses = start;
-  // R_a R_ab = R_b, transposed so that the unknown stands on the right.
+  // R_a R_ab = R_b, transposed so that the unknown is the right factor.
   LinearGraph<3> rotations(start, anchor, start.at(anchor).linear().transpose());
   for (const auto& edge : edges)
     rotations.add(edge.a, edge.b, edge.a_from_b.linear().transpose(), Eigen::Matrix3d::Zero(),

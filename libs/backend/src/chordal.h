@@ -18,8 +18,8 @@ struct RelativeEdge {
   double translation_weight = 1, rotation_weight = 1;
 };
 
-/// Poses from relative movements without a start (chordal relaxation: Martinec & Pajdla 2007; Carlone et al.,
-/// ICRA 2015): rotation matrices as a linear least-squares problem, each then brought back to SO(3);
+/// Poses from relative movements without initial estimate (chordal relaxation: Martinec & Pajdla 2007; Carlone et al.,
+/// ICRA 2015): rotation matrices as a linear least-squares problem, each then projected onto SO(3);
 /// translations as a second one. `start` names the nodes; only the anchor's pose is used, and kept. Nothing
 /// when the graph is not connected.
 std::optional<std::map<NodeId, Pose3>> chordalPoses(const std::map<NodeId, Pose3>& start, NodeId anchor,

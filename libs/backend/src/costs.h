@@ -1,55 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ceres cost functions of the factors, with the sizes of their parameter blocks.
+// Cost functions of the factors. Their automatic derivatives take long to compile: two files of their own.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
 
-#include "marginal_prior_cost.h"
-#include "object_residuals.h"
-#include "residuals.h"
+#include "roomgraph/backend/factors.h"
 
 namespace roomgraph {
 
-// The cost function of each factor, with the sizes of its blocks: poses are 3 + 4, landmarks 4 (+ 3 where
-// their size matters), points 3. Those that depend on a landmark's shape are told its kind.
+// New cost function of each factor; the caller owns it. Its parameter blocks: for a pose translation and quaternion
+// (3 + 4), for a landmark (x, y, z, yaw) and, where its size matters, (width, depth, height), for a point its position
+// in world. Factors that depend on a landmark's shape are given its kind.
 
-template <class Residual, int Count, int... Blocks, class... Arguments>
-ceres::CostFunction* automatic(const Arguments&... arguments) {
-  return new ceres::AutoDiffCostFunction<Residual, Count, Blocks...>(new Residual(arguments...));
-}
+ceres::CostFunction* costOf(const BetweenFactor& factor);
+ceres::CostFunction* costOf(const PlanarFactor& factor);
+ceres::CostFunction* costOf(const GroundFactor& factor);
+ceres::CostFunction* costOf(const LandmarkFactor& factor);
+ceres::CostFunction* costOf(const LandmarkViewFactor& factor);
+ceres::CostFunction* costOf(const LandmarkGroundFactor& factor);
 
-inline ceres::CostFunction* costOf(const BetweenFactor& f) {
-  return automatic<BetweenResidual, 6, 3, 4, 3, 4>(f);
-}
-inline ceres::CostFunction* costOf(const PlanarFactor& f) {
-  return automatic<PlanarResidual, 3, 3, 4>(f);
-}
-inline ceres::CostFunction* costOf(const GroundFactor& f) {
-  return automatic<GroundResidual, 3, 3, 4>(f);
-}
-inline ceres::CostFunction* costOf(const LandmarkFactor& f) {
-  return automatic<LandmarkResidual, 4, 3, 4, 4>(f);
-}
-inline ceres::CostFunction* costOf(const LandmarkViewFactor& f) {
-  return automatic<LandmarkViewResidual, 4, 4, 4>(f);
-}
-inline ceres::CostFunction* costOf(const LandmarkGroundFactor& f) {
-  return automatic<LandmarkGroundResidual, 1, 4>(f);
-}
-inline ceres::CostFunction* costOf(const LandmarkSizeFactor& f) {
-  return automatic<LandmarkSizeResidual, 3, 3>(f);
-}
-inline ceres::CostFunction* costOf(const LandmarkBoxFactor& f, ShapeKind kind) {
-  return automatic<LandmarkBoxResidual, 4, 3, 4, 4, 3>(f, kind);
-}
-inline ceres::CostFunction* costOf(const CameraPointFactor& f) {
-  return automatic<CameraPointResidual, 3, 3, 4, 3>(f);
-}
-inline ceres::CostFunction* costOf(const PointLandmarkFactor& f, ShapeKind kind) {
-  return automatic<PointLandmarkResidual, 2, 3, 4, 3>(f, kind);
-}
-inline ceres::CostFunction* costOf(const MarginalPrior& f) {
-  return new MarginalPriorCost(f);
-}
+ceres::CostFunction* costOf(const LandmarkSizeFactor& factor);
+ceres::CostFunction* costOf(const LandmarkBoxFactor& factor, ShapeKind kind);
+ceres::CostFunction* costOf(const CameraPointFactor& factor);
+ceres::CostFunction* costOf(const PointLandmarkFactor& factor, ShapeKind kind);
+
+/// Throws std::invalid_argument when the sizes of the prior's matrices do not fit each other.
+ceres::CostFunction* costOf(const MarginalPrior& factor);
 
 }  // namespace roomgraph

@@ -2,12 +2,15 @@
 // FactorGraph as a Ceres problem: parameter blocks, manifolds, loss functions, residual blocks.
 #include "roomgraph/backend/factor_graph.h"
 
+#include <ceres/loss_function.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "chordal.h"
 #include "costs.h"
 #include "graph_state.h"
+#include "marginal_prior_cost.h"
 #include "solve.h"
 
 namespace roomgraph {
@@ -62,7 +65,7 @@ ceres::LossFunction* lossOf(const CameraPointFactor& f) {
   if (f.loss == RobustLoss::kCauchy || f.robust_width <= 0) return cauchy(f.robust_width);
   return new ceres::HuberLoss(f.robust_width);
 }
-// Weight outside the robust loss: what counts as an outlier does not depend on how much a measurement counts.
+// The weight scales the robust loss, so that what counts as an outlier does not depend on it.
 template <class Weighted>
 ceres::LossFunction* lossOf(const Weighted& f) {
   return new ceres::ScaledLoss(cauchy(f.robust_width), f.weight, ceres::TAKE_OWNERSHIP);
@@ -159,7 +162,7 @@ Blocks blocksOf(Impl& graph, const MarginalPrior& f) {
   return blocks;
 }
 
-// Cost function; those that need a landmark's shape are told it.
+// Cost function of a factor, with the landmark's shape where it depends on it.
 template <class OneFactor>
 ceres::CostFunction* costIn(Impl& graph, const OneFactor& f) {
   if constexpr (requires { costOf(f, ShapeKind{}); }) {
@@ -173,7 +176,7 @@ ceres::CostFunction* costIn(Impl& graph, const OneFactor& f) {
   }
 }
 
-// What a factor measures may move from now on.
+// Makes variable what a factor measures.
 template <class OneFactor>
 void release(Impl&, const OneFactor&) {}
 void release(Impl& graph, const LandmarkFactor& f) {
@@ -241,7 +244,7 @@ void FactorGraph::add(const Factor& factor) {
   std::visit(
       [this](const auto& f) {
         const Blocks blocks = blocksOf(*impl_, f);
-        auto* const cost = costIn(*impl_, f);  // throws for a bad factor: before there is a loss to leak
+        auto* const cost = costIn(*impl_, f);  // throws for a bad factor: before a loss is allocated
         const auto id = impl_->problem->AddResidualBlock(cost, lossOf(f), blocks);
         release(*impl_, f);
         impl_->factors.push_back({f, id});
@@ -255,8 +258,8 @@ SolveReport FactorGraph::optimize(int max_iterations) {
 
 SolveReport FactorGraph::optimize(const SolveOptions& options) {
   ceres::Solver::Options solver = solverOptions(options);
-  // Points depend on each other only through poses: eliminated first, one by one. Ceres finds them itself; an
-  // ordering given to it would be one of addresses, which are not the same on every run.
+  // Points are coupled only through poses and can be eliminated first, one by one. Ceres chooses them itself: a given
+  // ordering would be sorted by addresses, which differ from run to run.
   if (!impl_->points.empty()) solver.linear_solver_type = ceres::SPARSE_SCHUR;
   return solve(options, solver, *impl_->problem);
 }

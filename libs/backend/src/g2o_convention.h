@@ -6,13 +6,13 @@
 
 namespace roomgraph {
 
-// g2o's error of EDGE_SE3:QUAT is (translation, quaternion's x y z) of measured^-1 * estimated. Ours is the
-// same translation before it is turned into the measured b frame, and twice the quaternion (a rotation vector
-// for small errors): ours = D g2o with D = diag(R_measured, 2 I). With the information matrices converted,
-// both give the same chi^2 to the last digit.
+// g2o's error of EDGE_SE3:QUAT is (translation, quaternion's x y z) of measured^-1 * estimated. Ours is the same
+// translation before its rotation into the measured b frame, and twice the quaternion (a rotation vector for small
+// errors): ours = D g2o with D = diag(R_measured, 2 I). With the information matrices converted accordingly both give
+// the same chi^2.
 
-constexpr double kLeastWeight = 1e-9;       ///< of a landmark's measurement: with less it is no edge
-constexpr double kTokenInformation = 1e-3;  ///< of what a landmark's measurement says nothing about
+constexpr double kLeastWeight = 1e-9;       ///< of a landmark's measurement; with less it gives no edge
+constexpr double kTokenInformation = 1e-3;  ///< of directions that a landmark's measurement does not observe
 
 inline Matrix6d errorFromG2o(const Eigen::Matrix3d& measured) {
   Matrix6d d = Matrix6d::Zero();
@@ -31,7 +31,7 @@ inline Matrix6d covarianceOfG2o(const Pose3& measured, const Matrix6d& informati
   return d * information.inverse() * d.transpose();
 }
 
-/// Place and yaw of a landmark in the robot's frame as the transform of an edge.
+/// Position and yaw of a landmark in the robot's frame as the transform of an edge.
 inline Pose3 measuredTransform(const LandmarkFactor& f) {
   const auto& p = f.position_in_robot;
   return poseFromYpr(p.x(), p.y(), p.z(), f.has_yaw ? f.yaw_in_robot : 0, 0, 0);

@@ -14,7 +14,7 @@
 namespace roomgraph {
 namespace {
 
-// Numbers that are read back as they are.
+// With as many digits as a double needs to be read back exactly.
 std::ostringstream exactText() {
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
@@ -35,7 +35,7 @@ void writeUpper(std::ostream& out, const Eigen::Matrix<double, N, N>& informatio
   out << '\n';
 }
 
-// To the microsecond, as trajectories have it.
+// To the microsecond, as in trajectory files.
 void writeTime(std::ostream& out, NodeId vertex, const NodeTimes& times) {
   const auto found = times.find(vertex);
   if (found == times.end()) return;
@@ -49,7 +49,8 @@ void writeLandmark(std::ostream& out, NodeId vertex, LandmarkId id, const Object
       << shape.depth << ' ' << shape.height << '\n';
 }
 
-// A landmark's measurement fixes x, y, z and perhaps yaw; the rest gets a token weight to keep readers happy.
+// A landmark's measurement observes x, y, z and perhaps yaw; the rest gets a small weight, as readers demand a
+// positive definite matrix.
 Matrix6d informationOf(const LandmarkFactor& factor) {
   Eigen::Matrix4d covariance = factor.covariance;
   if (!factor.has_yaw) {

@@ -31,7 +31,7 @@ struct Stamp {
   double t = 0;
 };
 
-// Everything a file says, before it is known to fit together.
+// Content of a file before its consistency is checked.
 struct FileContent {
   std::map<NodeId, Vertex> vertices;
   std::map<NodeId, PlanarLandmark> landmarks;
@@ -136,7 +136,7 @@ class Reader {
     content_.edges.push_back(edge);
   }
 
-  // Inside, factors hold covariances: the information must survive the way there and back.
+  // Factors store covariances: the information must survive inversion and its inverse.
   static bool isInformation(const Edge& edge) {
     const auto definite = [](const Eigen::MatrixXd& matrix) {
       return matrix.allFinite() && Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success;
@@ -152,7 +152,7 @@ class Reader {
     } while (words_ >> std::ws && !words_.eof());
   }
 
-  // What the format itself cannot say.
+  // Comments with what the format itself cannot express.
   void readComment() {
     std::string word;
     if (!(words_ >> word)) return;
@@ -198,7 +198,7 @@ class Reader {
   FileContent content_;
 };
 
-// Ids that stand for something; and something is held, or the world would float.
+// Checks that every id is defined. Returns the held vertices, at least one, which fixes the gauge.
 std::set<NodeId> checked(const FileContent& content, const std::filesystem::path& file) {
   const auto known = [&](int line, NodeId id, const char* what) {
     if (content.vertices.contains(id)) return;

@@ -2,7 +2,8 @@
 // State behind FactorGraph: parameter blocks by id, factors, and linearisation along tangents.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
 
 #include <Eigen/SparseCore>
 #include <array>
@@ -21,8 +22,8 @@ struct Linearization {
   Eigen::VectorXd residuals;
 };
 
-/// Storage behind FactorGraph. The maps are ordered, so residuals and blocks always come in the same order;
-/// their nodes never move, so Ceres may keep pointers into them.
+/// Storage of FactorGraph. The maps are ordered, so residuals and blocks always have the same order; their nodes do not
+/// move in memory, so Ceres may keep pointers into them.
 struct FactorGraph::Impl {
   struct Pose {
     std::array<double, 3> t;
@@ -43,7 +44,7 @@ struct FactorGraph::Impl {
     ceres::ResidualBlockId block;
   };
 
-  /// In a g2o file landmarks are numbered behind the poses.
+  /// In a g2o file the numbers of landmarks follow those of the poses.
   NodeId vertexOf(LandmarkId id) const {
     return NodeId{(poses.empty() ? 0 : poses.rbegin()->first.value + 1) + id.value};
   }

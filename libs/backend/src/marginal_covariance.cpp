@@ -14,7 +14,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr double kUniformYaw = std::numbers::pi * std::numbers::pi / 3;  // variance over the circle
 constexpr double kSmallestPivot = 1e-12;  // of a matrix with a diagonal of ones
 
-// The decomposed information matrix of all variables; blocks of its inverse are solved for column by column.
+// Decomposed information matrix of all variables; blocks of its inverse are computed column by column.
 class Covariances {
  public:
   explicit Covariances(FactorGraph::Impl& graph) {
@@ -45,7 +45,7 @@ class Covariances {
   }
 
  private:
-  // Scaled to a diagonal of ones, so that metres, radians and pixels do not decide what counts as singular.
+  // Scaled to a diagonal of ones, so that the units do not decide what counts as singular.
   void decompose(const Sparse& jacobian) {
     Sparse information = jacobian.transpose() * jacobian;
     const Eigen::VectorXd diagonal = information.diagonal();

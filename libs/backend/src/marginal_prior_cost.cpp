@@ -2,6 +2,8 @@
 // Residual and analytic Jacobian of a marginal prior, with rotation vectors of quaternions.
 #include "marginal_prior_cost.h"
 
+#include <ceres/jet.h>
+
 #include <cmath>
 #include <stdexcept>
 

@@ -2,17 +2,17 @@
 // Ceres cost function of a marginal prior: dense linear residual on tangents.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
 
 #include "roomgraph/backend/factors.h"
 
 namespace roomgraph {
 
-/// Numbers of a MarginalPrior per variable.
+/// Tangent dimensions of a variable in a MarginalPrior.
 constexpr int kPoseTangent = 6, kLandmarkTangent = 7, kPointTangent = 3;
 
 /// root d + offset. Blocks: per pose translation and quaternion, per landmark (x, y, z, yaw) and size, per
-/// point its place; all in the prior's order. Differentiated by hand: the matrix is dense and large.
+/// point its position; all in the prior's order. Differentiated by hand: the matrix is dense and large.
 class MarginalPriorCost : public ceres::CostFunction {
  public:
   /// Throws std::invalid_argument when the sizes do not fit each other.

@@ -12,11 +12,11 @@ namespace {
 
 using Impl = FactorGraph::Impl;
 
-// The blocks of some kept variables, and where their tangents go in a prior.
+// Parameter blocks of some kept variables, and the columns of their tangents in a prior.
 struct Columns {
   std::vector<double*> blocks;  // variable ones only
   std::vector<int> target;      // column of the prior, per tangent of `blocks`
-  std::vector<double> scale;    // derivative of the solver's tangent by the prior's
+  std::vector<double> scale;    // derivative of the solver's tangent with respect to the prior's
   int size = 0;                 // of the prior
 
   void add(const Impl& graph, double* block, int offset, double factor = 1) {
@@ -65,7 +65,7 @@ std::vector<double*> removedBlocks(Impl& graph, const Absorbed& absorbed,
   return out;
 }
 
-// Names, estimates and columns of the kept variables that the absorbed factors speak of.
+// Ids, estimates and columns of the kept variables of the absorbed factors.
 Columns separators(const FactorGraph& graph, Impl& state, const Variables& keep,
                    const std::set<const double*>& touched, MarginalPrior& prior) {
   Columns columns;
@@ -98,8 +98,8 @@ Columns separators(const FactorGraph& graph, Impl& state, const Variables& keep,
   return columns;
 }
 
-// Schur complement in square-root form (Demmel et al., CVPR 2021): the rows of Qᵀ [kept, residuals] that the
-// removed columns do not reach. Works for removed directions that nothing measures, too.
+// Schur complement in square-root form (Demmel et al., CVPR 2021): the rows of Qᵀ [kept, residuals] that are zero
+// in the removed columns. Also valid for removed directions that nothing measures.
 Eigen::MatrixXd withoutRemoved(const Eigen::MatrixXd& removed, const Eigen::MatrixXd& kept) {
   if (removed.cols() == 0) return kept;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(removed.rows(), removed.cols());
@@ -109,7 +109,7 @@ Eigen::MatrixXd withoutRemoved(const Eigen::MatrixXd& removed, const Eigen::Matr
   return rotated.bottomRows(rotated.rows() - qr.rank());
 }
 
-// No more rows than columns: the last column is the residual, and what is left of it below them constant.
+// Reduces the system to as many rows as columns. The last column is the residual; its rest is a constant cost.
 Eigen::MatrixXd compressed(const Eigen::MatrixXd& system) {
   if (system.rows() < system.cols()) return system;
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(system);

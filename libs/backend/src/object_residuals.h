@@ -13,7 +13,7 @@ namespace roomgraph {
 // Residuals of points, and of the extent of landmarks. Landmarks are (x, y, z, yaw), sizes (width, depth,
 // height), points (x, y, z) in world.
 
-/// A camera on a robot, templated: coordinates in its optical frame.
+/// Transforms points of world into the optical frame of a camera on a robot.
 template <class T>
 struct CameraView {
   CameraView(const Pose3& robot_from_camera, const T* t, const T* q)
@@ -31,7 +31,7 @@ struct CameraView {
   Eigen::Vector3d lever;
 };
 
-constexpr double kNear_m = 0.05;  // nothing is seen closer than this
+constexpr double kNear_m = 0.05;  // the camera sees nothing nearer
 
 struct CameraPointResidual {
   explicit CameraPointResidual(const CameraPointFactor& f) : factor(f) {}
@@ -41,7 +41,7 @@ struct CameraPointResidual {
     const auto& camera = factor.camera;
     const Vec3<T> p = CameraView<T>(factor.robot_from_camera, t, q).see(Eigen::Map<const Vec3<T>>(point));
     if (p.z() < T(kNear_m)) {
-      // Behind the camera, where nothing is seen: as wrong as the image is large.
+      // Behind the camera: a constant residual as large as the image.
       out[0] = T(camera.width / factor.sigma_px);
       out[1] = T(camera.height / factor.sigma_px);
       out[2] = T(0);
@@ -74,7 +74,7 @@ struct LandmarkBoxResidual {
     for (std::size_t i = 0; i < 4; ++i) {
       out[i] = T(0);
       if (!compared[i]) continue;
-      // Wholly behind the camera: as wrong as the image is large.
+      // Wholly behind the camera: a constant residual as large as the image.
       const double worst = i % 2 == 0 ? factor.camera.width : factor.camera.height;
       out[i] = (sides ? T((*sides)[i] - measured[i]) : T(worst)) / factor.sigma_px;
     }

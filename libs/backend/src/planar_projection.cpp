@@ -7,7 +7,7 @@
 namespace roomgraph {
 namespace {
 
-// g2o's error in the plane is turned into the measured b frame; ours is not (g2o_convention.h).
+// g2o's error in the plane is expressed in the measured b frame; ours is not (g2o_convention.h).
 Eigen::Matrix3d turnedInformation(const Eigen::Matrix3d& information, double measured_yaw) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(measured_yaw).toRotationMatrix();
@@ -17,7 +17,7 @@ Eigen::Matrix3d turnedInformation(const Eigen::Matrix3d& information, double mea
 PlanarEdge edgeOf(const BetweenFactor& movement) {
   PlanarEdge edge{movement.a, movement.b, planarPart(movement.a_from_b)};
   Eigen::Matrix3d covariance;
-  constexpr int kRows[] = {0, 1, 5};  // what height, roll and pitch were thought to be does not count
+  constexpr int kRows[] = {0, 1, 5};  // x, y, yaw: marginal over height, roll and pitch
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) covariance(i, j) = movement.covariance(kRows[i], kRows[j]);
   edge.information = turnedInformation(covariance.inverse(), edge.a_from_b.yaw);

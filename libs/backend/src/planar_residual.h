@@ -2,8 +2,7 @@
 // Residual of a 2D edge in the error definition of g2o's EDGE_SE2.
 #pragma once
 
-#include <ceres/ceres.h>
-
+#include "automatic_cost.h"
 #include "residuals.h"
 #include "roomgraph/backend/planar_graph.h"
 
@@ -31,7 +30,7 @@ struct PlanarEdgeResidual {
 };
 
 inline ceres::CostFunction* costOf(const PlanarEdge& edge) {
-  return new ceres::AutoDiffCostFunction<PlanarEdgeResidual, 3, 3, 3>(new PlanarEdgeResidual(edge));
+  return automatic<PlanarEdgeResidual, 3, 3, 3>(edge);
 }
 
 }  // namespace roomgraph

@@ -10,8 +10,8 @@
 namespace roomgraph {
 namespace {
 
-// Ceres reports what is singular or not finite on stderr before it says so in its result. The level is the
-// process's: it is touched by the first call that begins and the last that ends, if several run at once.
+// Keeps Ceres from writing to stderr what its result says as well: that something is singular or not finite. The log
+// level is global: of several simultaneous calls the first that begins changes it and the last that ends restores it.
 class QuietCeres {
  public:
   QuietCeres() {
@@ -50,7 +50,7 @@ ceres::Solver::Options solverOptions(const SolveOptions& options) {
   ceres::Solver::Options solver;
   solver.max_num_iterations = options.max_iterations;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  solver.num_threads = 1;  // sums in one order: the same bits on every machine
+  solver.num_threads = 1;  // one order of summation: the same bits on every run
   solver.function_tolerance = options.function_tolerance;
   solver.logging_type = ceres::SILENT;
   return solver;

@@ -2,7 +2,9 @@
 // Solver options, silent solve and silent evaluation of a Ceres problem.
 #pragma once
 
-#include <ceres/ceres.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include <vector>
 
@@ -12,9 +14,9 @@ namespace roomgraph {
 
 /// The solver's options: sparse Cholesky, one thread, silent.
 ceres::Solver::Options solverOptions(const SolveOptions& options);
-/// Runs Ceres; it writes nothing to stderr.
+/// Runs Ceres without output on stderr.
 SolveReport solve(const SolveOptions& options, ceres::Solver::Options solver, ceres::Problem& problem);
-/// Evaluates, silently too. False when a residual or derivative is not finite: nothing is given then.
+/// Evaluates, without output on stderr. False, and no output values, when a residual or derivative is not finite.
 bool evaluate(ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options, double* cost,
               std::vector<double>* residuals, ceres::CRSMatrix* jacobian);
 /// Half the sum of squared (robust, weighted) residuals; NaN when it cannot be evaluated.

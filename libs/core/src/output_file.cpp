@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A link stays one: the file that it names is replaced.
+// A symbolic link is kept: the file that it names is replaced.
 fs::path behindLinks(const fs::path& file) {
   std::error_code error;
   const fs::path target = fs::is_symlink(file, error) ? fs::canonical(file, error) : file;

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// For the moment in which files change places.
+// Ignores the signals that end a program, while files are being moved.
 class WithoutSignals {
  public:
   WithoutSignals() {
@@ -77,7 +77,7 @@ OutputFolder::~OutputFolder() {
   if (lock_ >= 0) close(lock_);
 }
 
-// File systems that cannot lock a folder (some of the network) go without.
+// Some (network) file systems cannot lock a folder; there it is not locked.
 void OutputFolder::lock() {
   lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
@@ -115,7 +115,7 @@ void OutputFolder::publish() {
   settle();
 }
 
-// May be begun by one process and gone on with by another.
+// May be begun by one process and completed by another.
 void OutputFolder::settle() {
   std::ifstream in(unfinished_ / kComplete);
   std::set<std::string> written;

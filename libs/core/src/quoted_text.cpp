@@ -17,7 +17,7 @@ bool isBlank(char c) {
   return std::string_view(kBlanks).find(c) != std::string_view::npos;
 }
 
-// A comment would begin in it.
+// Whether a comment would begin in the text.
 bool holdsMarker(const std::string& text, bool in_list) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '#' && text[i] != ';') continue;

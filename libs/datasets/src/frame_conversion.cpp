@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_registration.h"
+#include "flag_repair.h"
 #include "image_memory.h"
 #include "record_source.h"
 
@@ -150,7 +151,7 @@ std::string missingExternalFile(const CObservation3DRangeScan& observation, cons
     const auto file = observation.intensityImage.getExternalStorageFileAbsolutePath();
     if (missing(file)) return file;
   }
-  if (observation.hasRangeImage && observation.rangeImage_isExternallyStored()) {
+  if (observation.hasRangeImage && rangeImageIsInAFile(observation)) {
     const auto file = observation.rangeImage_getExternalStorageFileAbsolutePath("");
     if (missing(file)) return file;
   }

@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "action_check.h"
+#include "flag_repair.h"
 #include "image_memory.h"
 #include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
@@ -223,6 +224,7 @@ void RecordSource::parse(Item& item, const std::string& name) {
     const AllocationLimit limit(allowance);
     item.object = stream_.ReadObject();
   }
+  if (item.object) repairFlags(*item.object);
   lengths_[name] = stream_.position() - item.offset;
   frames_format_ = kindOf(name) == Kind::kPair;
 }

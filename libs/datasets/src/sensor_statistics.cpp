@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flag_repair.h"
 #include "frame_conversion.h"
 #include "image_memory.h"
 #include "roomgraph/core/order_statistics.h"
@@ -61,7 +62,7 @@ void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observa
 
 void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder) {
   const bool external = (observation.hasIntensityImage && observation.intensityImage.isExternallyStored()) ||
-                        (observation.hasRangeImage && observation.rangeImage_isExternallyStored());
+                        (observation.hasRangeImage && rangeImageIsInAFile(observation));
   if (external) {
     const std::string missing = missingExternalFile(observation, image_folder);
     ++(missing.empty() ? summary_.external_present : summary_.external_missing);

@@ -10,7 +10,7 @@
 
 namespace roomgraph {
 
-/// Takes what there is: runs the networks when some are named, replays recorded boxes otherwise.
+/// Runs the networks when some are named, and replays recorded boxes otherwise.
 class AutoDetector : public Detector {
   DEFINE_MRPT_OBJECT(AutoDetector, roomgraph)
  public:

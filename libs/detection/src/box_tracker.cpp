@@ -18,8 +18,8 @@ constexpr float kBackwardError_px = 1;  // of a corner followed forward and back
 constexpr int kMostCorners = 40;
 constexpr double kCornerSpacing_px = 4;
 constexpr double kEnoughShare = 0.35;  // of the chosen corners are needed to follow a box
-constexpr double kRefreshShare = 0.6;  // with fewer left new corners are chosen
-constexpr double kScoreDecay = 0.97;   // per frame: a carried box is less sure
+constexpr double kRefreshShare = 0.6;  // below this share new corners are chosen
+constexpr double kScoreDecay = 0.97;   // per frame: a carried box is less certain
 constexpr double kLeastVisibleShare = 0.2, kLeastSide_px = 6;
 constexpr double kDepthAgreement = 0.12;  // relative, between expected and measured depth
 

@@ -32,7 +32,7 @@ std::vector<int> classOfLabel(const Network& network, const ObjectDatabase& data
   return classes;
 }
 
-// What to do without a network; everything but objects works all the same.
+// Advice to a user without a network; everything but objects works without.
 const char* const kNoNetwork =
     "no network, so no objects: name a weights file as [detection] models (--set detection.models=FILE); "
     "suitable: NanoDet-Plus-m-1.5x (github.com/RangiLyu/nanodet), YOLOX-Nano "

@@ -12,7 +12,7 @@ namespace roomgraph {
 
 class Network;
 
-/// Runs one or more networks through OpenCV's dnn module and merges what they find.
+/// Runs one or more networks through OpenCV's dnn module and merges their boxes.
 class DnnDetector : public Detector {
   DEFINE_MRPT_OBJECT(DnnDetector, roomgraph)
  public:

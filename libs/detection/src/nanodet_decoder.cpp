@@ -30,7 +30,7 @@ double meanOfLogits(const float* logits, int count) {
 
 }  // namespace
 
-// Mean and standard deviation of ImageNet's colours, as the authors trained it.
+// Mean and standard deviation of ImageNet's colours, as in its training.
 Preprocessing NanodetDecoder::preprocessing() const {
   return {InputFit::kStretch, 0, false, {103.53, 116.28, 123.675}, {57.375, 57.12, 58.395}};
 }

@@ -24,7 +24,7 @@ Network::Network(const NetworkSpec& spec) : file_(spec.file) {
   chooseDecoder(spec.format);
 }
 
-// The one that was named, if it recognises the output, or else the only one that does.
+// The named decoder, if it recognises the output, or else the only one that does.
 void Network::chooseDecoder(const std::string& format) {
   const int classes = static_cast<int>(labels_.size());
   decoder_ = format.empty() ? decoderFor(outputs_, classes) : decoderNamed(format);
@@ -92,7 +92,7 @@ std::vector<cv::Mat> Network::forward(const cv::Mat& blob) {
   return outputs;
 }
 
-// The list that comes with the program and has as many labels as the network has classes.
+// The built-in list with as many labels as the network has classes.
 std::vector<std::string> Network::knownLabels(const std::string& format) const {
   const auto decoders = format.empty() ? networkDecoders() : std::vector{decoderNamed(format)};
   std::vector<std::string> known;

@@ -22,7 +22,7 @@ NetworkDecoderPtr decoderNamed(const std::string& format);
 /// The decoder that recognises the outputs; null when none does. Throws ConfigError when several do.
 NetworkDecoderPtr decoderFor(const NetworkOutputs& outputs, int classes);
 
-/// "auto, ade20k, darknet, …": what may be written after a network's file name.
+/// "auto, ade20k, darknet, …": the formats allowed after a network's file name.
 std::string knownFormats();
 
 }  // namespace roomgraph

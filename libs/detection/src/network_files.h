@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// What the user says about one network.
+/// One network as configured by the user.
 struct NetworkSpec {
   std::string file;         ///< .onnx, or Darknet .weights with a .cfg of the same name beside it
   std::string format;       ///< name of a NetworkDecoder; empty: the one that recognises the output

@@ -33,7 +33,7 @@ struct GridCell {
 /// belongs to cell n.
 std::vector<GridCell> gridCells(const std::vector<int>& strides, cv::Size input);
 
-/// Adds the box unless a side is no finite number or nothing is between its sides.
+/// Adds the box unless a side is not finite or it is empty.
 void keepIfSound(std::vector<RawBox>& boxes, const RawBox& box);
 
 }  // namespace roomgraph

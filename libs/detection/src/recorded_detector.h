@@ -30,19 +30,18 @@ class RecordedDetector : public Detector {
   DEFINE_MRPT_OBJECT(RecordedDetector, roomgraph)
  public:
   void declareParameters(ParameterVisitor& visitor) override;
-  /// Where the records are: all parameters but the score.
+  /// Declares all parameters but the score: where the records are.
   void declareSource(ParameterVisitor& visitor);
   void setScoreThreshold(double smallest) { score_threshold_ = smallest; }
   void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
   void prepare() override;
   void feed(const CObservationDetections& recorded) override;
-  /// The records nearest in time to the frame (and of its camera), when within the tolerance. Records that
-  /// stand after the frame in the rawlog are found when they have been fed before this call.
+  /// The records nearest in time to the frame (and of its camera), when within the tolerance; also those that follow
+  /// the frame in the rawlog, when they were fed before this call.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
-  /// Of the records read last: the file's name and hash, or what stands in the rawlog.
+  /// Of the records read last: the file's name and hash, or the origin stored in the rawlog.
   DetectorIdentity identity() const override { return identity_; }
-  /// When records were made with a stricter threshold than the configured one, or none of them is of a frame
-  /// that was asked for.
+  /// Warns when records were made with a stricter threshold than the configured one, or none matches a frame.
   std::string warning() const override;
   /// Whether no record is known so far.
   bool empty() const { return records_.empty(); }
@@ -59,7 +58,7 @@ class RecordedDetector : public Detector {
   DetectionRecords records_;
   DetectorIdentity identity_;
   std::string threshold_warning_;
-  int frames_ = 0, matched_ = 0;  ///< asked for; with a record
+  int frames_ = 0, matched_ = 0;  ///< frames in all; with a record
   double first_frame_t_ = 0, last_frame_t_ = 0;
   std::string frame_label_;  ///< of the last one
 };

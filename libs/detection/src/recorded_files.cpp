@@ -23,7 +23,7 @@ double seconds(const Json& value) {
 }
 
 bool sound(const Detection& d) {
-  constexpr double kFarthest_px = 1e6;  // no camera is that large; arithmetic with a box must not overflow
+  constexpr double kFarthest_px = 1e6;  // larger than any image; arithmetic with a box must not overflow
   const auto near = [](double side) { return std::abs(side) < kFarthest_px; };
   return near(d.box.u_min) && near(d.box.v_min) && near(d.box.u_max) && near(d.box.v_max) && !d.box.empty() &&
          d.score >= 0 && d.score <= 1;

@@ -11,8 +11,8 @@ namespace roomgraph {
 /// Indices of the boxes that survive non-maximum suppression within their own class, best score first.
 std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou);
 
-/// Of `kept` (indices, best first) those that are not nearly the same box as a better one of another class:
-/// one object that got two labels.
+/// Of `kept` (indices, best first) those that do not nearly coincide with a better box of another class, i.e. a second
+/// label of one object.
 std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vector<int>& kept,
                                double max_iou);
 

@@ -11,7 +11,7 @@ namespace {
 const NodeId kAnchor{1'000'000'000};
 constexpr double kLidarGap_s = 0.25;
 
-// Nothing saw the movement: the poses are as near to each other as a walk, or a drive, allows.
+// No source of motion covers the movement: a weak prior that bounds it by the speed of a walk or a drive.
 Movement unknownMovement(double seconds) {
   const double sigma_m = 0.3 + 0.5 * seconds, sigma_rad = 0.3 + 0.7 * seconds;
   Vector6d sigma;
@@ -32,8 +32,7 @@ void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const 
   graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
 }
 
-// A handheld camera's world is level only as far as the seen floor says: tilt and height of the first pose
-// are free.
+// Only measurements of the floor level a handheld camera's world: tilt and height of the first pose are free.
 void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
   Pose3 anchor = toPose3(planarPart(first.world_from_robot));
   graph.addPose(kAnchor, anchor, true);
@@ -78,8 +77,8 @@ void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
   for (const auto& factor : objects.insides) graph.add(factor);
 }
 
-// Key poses from `first` on, and what is measured between neighbours and of the floor. `hold`: the first one
-// stays where it is, as far as its place is anybody's choice.
+// Key poses from `first` on, with the factors between neighbours and of the floor. `hold`: the gauge is fixed at the
+// first one.
 void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
               const Measurements& measurements, const BackendOptions& options, std::size_t first, bool hold) {
   const auto& nodes = poses.nodes();

@@ -10,7 +10,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kMinOnWalls = 0.5;  // people and moved things stand before the walls, too
+constexpr double kMinOnWalls = 0.5;  // the rest may be people and moved objects
 constexpr double kOccupied = 0.4;    // MRPT's cells hold the probability of being free
 
 bool occupiedNear(const mrpt::maps::COccupancyGridMap2D& grid, const Eigen::Vector2d& point, double reach_m) {

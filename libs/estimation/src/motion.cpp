@@ -8,8 +8,8 @@
 namespace roomgraph {
 namespace {
 
-// Of directions a planar source says nothing about: loose, but not so loose that the equations become
-// ill-conditioned.
+// Standard deviation of directions that a planar source does not measure: large, but not so large that the equations
+// become ill-conditioned.
 constexpr double kUnmeasuredSigma = 0.5;
 
 Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool planar) {

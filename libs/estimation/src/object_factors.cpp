@@ -54,9 +54,9 @@ LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
 
 namespace {
 
-constexpr std::size_t kMinViews = 3;  // key poses from which a point was seen, to be of use
+constexpr std::size_t kMinViews = 3;  // key poses from which a point must be seen
 
-// A point on a landmark, as one key pose sees it.
+// A point on a landmark, seen from one key pose.
 struct PointView {
   CameraPointFactor factor;
   Eigen::Vector3d in_world;
@@ -86,7 +86,7 @@ struct MeanSize {
   }
 };
 
-// What was seen of one landmark.
+// Measurements of one landmark.
 struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
   std::map<NodeId, MeanSize> sizes;
@@ -132,9 +132,8 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
 
 // Landmarks of the graph that stand for views; the map's own never get that far.
 constexpr std::int64_t kFirstView = 1'000'000'000;
-constexpr double kLeastWeight = 1e-9;  // a view that weighs nothing would be free
-
-constexpr double kVisitPause_s = 3;  // not seen for so long, an object is visited again
+constexpr double kLeastWeight = 1e-9;  // a view without weight would leave its place undetermined
+constexpr double kVisitPause_s = 3;    // an object not seen for so long begins a new visit
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
@@ -167,7 +166,7 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses
     if (sighting.weight < kLeastWeight) continue;
     const Eigen::Vector3d ray = sighting.position_in_robot - node.world_from_robot.translation();
     View& view = views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))];
-    // Standing still, key poses are rare; gone is what other key poses in between did not see.
+    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the object.
     const bool gone =
         view.visits.empty() || (id.value - view.visits.back().back().node.value > 1 &&
                                 node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);

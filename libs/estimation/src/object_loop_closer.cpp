@@ -8,7 +8,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kMinExistence = 0.5;  // what is rather not there must not close loops
+constexpr double kMinExistence = 0.5;  // less probable landmarks must not close loops
 constexpr int kMinObservations = 3;
 constexpr double kPause_s = 10;       // between two attempts with the same two objects
 constexpr std::size_t kAttempts = 3;  // pairs whose times are tried for verification
@@ -17,7 +17,7 @@ bool trustworthy(const Landmark& landmark) {
   return landmark.existence >= kMinExistence && landmark.observations >= kMinObservations;
 }
 
-// Robot poses at the two times, as they lie on each other when the constellation is right.
+// Movement between the robot poses at the two times, if the constellation is right.
 RelativePose proposal(double t_a, double t_b, const Pose2& map_from_query, const KeyPoses& poses) {
   RelativePose out;
   out.t_a = t_a;
@@ -75,7 +75,7 @@ std::optional<RelativePose> ObjectLoopCloser::confirm(const ConstellationMatch& 
     const auto& [recent, old] = match.pairs[i];
     const std::pair ids{visits.recent[recent].id, visits.old[old].id};
     const double t_a = spans.at(ids.second).last, t_b = spans.at(ids.first).last;
-    // Verification is dear, and says the same again until the robot has moved on.
+    // Verification is expensive, and has the same result until the robot has moved on.
     const auto before = refused_.find(ids);
     if (before != refused_.end() && t_b - before->second < kPause_s) continue;
     refused_[ids] = t_b;

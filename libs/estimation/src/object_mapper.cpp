@@ -13,7 +13,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place say the same
+constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place repeat each other
 
 void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)>& id_today) {
   decision.landmark = id_today(decision.landmark);
@@ -21,7 +21,7 @@ void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)
   decision.association.posterior = renamed(decision.association.posterior, id_today);
 }
 
-// Those with depth; the mapper remembers no more of the others than which object they lie on.
+// Features with depth; of the others only their object is stored.
 std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& decisions,
                                             const std::vector<FeatureTrack>& features) {
   std::set<std::int64_t> on_objects;
@@ -104,7 +104,7 @@ void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
   const Eigen::Vector3d first_place = landmarks_.find(first)->position;
   const Eigen::Vector3d second_place = landmarks_.find(second)->position;
   for (auto& frame : frames_) {
-    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;  // poses have moved since
+    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;  // the poses have changed since
     for (auto& decision : frame.decisions) {
       if (decision.landmark != first) continue;
       const Eigen::Vector3d place =

@@ -6,7 +6,7 @@
 
 namespace roomgraph {
 namespace {
-constexpr int kLiveIterations = 10;  // a run must not stand still for long; the next optimisation goes on
+constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
 }
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
@@ -22,7 +22,7 @@ bool PoseEstimator::advance(double t) {
   const KeyPose& last = poses_.nodes().back();
   if (t <= last.t) return false;
   const Pose3 moved = poses_.offset(last, t);
-  // A source goes on after a gap that none saw across: where it goes on is unknown, and a pose of its own.
+  // After a gap that no source of motion covers, the pose is unknown: it becomes a key pose of its own.
   const KeyPose here{.t = t};
   const bool resumed = connected(motion_, here, here) && !connected(motion_, last, here);
   const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
@@ -40,7 +40,7 @@ bool PoseEstimator::surprising(const RelativePose& closure) const {
          rotationAngle(difference) > options_.urgent_closure_rad;
 }
 
-// Far from the solution a robust closure pulls too weakly: bring the unconnected part there first.
+// Far from the solution a robust loss makes a closure too weak: the unconnected part is moved there first.
 std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
   const auto& nodes = poses_.nodes();
   const double early = std::min(closure.t_a, closure.t_b), late = std::max(closure.t_a, closure.t_b);
@@ -95,7 +95,7 @@ bool PoseEstimator::due() const {
   return nodes_since_optimization_ >= pause;
 }
 
-// The oldest pose leaves the window; what it and the measurements at it say of the others stays as a prior.
+// The oldest pose leaves the window; it and its measurements are marginalised to a prior.
 void PoseEstimator::slideWindow() {
   const auto& nodes = poses_.nodes();
   if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
@@ -105,7 +105,7 @@ void PoseEstimator::slideWindow() {
   ++first_;
 }
 
-// Poses were moved from elsewhere: they stand, and the window begins anew with the last of them.
+// Poses were moved from outside: they are taken as they are, and the window begins again with the last of them.
 void PoseEstimator::restartWindow() {
   first_ = poses_.nodes().size() - 1;
   prior_.reset();

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
 constexpr double kMiddle = 0.5;  // share of the footprint's smaller half that the covariance cannot reach
 constexpr double kSamePlace =
-    0.3;  // IoU with a detection, of whatever label, that says that something is there
+    0.3;  // IoU with a detection, of whatever label, that shows that something is there
 
 // Share of the depth pixels in the middle of the box that lie clearly in front of the object.
 double hiddenShare(const Frame& frame, const Box2& box, double distance_m, double margin_m) {

@@ -11,20 +11,21 @@
 
 namespace roomgraph {
 
-/// Whether the detector ought to have found a landmark in this frame and did not: well inside the image, near
-/// and large enough, not hidden behind something that the depth image shows in front of it, and no detection
-/// where it stands (one with another label is a confusion, not a miss).
+/// Whether a landmark is a miss in this frame: well inside the image, near and large enough, not hidden behind
+/// something that the depth image shows in front of it, and without a detection at its position (one with another label
+/// is a confusion, not a miss).
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
 
-/// Beams of a scan that speak for or against a landmark.
+/// Beams of a scan that are evidence for or against a landmark.
 struct RayEvidence {
   int inside = 0;   ///< ended in its footprint
   int through = 0;  ///< passed through the middle of it and ended behind
 };
 
-/// `solid_share`: share of the landmark's height through which no beam passes (ObjectModel::solid_share). Beams above it
-/// pass over the seat of a sofa, between the legs of a chair or through an open door: they count only when they end inside.
+/// `solid_share`: share of the landmark's height through which no beam passes (ObjectModel::solid_share). Beams above
+/// it pass over the seat of a sofa, between the legs of a chair or through an open door: they count only when they end
+/// inside.
 RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot, double solid_share);
 
 }  // namespace roomgraph

@@ -53,8 +53,8 @@ Pose3 alignSpatial(const std::vector<PosePair>& pairs) {
   if (values[0] < kDegenerate) {
     svd = decompose(moments.turns);
   } else if (values[1] < kDegenerate * values[0]) {
-    // A line leaves the turn about itself open; a vanishing weight of the orientations decides it and nothing
-    // else.
+    // Positions on a line do not determine the rotation about it: the orientations do, with a weight too small to
+    // change the rest.
     const double weight = 1e-8 * values[0] / static_cast<double>(pairs.size());
     svd = decompose(moments.cross + weight * moments.turns);
   }

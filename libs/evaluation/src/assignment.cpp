@@ -8,7 +8,7 @@
 namespace roomgraph {
 namespace {
 
-// Shortest augmenting paths with potentials on a square matrix: rows and columns count from 1, 0 is the
+// Shortest augmenting paths with potentials on a square matrix. Indices of rows and columns begin with 1; 0 is the
 // virtual start.
 class Hungarian {
  public:
@@ -82,7 +82,7 @@ std::vector<int> assignWithinGate(const Eigen::MatrixXd& costs, double gate) {
   std::vector<int> column_of(static_cast<std::size_t>(costs.rows()), -1);
   const Eigen::Index size = std::max(costs.rows(), costs.cols());
   if (costs.size() == 0) return column_of;
-  // No sum of allowed costs reaches the price of one forbidden pair, so the number of pairs comes first.
+  // More than any sum of allowed costs: the number of pairs has priority.
   const double forbidden = (gate + 1) * static_cast<double>(size + 1);
   Eigen::MatrixXd square = Eigen::MatrixXd::Constant(size, size, forbidden);
   for (Eigen::Index i = 0; i < costs.rows(); ++i)

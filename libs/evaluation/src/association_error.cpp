@@ -53,7 +53,7 @@ std::map<int, int> majorityObjects(const std::vector<Attributed>& list) {
   struct Votes {
     int object, count;
   };
-  std::map<int, std::vector<Votes>> votes;  // objects in the order the landmark met them
+  std::map<int, std::vector<Votes>> votes;  // in the order of the objects' first measurements
   for (const auto& a : list) {
     auto& of_landmark = votes[a.measured->landmark];
     const auto entry = std::find_if(of_landmark.begin(), of_landmark.end(),
@@ -73,7 +73,7 @@ std::map<int, int> majorityObjects(const std::vector<Attributed>& list) {
   return out;
 }
 
-// Judges the decisions frame by frame: an object has a landmark from the frame after its first own one.
+// Compares the decisions frame by frame. An object has a landmark from the frame after the first one of its own.
 std::vector<char> judge(const std::vector<Attributed>& list, AssociationErrors& out) {
   std::vector<char> correct(list.size(), 0);
   std::set<int> mapped;

@@ -20,14 +20,14 @@ struct Scored {
   bool correct;
 };
 
-// What has been seen of one class over all frames.
+// Counts of one class over all frames.
 struct ClassTally {
   std::vector<Scored> scored;  // detections that are right or wrong
   int truths = 0, ignored = 0;
 };
 
-// Area under the largest precision reached at each recall or a higher one. Equal scores make one step, so the
-// order of the detections does not matter.
+// Area under the precision envelope: at each recall the largest precision of this or a higher recall. Equal scores make
+// one step, so that the order of the detections does not matter.
 double averagePrecision(std::vector<Scored> scored, int truths) {
   if (truths == 0) return 0;
   std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return a.score > b.score; });
@@ -46,7 +46,7 @@ double averagePrecision(std::vector<Scored> scored, int truths) {
   return area;
 }
 
-// The true boxes of one frame as one class sees them.
+// The true boxes of one frame that concern one class.
 struct ClassView {
   std::vector<Box2> counted, regions;
 };

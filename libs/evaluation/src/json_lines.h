@@ -10,8 +10,8 @@
 
 namespace roomgraph {
 
-/// Calls `use` with each line's value; empty lines are skipped. Whatever a line or `use` complains about
-/// becomes an InputError with file and line. Returns the number of lines, empty ones included.
+/// Calls `use` with each line's value; empty lines are skipped. Every error of a line or of `use` becomes an InputError
+/// with file and line. Returns the number of lines, empty ones included.
 int forEachJsonLine(const std::filesystem::path& file, const std::function<void(const nlohmann::json&)>& use);
 
 /// [u_min, v_min, u_max, v_max], px.

@@ -46,7 +46,7 @@ class Grid {
   double resolution_;
 };
 
-// The known cells of `grid`, with what `other` says at the same places.
+// The known cells of `grid`, with the state of `other` at the same places.
 std::vector<Cell> knownCells(const Grid& grid, const Pose2& truth_from_grid, const Grid& other,
                              const Pose2& other_from_grid) {
   std::vector<Cell> out;
@@ -73,7 +73,7 @@ std::vector<Eigen::Vector2d> occupiedPlaces(const std::vector<Cell>& cells) {
 }
 
 struct Walls {
-  int all = 0, checked = 0, near = 0;  // checked: the other map knows the place
+  int all = 0, checked = 0, near = 0;  // checked: known in the other map, too
   ErrorStatistics distance_m;
 };
 

@@ -11,7 +11,7 @@ namespace roomgraph {
 struct NearestPoint::Index {
   struct Points {
     std::vector<Eigen::Vector2d> list;
-    // The names nanoflann asks for.
+    // Names that nanoflann requires.
     std::size_t kdtree_get_point_count() const { return list.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t axis) const { return list[i][static_cast<Eigen::Index>(axis)]; }
     template <class Bounds>

@@ -48,7 +48,7 @@ void compare(const EvaluatedObject& truth, const EvaluatedObject& landmark, cons
         std::abs(wrapAngle((landmark.yaw - truth.yaw) * rule.symmetry)) / rule.symmetry * kDegreesPerRadian;
 }
 
-// State of one comparison: the landmarks in the truth's world and what has been said about each.
+// State of one comparison: the landmarks in the truth's world and the verdict on each.
 class Comparison {
  public:
   Comparison(const Objects& truth, const Objects& landmarks, const ObjectOptions& options)
@@ -104,7 +104,7 @@ class Comparison {
     }
   }
 
-  // An unmatched landmark: says what the nearest true object within the gate makes of it.
+  // Verdict on an unmatched landmark by the nearest true object within the gate.
   void explain(const EvaluatedObject& landmark, LandmarkVerdict& verdict) const {
     double nearest = options_.gate_m;
     for (const auto& object : truth_) {
@@ -117,7 +117,7 @@ class Comparison {
       nearest = distance;
       verdict.truth = object.id;
       verdict.distance_m = distance;
-      // Of its own class and yet unmatched: another landmark has the object already.
+      // Of the same class, yet unmatched: another landmark is matched with the object.
       verdict.verdict = same_class && counts(object) ? Verdict::kDuplicate : Verdict::kUncounted;
     }
   }

@@ -35,7 +35,7 @@ Error errorOf(const Proposal& p, const ProposalCase& c) {
   return e;
 }
 
-// What is collected of a class before it is summed up.
+// Errors of a class, to be summarised.
 struct Samples {
   std::vector<double> center_top, center_best, yaw_top, yaw_best, iou_top, iou_best, nees, sigma;
   Eigen::Vector2d along_sum = Eigen::Vector2d::Zero();
@@ -92,7 +92,7 @@ ProposalFigures figuresOf(const Samples& s, int detections) {
   return f;
 }
 
-// Normalised error over the tilts about two axes in the plane and the height; the covariance of (normal,
+// Normalised squared error of the tilts about two axes in the plane and of the height; the covariance of (normal,
 // offset) has rank 3.
 double groundNees(const GroundEstimate& estimate, const Plane& truth) {
   const Eigen::Vector3d n = truth.normal;

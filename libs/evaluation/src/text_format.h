@@ -16,12 +16,12 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-/// One cell of a table: "-" where there is nothing to compute the value from.
+/// One cell of a table: "-" for an undefined value.
 inline std::string cell(double value, bool defined, const char* pattern) {
   return defined ? format(pattern, value) : "-";
 }
 
-/// The same in JSON: null.
+/// The same in JSON, with null.
 inline nlohmann::ordered_json orNull(double value, bool defined) {
   return defined ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

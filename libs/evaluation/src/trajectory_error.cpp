@@ -43,7 +43,7 @@ double medianSpacing(const std::vector<PosePair>& pairs) {
   return summarize(spacing).median;
 }
 
-// The pair that lies the asked distance after pair i; nothing where the data have a hole.
+// The pair at the given distance in time after pair i; nothing in a gap of the data.
 std::optional<std::size_t> partner(const std::vector<PosePair>& pairs, std::size_t i, double tolerance_s,
                                    const TrajectoryOptions& options) {
   if (options.rpe_delta_frames > 0) {

@@ -16,7 +16,7 @@ PinholeCamera PinholeCamera::scaled(double factor) const {
   out.height = static_cast<int>(std::lround(height * factor));
   out.fx *= factor;
   out.fy *= factor;
-  // Pixel centres have integer coordinates, so the image's corner (-0.5, -0.5) is what stays in place.
+  // Pixel centres have integer coordinates, so the image's corner (-0.5, -0.5) is the fixed point.
   out.cx = (cx + 0.5) * factor - 0.5;
   out.cy = (cy + 0.5) * factor - 0.5;
   return out;

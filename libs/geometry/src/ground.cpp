@@ -12,8 +12,7 @@ Plane groundInCamera(const Pose3& world_from_camera) {
 Pose3 cameraFromGround(const Plane& ground) {
   const Eigen::Vector3d up = ground.normal.normalized();
   Eigen::Vector3d forward = Eigen::Vector3d::UnitZ() - up.z() * up;
-  // Looking straight down or up: any horizontal direction will do; the image's up direction is the natural
-  // one.
+  // Optical axis vertical: its horizontal direction is undefined, the image's up direction takes its place.
   if (forward.norm() < 1e-6) forward = -Eigen::Vector3d::UnitY() + up.y() * up;
   forward.normalize();
   Pose3 pose = Pose3::Identity();

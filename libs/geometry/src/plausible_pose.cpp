@@ -14,7 +14,7 @@ std::string problemOf(const Pose3& pose, double rounding) {
 }
 
 std::string problemOf(const Pose2& pose) {
-  // The cosine of an angle of billions of turns is noise.
+  // Sine and cosine of a far larger angle are rounding noise.
   constexpr double kLargestAngle_rad = 1e6;
   if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.yaw))
     return "pose is not finite";

@@ -16,7 +16,7 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w) {
   const double angle = w.norm(), square = angle * angle;
   Eigen::Matrix3d cross;
   cross << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  // Below this the closed forms lose digits and two terms of their series are exact.
+  // For smaller angles the closed forms lose digits, and two terms of their series are exact.
   const bool small = angle < 1e-3;
   const double a = small ? 1.0 / 2 - square / 24 : (1 - std::cos(angle)) / square;
   const double b = small ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);

@@ -32,7 +32,7 @@ std::vector<std::uint8_t> inflated(const std::filesystem::path& file) {
     const std::size_t before = bytes.size();
     bytes.resize(before + kChunk);
     got = in.Read(bytes.data() + before, kChunk);
-    if (got > kChunk) got = 0;  // -1: damaged; what is missing is found out below
+    if (got > kChunk) got = 0;  // -1: damaged; the reader of the archive reports it
     bytes.resize(before + got);
   }
   return bytes;
@@ -56,7 +56,7 @@ mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& 
   }
 }
 
-// MRPT's own function for this goes by way of a temporary file, whose name two processes may have in common.
+// MRPT's own function writes a temporary file, whose name two processes may share.
 std::string gzipped(std::string_view bytes) {
   constexpr int kLevel = 6, kGzipWindow = 15 + 16, kMemory = 8;
   z_stream stream{};

@@ -12,11 +12,11 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPoseHorizon_s = 0.1;  ///< a scan may lie this far outside the trajectory's time span
+constexpr double kPoseHorizon_s = 0.1;  ///< a scan's stamp may be this far outside the trajectory's time span
 constexpr double kMargin_m = 0.5;       ///< unknown border around everything seen
 constexpr double kMaxCells = 4e8;       ///< 1 km x 1 km at 0.05 m
 
-/// Beams of one fan in world, cut at `max_range_m`: a return beyond it only says that the way there is free.
+/// Beams of one fan in world, cut at `max_range_m`: a return beyond it only makes the way there free.
 std::vector<Ray> raysInWorld(const RangeFan& fan, const Pose3& world_from_fan, double max_range_m) {
   std::vector<Ray> rays;
   rays.reserve(fan.ranges_m.size());

@@ -15,9 +15,9 @@ struct Ray {
   bool hit = false;  ///< false: only the way to `end` is known (free)
 };
 
-/// Enters beams into MRPT's log-odds grid. MRPT's own insertion of a scan cannot free a beam up to a range of
-/// its own without a return at its end, and lets neighbouring beams of one scan erase each other's returns on
-/// a wall seen at a grazing angle; here a scan changes a cell once, and a return outweighs a passing beam.
+/// Inserts beams into MRPT's log-odds grid. In MRPT's own insertion free space without a return has no limit per beam,
+/// and neighbouring beams of a scan erase each other's returns on a wall seen at a grazing angle; here a scan changes a
+/// cell once, and a return outweighs a passing beam.
 class RayGrid {
  public:
   /// The grid must cover every ray.

@@ -31,7 +31,7 @@ struct RosMap {
   bool negate = false;
 };
 
-// MRPT's reader is not used: it prints lines of its own about a broken file.
+// MRPT's reader is not used: it prints messages about a broken file.
 template <class T>
 T valueOf(const YAML::Node& yaml, const char* key) {
   if (!yaml[key]) throw std::runtime_error(std::string("'") + key + "' is missing");
@@ -93,7 +93,7 @@ void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::fi
 
 mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml) {
   const RosMap map = readYaml(yaml);
-  // Asked first, because OpenCV prints a warning about a missing file.
+  // Checked first, as OpenCV prints a warning about a missing file.
   const bool exists = std::filesystem::is_regular_file(map.image);
   const cv::Mat image = exists ? cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE) : cv::Mat();
   if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");

@@ -70,8 +70,9 @@ void CSemanticMap::serializeTo(CArchive& out) const {
 
 void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
   if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  bool has_occupancy = false;
-  in >> origin >> planar >> has_occupancy;
+  in >> origin;
+  planar = in.ReadAs<std::uint8_t>() != 0;  // as bytes: in a damaged file they may be neither 0 nor 1
+  const bool has_occupancy = in.ReadAs<std::uint8_t>() != 0;
   occupancy.reset();
   if (has_occupancy) {
     occupancy = mrpt::maps::COccupancyGridMap2D::Create();

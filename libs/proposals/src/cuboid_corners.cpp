@@ -8,10 +8,13 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kYaws = 12;                           // over a quarter turn
-constexpr int kCorners = 9;                         // positions of the first corner along the box's top
-constexpr double kPrune = 2.5;                      // standard deviations of the usual size
-constexpr double kShortest = 0.05, kFarthestCorner = 20;  // m
+constexpr int kYaws = 12;                   // samples over a quarter turn
+constexpr int kCorners = 9;                 // samples of the first corner's position along the box's top
+constexpr double kSizeGate = 2.5;           // standard deviations from the usual size
+constexpr double kLeastSizeSigma_m = 0.02;  // of the usual size: the construction itself is no more accurate
+constexpr double kShortestEdge_m = 0.05;    // a shorter bottom edge is seen nearly end-on
+constexpr double kCornerSlack_px = 1;       // a corner may lie this far outside the box
+constexpr double kParallel = 1e-9;          // relative; smaller: two lines of the image are parallel
 
 using Line = Eigen::Vector3d;  // homogeneous
 Eigen::Vector3d homogeneous(double u, double v) {
@@ -25,12 +28,12 @@ Line row(double v) {
 }
 std::optional<Eigen::Vector2d> meet(const Line& a, const Line& b) {
   const Eigen::Vector3d p = a.cross(b);
-  if (std::abs(p.z()) < 1e-9 * p.norm()) return std::nullopt;
+  if (std::abs(p.z()) < kParallel * p.norm()) return std::nullopt;
   return Eigen::Vector2d(p.head<2>() / p.z());
 }
 
-/// The two horizontal directions of a cuboid that lead away from the viewer, ground frame, and the image
-/// points where lines along them and along the vertical meet.
+/// The two horizontal axes of a cuboid, pointing away from the camera (ground frame), and the vanishing points of
+/// both and of the vertical.
 struct Axes {
   Eigen::Vector2d left, right;
   Eigen::Vector3d vanish_left, vanish_right, vanish_up;
@@ -38,7 +41,7 @@ struct Axes {
 
 Axes axesAt(double angle, const BoxEvidence& e) {
   const double ahead = bearingOf(e);
-  // Between straight ahead and a quarter turn to the left, so that the other one leads to the right.
+  // The left axis is within a quarter turn to the left of the viewing direction, hence the other one to the right.
   const double left = ahead + angle, right = left - std::numbers::pi / 2;
   Axes a;
   a.left = {std::cos(left), std::sin(left)};
@@ -54,12 +57,12 @@ std::optional<Eigen::Vector2d> onGround(const Eigen::Vector2d& pixel, const BoxE
   const auto hit = intersect(e.camera.ray(pixel.x(), pixel.y()), e.ground);
   if (!hit) return std::nullopt;
   const Eigen::Vector3d p = e.camera_from_ground.inverse() * *hit;
-  if (p.norm() > kFarthestCorner) return std::nullopt;
+  if (p.norm() > kFarthestGround_m) return std::nullopt;
   return Eigen::Vector2d(p.head<2>());
 }
 
-// Top of the vertical edge nearest to the camera, from the first corner on the box's top side: the corner
-// itself when the camera is not above the object (the nearest corner is the highest in the image); else the
+// Top of the vertical edge nearest to the camera, from the first corner on the box's top side. With the camera below
+// the top face the nearest corner is the highest in the image: the first corner itself. With the camera above it the
 // first corner is the farthest one, and vanishing lines lead from it over the box's sides to the nearest.
 std::optional<Eigen::Vector2d> nearTop(double u, const Axes& a, const BoxEvidence& e) {
   const Eigen::Vector3d first = homogeneous(u, e.box.v_min);
@@ -71,8 +74,8 @@ std::optional<Eigen::Vector2d> nearTop(double u, const Axes& a, const BoxEvidenc
               homogeneous(right->x(), right->y()).cross(a.vanish_right));
 }
 
-// Length of the bottom edge from the nearest corner to the box's side; nothing when that side of the object
-// is not seen or is cut.
+// Length of the bottom edge from the nearest corner to the box's side; nothing when that face is not seen or the side
+// is cut.
 std::optional<double> lengthTo(double side, bool cut, const Eigen::Vector2d& near_pixel,
                                const Eigen::Vector2d& near, const Eigen::Vector2d& axis,
                                const Eigen::Vector3d& vanish, const BoxEvidence& e) {
@@ -82,14 +85,14 @@ std::optional<double> lengthTo(double side, bool cut, const Eigen::Vector2d& nea
   const auto point = onGround(*end, e);
   if (!point) return std::nullopt;
   const double length = axis.dot(*point - near);
-  return length > kShortest ? std::optional(length) : std::nullopt;
+  return length > kShortestEdge_m ? std::optional(length) : std::nullopt;
 }
 
 bool usual(double value, double nominal, double sigma) {
-  return std::abs(value - nominal) <= kPrune * std::max(sigma, 0.02);
+  return std::abs(value - nominal) <= kSizeGate * std::max(sigma, kLeastSizeSigma_m);
 }
 
-/// Nearest bottom corner on the ground and what is known of the sizes from it.
+/// Nearest bottom corner on the ground, and the sizes measured from it.
 struct Corner {
   Eigen::Vector2d near = Eigen::Vector2d::Zero();
   std::optional<double> left, right;
@@ -100,7 +103,8 @@ std::optional<Corner> cornerAt(double u, const Axes& a, const BoxEvidence& e) {
   const auto top = nearTop(u, a, e);
   if (!top) return std::nullopt;
   const auto bottom = meet(homogeneous(top->x(), top->y()).cross(a.vanish_up), row(e.box.v_max));
-  if (!bottom || bottom->x() < e.box.u_min - 1 || bottom->x() > e.box.u_max + 1) return std::nullopt;
+  if (!bottom || bottom->x() < e.box.u_min - kCornerSlack_px || bottom->x() > e.box.u_max + kCornerSlack_px)
+    return std::nullopt;
   const auto near = onGround(*bottom, e);
   if (!near) return std::nullopt;
   Corner c;
@@ -113,7 +117,7 @@ std::optional<Corner> cornerAt(double u, const Axes& a, const BoxEvidence& e) {
   return c;
 }
 
-// The width lies along the left axis, or along the right one; the front looks at the camera.
+// The width is measured along the left axis, or along the right one; the front faces the camera.
 std::optional<PlacedShape> placeAt(const Corner& c, bool width_left, const Axes& a, const BoxEvidence& e) {
   const ObjectModel& m = *e.model;
   const double left = c.left.value_or(width_left ? m.width_m : m.depth_m),

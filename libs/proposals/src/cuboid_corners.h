@@ -8,11 +8,11 @@
 
 namespace roomgraph {
 
-/// Cuboids from vanishing points (CubeSLAM's construction, method.md sec. 1.B): for sampled yaw the first
-/// corner walks along the box's top side; vanishing lines and the box's sides give the nearest vertical edge
-/// and both bottom edges from it, which the ground plane brings into space. Where a side is cut or the face
-/// is not seen the usual size is taken; other sizes must be usual. The front looks at the camera. Empty when
-/// the box's bottom is cut.
+/// Cuboids from vanishing points (CubeSLAM's construction, method.md sec. 1.B): yaw and the position of a
+/// first corner on the box's top side are sampled; vanishing lines and the box's sides give the nearest vertical edge
+/// and the two bottom edges from it, which are projected onto the ground plane. A size whose face is not seen or is
+/// cut is the usual one; cuboids with other unusual sizes are dropped. The front faces the camera. Empty when the
+/// box's bottom is cut.
 std::vector<PlacedShape> cuboidsFromCorners(const BoxEvidence& evidence);
 
 }  // namespace roomgraph

@@ -16,28 +16,34 @@ IMPLEMENTS_MRPT_OBJECT(CuboidGenerator, ShapeGenerator, roomgraph)
 
 namespace {
 
-// Without depth there are hundreds of starts, most of them nearly the same.
+// Without depth there are hundreds of initial guesses, most of them nearly the same.
 constexpr SamePlace kBlindStarts{0.15, 0.2};
+constexpr double kMostOverUsual = 2;             // standard deviations by which an observed size may exceed the usual
+constexpr double kSideways = 0.5;                // sine of the angle to the view from which an axis runs across it
+constexpr std::size_t kFootprintPoints = 250;    // enough for two lines; more only cost time
+constexpr int kContactYaws = 8;                  // samples over a full turn
+constexpr double kLeastContactDistance_m = 0.1;  // nearer to the point below the camera the direction is undefined
 
-// One axis of the model: the observed extent when it is as long as usual; otherwise the usual size, grown
-// from the side that is seen: `grow` is the sign of the direction.
+// One axis of the model: the observed extent when it is at least as long as usual; otherwise the usual size, extended
+// from the visible side in the direction `grow` (+1 or -1).
 struct AxisFit {
   double center = 0, size = 0;
 };
 
 AxisFit fitAxis(double center, double observed, double usual, double sigma, double grow) {
-  if (observed >= usual - sigma) return {center, std::min(observed, usual + 2 * sigma)};
+  if (observed >= usual - sigma) return {center, std::min(observed, usual + kMostOverUsual * sigma)};
   return {center + grow * (usual - observed) / 2, usual};
 }
 
-// Unseen parts lie out of the image, when the box is cut on one side and the axis runs sideways; else behind.
+// The unseen part is outside the image when one side of the box is cut and the axis runs sideways; else behind.
 double growDirection(const Eigen::Vector2d& axis, const Eigen::Vector2d& center, const BoxEvidence& e) {
-  const double leftwards = (center.x() * axis.y() - center.y() * axis.x()) / std::max(center.norm(), 0.1);
-  if (e.cut.left != e.cut.right && std::abs(leftwards) > 0.5) return (leftwards > 0) == e.cut.left ? 1 : -1;
+  const double distance = std::max(center.norm(), kLeastContactDistance_m);
+  const double leftwards = (center.x() * axis.y() - center.y() * axis.x()) / distance;
+  if (e.cut.left != e.cut.right && std::abs(leftwards) > kSideways) return (leftwards > 0) == e.cut.left ? 1 : -1;
   return axis.dot(center) > 0 ? 1 : -1;
 }
 
-// `quarter` turns of the rectangle's first axis give the front direction.
+// The front is the rectangle's first axis, turned by `quarter` right angles.
 PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvidence& e) {
   const ObjectModel& m = *e.model;
   const double yaw = r.yaw + quarter * std::numbers::pi / 2;
@@ -61,7 +67,7 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
 
 std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
   std::vector<Eigen::Vector2d> points;
-  const std::size_t step = 1 + e.mask.points.size() / 250;  // enough for two lines
+  const std::size_t step = 1 + e.mask.points.size() / kFootprintPoints;
   for (std::size_t i = 0; i < e.mask.points.size(); i += step)
     points.push_back(e.mask.points[i].in_ground.head<2>());
   std::vector<PlacedShape> out;
@@ -71,16 +77,17 @@ std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
   return out;
 }
 
-// Without depth: the nearest corner or side touches the ground at the box's bottom; yaw is sampled relative
-// to the viewing direction and the box's sides decide.
+// Without depth: the nearest corner or side meets the ground at the box's bottom; yaw is sampled relative to the
+// viewing direction, and the fit to the box's sides decides.
 std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   std::vector<PlacedShape> out;
   const auto contact = contactPoint(e);
-  if (!contact || contact->norm() < 0.1 || !e.model->rests_on_ground) return out;
+  if (!contact || contact->norm() < kLeastContactDistance_m || !e.model->rests_on_ground) return out;
   const Eigen::Vector2d ahead = contact->normalized();
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < kContactYaws; ++k) {
     PlacedShape placed = usualShape(e);
-    placed.yaw = wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + k * std::numbers::pi / 4);
+    placed.yaw =
+        wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + 2 * k * std::numbers::pi / kContactYaws);
     double reach = 0;
     for (const auto& corner : footprint(placed.shape))
       reach = std::max(reach, ahead.dot(Pose2{0, 0, placed.yaw} * corner));
@@ -94,10 +101,9 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
   return out;
 }
 
-// Neither depth nor a visible bottom: as far as the usual width looks as wide as the box, front to the
-// camera.
+// Without depth and visible bottom: at the range where the usual width is as wide as the box, front to the camera.
 std::vector<PlacedShape> guessFromSize(const BoxEvidence& e) {
-  if (e.cut.left || e.cut.right || halfAngleOf(e) < 1e-3) return {};
+  if (e.cut.left || e.cut.right || halfAngleOf(e) < kLeastHalfAngle_rad) return {};
   const double bearing = bearingOf(e),
                range = e.model->width_m / 2 / std::tan(halfAngleOf(e)) + e.model->depth_m / 2;
   PlacedShape placed = usualShape(e);

@@ -15,11 +15,11 @@ IMPLEMENTS_MRPT_OBJECT(CylinderGenerator, ShapeGenerator, roomgraph)
 
 namespace {
 
-// The box's bottom side touches the near rim of the base; chair feet rarely point straight at the camera.
+// Share of the radius between the axis and the point that the box's bottom side touches: below 1, as chair feet rarely
+// point straight at the camera.
 constexpr double kRim = 0.9;
-constexpr double kFarthestAxis = 20;  // m; beyond, a pixel of the box's bottom is metres
-constexpr double kNearest = 0.03, kFarthest = 0.97;  // quantiles that stand for the ends of noisy points
-// Starts from the leg's line that go into the fit: how many, how far apart, and their least IoU with the box.
+constexpr double kNearest = 0.03, kFarthest = 0.97;  // quantiles taken for the ends of noisy points
+// Initial guesses from the leg's line that are fitted: their number, distance, and least IoU with the box.
 constexpr int kLegStarts = 2;
 constexpr double kLegSpacing_m = 0.15, kLegIou = 0.3;
 
@@ -31,8 +31,8 @@ PlacedShape placeAt(double bearing, double range, const BoxEvidence& e, const ch
   return placed;
 }
 
-// Range of the axis from the points: half of what is seen lies before the axis only when the whole depth of
-// the object is seen; of a closed surface one sees the front, which is a radius nearer than the axis.
+// Range of the axis from the points: the middle between nearest and farthest only when the whole depth of the object
+// is seen; of a closed surface only the front is, a radius nearer than the axis.
 double rangeFromPoints(const BoxEvidence& e, double bearing) {
   const Eigen::Vector2d ahead(std::cos(bearing), std::sin(bearing));
   std::vector<double> along;
@@ -43,7 +43,7 @@ double rangeFromPoints(const BoxEvidence& e, double bearing) {
   return rear > front ? (front + rear) / 2 : front;
 }
 
-// Bearing of the box's middle; with a side cut by the border, of the points' middle.
+// Bearing of the box's middle; when a side is cut, of the points' middle.
 double bearingOfObject(const BoxEvidence& e) {
   if ((!e.cut.left && !e.cut.right) || e.mask.points.empty()) return bearingOf(e);
   std::vector<double> bearings;
@@ -51,16 +51,16 @@ double bearingOfObject(const BoxEvidence& e) {
   return (quantile(bearings, kNearest) + quantile(bearings, kFarthest)) / 2;
 }
 
-// Where a pixel of the box's bottom line meets the ground, ground frame.
+// Where the ray through a pixel meets the ground, ground frame.
 std::optional<Eigen::Vector2d> onGround(double u, double v, const BoxEvidence& e) {
   const auto point = intersect(e.camera.ray(u, v), e.ground);
-  if (!point || point->norm() > kFarthestAxis) return std::nullopt;
+  if (!point || point->norm() > kFarthestGround_m) return std::nullopt;
   return Eigen::Vector2d((e.camera_from_ground.inverse() * *point).head<2>());
 }
 
-// The paper's own path: the leg's line extended to the bottom line of the box meets the ground; the box's
-// bottom touches the near rim. Without a clear leg several bottom points vote, each moved up in steps, for
-// the axis itself.
+// The paper's method: the leg's line, extended to the bottom side of the box, meets the ground there at the near rim.
+// Without a clear leg each of several steep segments gives a column, and points at several heights of it are taken for
+// the foot of the axis.
 std::vector<PlacedShape> guessesFromLeg(const BoxEvidence& e) {
   constexpr int kSteps = 4;
   constexpr double kStep = 0.04;  // of the box's height
@@ -89,11 +89,11 @@ std::vector<PlacedShape> cylinderGuesses(const BoxEvidence& e) {
   if (!e.mask.points.empty()) out.push_back(placeAt(bearing, rangeFromPoints(e, bearing), e, "depth"));
   if (const auto contact = contactPoint(e); contact && e.model->rests_on_ground)
     out.push_back(placeAt(bearing, contact->norm() + kRim * radius, e, "contact"));
-  // The leg tells more than the box's middle where there is no depth or one of the sides is not seen.
+  // Without depth, or with a side cut, the leg is more accurate than the box's middle.
   if (e.mask.points.empty() || e.cut.left || e.cut.right)
     for (const PlacedShape& placed : guessesFromLeg(e)) out.push_back(placed);
-  // Neither depth nor a visible bottom: as far as the usual size looks as wide as the box.
-  if (out.empty() && !e.cut.left && !e.cut.right && halfAngleOf(e) > 1e-3)
+  // Without depth and visible bottom: at the range where the usual size is as wide as the box.
+  if (out.empty() && !e.cut.left && !e.cut.right && halfAngleOf(e) > kLeastHalfAngle_rad)
     out.push_back(placeAt(bearing, radius / std::sin(halfAngleOf(e)), e, "size"));
   return out;
 }

@@ -16,10 +16,24 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kShrink = 0.02;        // of the box's size, per side: its rim is background
-constexpr double kVoxel = 0.05;         // m
-constexpr double kLinkDistance = 0.09;  // m, between voxels of one object
+constexpr double kShrink = 0.02;          // of the box's size, per side: its rim is background
+constexpr double kVoxel = 0.05;           // m
+constexpr double kLinkDistance = 0.09;    // m, between voxels of one object
+constexpr double kLinkPerSpacing = 2;     // added to it, on the distance of neighbouring samples …
+constexpr double kLinkPerNoise = 2;       // … and on the depth noise
 constexpr std::size_t kLeastPoints = 8;
+// Points nearer to the ground are taken for floor: a constant, and a factor on the depth noise.
+constexpr double kFloor_m = 0.03, kFloorPerNoise = 2;
+// Points higher above the class's usual height do not belong to it: a constant, and standard deviations of the height.
+constexpr double kCeiling_m = 0.1, kCeilingSigmas = 3;
+// How well a cluster explains the box (`explains`). A cluster that hardly fills the box may still be the object; the
+// other two favour the middle of the box and the nearer of two clusters.
+constexpr double kFillOffset = 0.2, kOffsetWeight = 2, kRangeWeight_per_m = 0.15;
+constexpr double kLowEnd = 0.05, kHighEnd = 0.95;  // quantiles taken for the ends of a cluster
+// Back rest: its least share of the main cluster's points, the quantile of its heights taken for its top, and how far
+// beyond the object's mean half extent its middle may be.
+constexpr double kBackRestShare = 0.05, kBackRestTop = 0.9, kBackRestSlack_m = 0.1;
+constexpr double kPartSlack_m = 0.05;  // beyond half of the usual size, for other parts of the object
 
 bool maskedOut(const Detection& detection, int u, int v) {
   if (detection.mask.empty()) return false;
@@ -106,7 +120,8 @@ Box2 boundsOf(const std::vector<MaskPoint>& points) {
   return bounds;
 }
 
-// Large, filling the box, central in it; of equals the nearer (what is behind cannot hide it).
+// Larger for a cluster that has many points, fills the box, is in its middle, and is near (what is behind cannot hide
+// the object).
 double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
   double range = 0;
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
@@ -117,7 +132,8 @@ double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
   }
   const double n = static_cast<double>(cluster.points.size());
   const double share = n / static_cast<double>(total), fill = iou(boundsOf(cluster.points), box);
-  return std::sqrt(share) * (0.2 + fill) * std::exp(-2 * (offset / n).squaredNorm()) / (1 + 0.15 * range / n);
+  return std::sqrt(share) * (kFillOffset + fill) * std::exp(-kOffsetWeight * (offset / n).squaredNorm()) /
+         (1 + kRangeWeight_per_m * range / n);
 }
 
 Eigen::Vector2d middleOf(const DepthMask& mask) {
@@ -126,14 +142,14 @@ Eigen::Vector2d middleOf(const DepthMask& mask) {
     x.push_back(p.in_ground.x());
     y.push_back(p.in_ground.y());
   }
-  return {(quantile(x, 0.05) + quantile(x, 0.95)) / 2, (quantile(y, 0.05) + quantile(y, 0.95)) / 2};
+  return {(quantile(x, kLowEnd) + quantile(x, kHighEnd)) / 2, (quantile(y, kLowEnd) + quantile(y, kHighEnd)) / 2};
 }
 
-// Whether a cluster is the object's high back: parted from the seat by a surface seen at a grazing angle.
+// Whether a cluster is the object's back rest, separated from the seat by a surface seen at a grazing angle.
 bool isBackRest(const DepthMask& part, const Eigen::Vector2d& middle, std::size_t main_size,
             const ObjectModel& model) {
   if (model.frontRule() != FrontRule::kHighBack ||
-      part.points.size() < 0.05 * static_cast<double>(main_size))
+      part.points.size() < kBackRestShare * static_cast<double>(main_size))
     return false;
   std::vector<double> heights;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -141,16 +157,16 @@ bool isBackRest(const DepthMask& part, const Eigen::Vector2d& middle, std::size_
     heights.push_back(p.in_ground.z());
     mean += p.in_ground.head<2>() / static_cast<double>(part.points.size());
   }
-  return quantile(heights, 0.9) < model.height_m + model.height_sigma_m &&
-         (mean - middle).norm() < (model.width_m + model.depth_m) / 4 + 0.1;
+  return quantile(heights, kBackRestTop) < model.height_m + model.height_sigma_m &&
+         (mean - middle).norm() < (model.width_m + model.depth_m) / 4 + kBackRestSlack_m;
 }
 
-// Parts apart from the main cluster that lie within the usual size around its middle.
+// Adds the points of other clusters that lie within the usual size around the main cluster's middle.
 void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::size_t skip,
                  const ObjectModel& model) {
   const Eigen::Vector2d middle = middleOf(main);
   const std::size_t main_size = main.points.size();
-  const double reach = std::min(model.width_m, model.depth_m) / 2 + 0.05;
+  const double reach = std::min(model.width_m, model.depth_m) / 2 + kPartSlack_m;
   for (std::size_t k = 0; k < others.size(); ++k) {
     if (k == skip) continue;
     const bool whole = isBackRest(others[k], middle, main_size, model);
@@ -186,20 +202,22 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
 std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
                                     double focal_px, int max_count) {
   std::vector<DepthMask> out;
-  const double ceiling = model.rests_on_ground ? model.height_m + 3 * model.height_sigma_m + 0.1
-                                               : std::numeric_limits<double>::infinity();
+  const double ceiling = model.rests_on_ground
+                             ? model.height_m + kCeilingSigmas * model.height_sigma_m + kCeiling_m
+                             : std::numeric_limits<double>::infinity();
   std::vector<MaskPoint> standing;
   std::vector<double> ranges;
   for (const auto& p : all.points) {
-    const double range = p.in_ground.norm(), floor = 0.03 + 2 * depthSigma(range);
+    const double range = p.in_ground.norm(), floor = kFloor_m + kFloorPerNoise * depthSigma(range);
     if (p.in_ground.z() < floor || p.in_ground.z() > ceiling) continue;
     standing.push_back(p);
     ranges.push_back(range);
   }
   if (standing.size() < kLeastPoints) return out;
   const double spacing = std::sqrt(box.area() / static_cast<double>(all.points.size())) / focal_px;
-  const double noise = quantile(ranges, 0.5);
-  const auto parts = clusters(standing, kLinkDistance + 2 * spacing * noise + 2 * depthSigma(noise));
+  const double range = quantile(ranges, 0.5);
+  const auto parts =
+      clusters(standing, kLinkDistance + kLinkPerSpacing * spacing * range + kLinkPerNoise * depthSigma(range));
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < parts.size(); ++k)
     order.emplace_back(-explains(parts[k], standing.size(), box), k);

@@ -16,10 +16,10 @@ namespace roomgraph {
 DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
                     int max_points = 800);
 
-/// Removes the ground and what is higher than the class can be, clusters the rest (Euclidean distance) and returns the
-/// clusters that explain the box, best first, at most `max_count`: large, central, filling the box, not behind others.
-/// When the first is an occluder, the object is the next. Parts of the object that are apart from its cluster (a seat
-/// above a thin leg) are taken in when they lie within the nominal size.
+/// Removes the ground and points higher than the class can be, clusters the rest (Euclidean distance) and returns the
+/// clusters that explain the box best (large, central, filling the box, not behind others), best first, at most
+/// `max_count`. When the first is an occluder, the object is the next. Parts of the object separated from its cluster
+/// (a seat above a thin leg) are added to it when they lie within the usual size.
 std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
                                     double focal_px, int max_count);
 

@@ -8,18 +8,18 @@ IMPLEMENTS_MRPT_OBJECT(DepthGroundDetector, GroundDetector, roomgraph)
 IMPLEMENTS_MRPT_OBJECT(ExpectedGroundDetector, GroundDetector, roomgraph)
 
 void DepthGroundDetector::declareParameters(ParameterVisitor& v) {
-  v.add("max_angle_error", search_.max_angle_error,
-        {.doc = "Largest angle between the seen and the expected ground normal.",
+  v.add("max_angle_error_rad", search_.max_angle_error_rad,
+        {.doc = "Largest angle between the measured and the expected ground normal.",
          .unit = "rad",
          .min = 0,
          .max = 1.5});
   v.add("max_height_error_m", search_.max_height_error_m,
-        {.doc = "Largest difference between the seen and the expected height of the camera.",
+        {.doc = "Largest difference between the measured and the expected height of the camera.",
          .unit = "m",
          .min = 0,
          .max = 2});
   v.add(
-      "max_tilt", search_.max_tilt,
+      "max_tilt_rad", search_.max_tilt_rad,
       {.doc =
            "Without an expected ground: largest angle between the ground normal and the upward direction of "
            "the image.",

@@ -18,7 +18,7 @@ class DepthGroundDetector : public GroundDetector {
   GroundSearch search_;
 };
 
-/// Does not look at the depth image: the expected plane is taken as it is.
+/// Without depth: the expected plane is used unchanged.
 class ExpectedGroundDetector : public GroundDetector {
   DEFINE_MRPT_OBJECT(ExpectedGroundDetector, roomgraph)
  public:

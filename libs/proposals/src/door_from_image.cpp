@@ -10,38 +10,45 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kFarthestDoor = 20;                          // m
-constexpr double kLeastTilt = 0.003;                      // rad, of a ground plane that was seen
-constexpr double kLeastSlope = 0.02;                      // of a ray against the horizon
-constexpr double kSegment_px = 1.5;                       // of a segment's ends in the reduced image
-constexpr double kLevelFloor = 0.03, kVagueLevel = 0.35;  // rad, of a segment's direction
-constexpr double kWidthDirection = 0.35;                  // rad, of one that only the usual width gives
-constexpr std::size_t kDirections = 5;
+constexpr double kLeastTilt = 0.003;      // rad, standard deviation of a measured ground normal
+constexpr double kLeastSlope = 0.02;      // of a ray against the horizon; flatter ones tell no range
+constexpr double kLeastHeight_m = 0.1;    // of a point above or below the camera, for the same reason
+constexpr double kSegment_px = 1.5;       // standard deviation of a segment's ends in the reduced image
+constexpr double kLevelFloor = 0.03;      // rad, least standard deviation of a segment's direction
+constexpr double kVagueLevel = 0.35;      // rad, the largest that is used
+constexpr double kWidthDirection = 0.35;  // rad, standard deviation of a direction that the usual width gives
+constexpr std::size_t kDirections = 5;    // the most accurate ones are tried
+constexpr double kSteepSegment = 0.15;    // horizontal by vertical extent, of a line that is vertical in space
+// Segment taken for the door frame's edge: its least length, by the box's height, and its largest distance from the
+// box's side, by the box's width.
+constexpr double kFrameLength = 0.3, kFrameDistance = 0.12;
+constexpr double kNearerSlack = 0.98;  // ratio of the ranges from which the other side counts as the farther one
 
 Eigen::Vector3d rayInGround(const BoxEvidence& e, double u, double v) {
   return e.camera_from_ground.linear().transpose() * e.camera.ray(u, v);
 }
 
-// A point `height` above or below the camera, seen at a slope with an error in angle and height.
+// Range of a point `height` above or below the camera, m, seen at a slope; both sigmas are standard deviations.
 std::optional<Measured> rangeOf(double height, double slope, double angle_sigma, double height_sigma) {
-  if (height <= 0.1 || slope < kLeastSlope) return std::nullopt;
+  if (height <= kLeastHeight_m || slope < kLeastSlope) return std::nullopt;
   const double range = height / slope;
-  if (range > kFarthestDoor) return std::nullopt;
+  if (range > kFarthestGround_m) return std::nullopt;
   return Measured{range, std::hypot(range * (slope + 1 / slope) * angle_sigma, height_sigma / slope)};
 }
 
-// The frame's edge near a side of the box: the longest steep segment there; else the side itself.
+// Column of the door frame's edge near a side of the box: that of the longest steep segment; else of the side itself.
 double frameEdge(const BoxEvidence& e, double side) {
   for (const Segment2& s : e.segments) {  // longest first
     const Eigen::Vector2d along = s.b - s.a;
-    if (std::abs(along.x()) < 0.15 * std::abs(along.y()) && along.norm() > 0.3 * e.box.height() &&
-        std::abs((s.a.x() + s.b.x()) / 2 - side) < 0.12 * e.box.width())
+    if (std::abs(along.x()) < kSteepSegment * std::abs(along.y()) &&
+        along.norm() > kFrameLength * e.box.height() &&
+        std::abs((s.a.x() + s.b.x()) / 2 - side) < kFrameDistance * e.box.width())
       return (s.a.x() + s.b.x()) / 2;
   }
   return side;
 }
 
-// The nearer side of a door and what lies at the other side of the box.
+// The nearer side of a door, and the direction in which the other side of the box is seen.
 struct Sides {
   Eigen::Vector2d near = Eigen::Vector2d::Zero();  ///< ground frame
   Eigen::Vector2d far = Eigen::Vector2d::Zero();   ///< unit direction to the other side
@@ -73,7 +80,7 @@ std::optional<PlacedShape> through(const Sides& sides, const Eigen::Vector2d& di
   return placed;
 }
 
-// Whether the line from the nearer side meets the other one's line of sight farther away.
+// Whether a door from the nearer side in this direction ends, in line with the other side, farther from the camera.
 bool goesAway(const Sides& sides, const Eigen::Vector2d& direction) {
   const Eigen::Vector2d normal(-direction.y(), direction.x());
   const double across = normal.dot(sides.far);
@@ -96,7 +103,7 @@ void addLevelLines(const std::vector<Sides>& sides, const BoxEvidence& e, std::v
     }
 }
 
-// The other side is a usual width away from the nearer one: |s far - near| = width has up to two solutions.
+// The sides are the usual width apart: |s far - near| = width has up to two solutions.
 void addUsualWidth(const std::vector<Sides>& sides, const BoxEvidence& e, std::vector<PlacedShape>& out) {
   if (e.cut.left || e.cut.right) return;
   const double width = e.model->width_m;
@@ -105,7 +112,7 @@ void addUsualWidth(const std::vector<Sides>& sides, const BoxEvidence& e, std::v
     const double root = width * width - side.near.squaredNorm() + middle * middle;
     if (root < 0) continue;
     for (const double s : {middle - std::sqrt(root), middle + std::sqrt(root)}) {
-      if (s < 0.98 * side.near.norm()) continue;
+      if (s < kNearerSlack * side.near.norm()) continue;
       const Eigen::Vector2d direction = (s * side.far - side.near).normalized();
       if (auto placed = through(side, direction, kWidthDirection, "usual width", e))
         out.push_back(std::move(*placed));
@@ -113,7 +120,7 @@ void addUsualWidth(const std::vector<Sides>& sides, const BoxEvidence& e, std::v
   }
 }
 
-// Nothing but the range: facing the camera.
+// Only the range is known: the door faces the camera.
 void addFacing(const std::vector<Sides>& sides, const BoxEvidence& e, std::vector<PlacedShape>& out) {
   if (sides.empty()) return;
   Sides middle = sides.front();
@@ -139,7 +146,7 @@ std::optional<Measured> sideRange(const BoxEvidence& e, double u) {
   if (!e.cut.bottom) bottom = rangeOf(height, -slope(e.box.v_max), angle, 0);
   if (!e.cut.top)
     top = rangeOf(e.model->height_m - height, slope(e.box.v_min), angle,
-                  std::max(0.02, e.model->height_sigma_m));
+                  std::max(kLeastDoorSigma_m, e.model->height_sigma_m));
   if (!bottom || !top) return bottom ? bottom : top;
   const double a = std::pow(bottom->sigma, -2), b = std::pow(top->sigma, -2);
   return Measured{(a * bottom->value + b * top->value) / (a + b), std::sqrt(1 / (a + b))};
@@ -147,7 +154,7 @@ std::optional<Measured> sideRange(const BoxEvidence& e, double u) {
 
 std::optional<Measured> levelDirection(const Segment2& s, const BoxEvidence& e, double pixel) {
   const Eigen::Vector2d along = s.b - s.a;
-  if (std::abs(along.x()) < 0.15 * std::abs(along.y())) return std::nullopt;
+  if (std::abs(along.x()) < kSteepSegment * std::abs(along.y())) return std::nullopt;
   const Eigen::Vector3d a = rayInGround(e, s.a.x(), s.a.y()), b = rayInGround(e, s.b.x(), s.b.y());
   const Eigen::Vector3d normal = a.cross(b).normalized();
   const double level = normal.head<2>().norm();  // 0: the segment lies on the horizon

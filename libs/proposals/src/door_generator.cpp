@@ -17,9 +17,11 @@ IMPLEMENTS_MRPT_OBJECT(DoorGenerator, ShapeGenerator, roomgraph)
 namespace {
 
 constexpr double kMinHeight = 0.15;  // m; lower points may be floor
+constexpr double kInset = 0.08;      // of the box's width, at both sides: there the points are the door frame's
+constexpr double kHeightGate = 2;    // standard deviations by which the height may differ from the usual
 
 std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
-  const double inset = 0.08 * e.box.width();  // the frame's edges belong to the wall
+  const double inset = kInset * e.box.width();
   std::vector<Eigen::Vector2d> points;
   for (const auto& p : e.all.points)
     if (p.in_ground.z() > kMinHeight && p.u > e.box.u_min + inset && p.u < e.box.u_max - inset)
@@ -27,7 +29,7 @@ std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
   return points;
 }
 
-// Adjusts the height to the box's top when that is in view: it is where the door's nearer side ends.
+// Adjusts the height to the box's top side when it is not cut: the top of the door's nearer side is seen there.
 void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
   if (e.cut.top) return;
   const Eigen::Vector2d half =
@@ -39,9 +41,9 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
   const double seen =
       e.camera_from_ground.inverse().translation().z() + ray.z() / ray.head<2>().norm() * range;
   const double seen_sigma = range / e.camera.fy * sideSigma(e.box.height());
-  const double usual = e.model->height_m, sigma = std::max(0.02, e.model->height_sigma_m);
+  const double usual = e.model->height_m, sigma = std::max(kLeastDoorSigma_m, e.model->height_sigma_m);
   const double gain = sigma * sigma / (sigma * sigma + seen_sigma * seen_sigma);
-  placed.shape.height = usual + std::clamp(gain * (seen - usual), -2 * sigma, 2 * sigma);
+  placed.shape.height = usual + std::clamp(gain * (seen - usual), -kHeightGate * sigma, kHeightGate * sigma);
 }
 
 }  // namespace

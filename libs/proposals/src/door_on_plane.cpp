@@ -9,9 +9,11 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kEdgeOn = 0.03;                    // sine of the angle between a line of sight and the plane
-constexpr double kVague_m = 3;                      // centre of an interval neither end of which was seen
-constexpr double kDoubt_m = 0.3, kDoubt_rad = 0.5;  // of a plane that few of the points lie on
+constexpr double kEdgeOn = 0.03;       // least sine of the angle between a line of sight and the plane
+constexpr double kVague_m = 3;         // standard deviation of the centre when neither end was seen
+constexpr double kLeastWidth_m = 0.2;  // no door is narrower
+// Standard deviations added when hardly any of the points are inliers of the plane; less by the square of their share.
+constexpr double kDoubt_m = 0.3, kDoubt_rad = 0.5;
 
 // Where a column of the image meets the plane: coordinate along it, and its change per pixel.
 struct ColumnHit {
@@ -30,7 +32,7 @@ std::optional<ColumnHit> columnOnPlane(const BoxEvidence& e, const VerticalPlane
 SeenInterval seenBetween(const ColumnHit& left, const ColumnHit& right, const BoxEvidence& e) {
   const double px = sideSigma(e.box.width());
   SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut.left, e.cut.right};
-  // The coordinate along the plane grows to the right of the image, or to the left.
+  // Depending on the side of the plane, its coordinate grows to the right of the image or to the left.
   if (out.low > out.high) {
     std::swap(out.low, out.high);
     std::swap(out.low_sigma, out.high_sigma);
@@ -59,13 +61,13 @@ Interval solve(const SeenInterval& seen, bool use_low, bool use_high, double usu
   return {x[0], x[1], std::sqrt(normal.information.inverse()(0, 0))};
 }
 
-// Of (x, y, yaw). An error of the plane's offset moves the place along the line of sight, which the box's
-// sides hold.
+// Covariance of (x, y, yaw). An error of the plane's offset moves the door along the line of sight, since the box's
+// sides fix its direction.
 Eigen::Matrix3d covarianceOn(const VerticalPlane& plane, const Interval& along, const Eigen::Vector2d& place,
                              double seat_sigma) {
   const double doubt = std::pow(1 - plane.inlier_share, 2);
   const double yaw = plane.sigma_rad + kDoubt_rad * doubt;
-  const double lever = along.center - plane.middle;  // the offset is known at the points' middle
+  const double lever = along.center - plane.middle;  // the offset is most accurate at the points' middle
   const double offset = std::hypot(plane.sigma_m + kDoubt_m * doubt, lever * plane.sigma_rad);
   const Eigen::Vector2d sight = place.normalized() / std::max(kEdgeOn, -plane.normal.dot(place.normalized()));
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
@@ -81,7 +83,7 @@ Eigen::Matrix3d covarianceOn(const VerticalPlane& plane, const Interval& along, 
 Interval fitInterval(const SeenInterval& seen, double usual_width, double width_sigma) {
   bool use_low = !seen.low_cut, use_high = !seen.high_cut;
   Interval out = solve(seen, use_low, use_high, usual_width, width_sigma);
-  // A cut end that would not reach as far as it was seen counts after all.
+  // A cut end is a lower bound of the extent: used when the solution falls short of it.
   const bool low_short = !use_low && out.center - out.width / 2 > seen.low;
   const bool high_short = !use_high && out.center + out.width / 2 < seen.high;
   if (low_short || high_short)
@@ -92,12 +94,13 @@ Interval fitInterval(const SeenInterval& seen, double usual_width, double width_
 std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e) {
   const auto left = columnOnPlane(e, plane, e.box.u_min), right = columnOnPlane(e, plane, e.box.u_max);
   if (!left || !right) return std::nullopt;
-  const double width_sigma = std::max(0.02, e.model->width_sigma_m);
+  const double width_sigma = std::max(kLeastDoorSigma_m, e.model->width_sigma_m);
   const Interval along = fitInterval(seenBetween(*left, *right, e), e.model->width_m, width_sigma);
   PlacedShape placed;
   placed.shape = e.model->nominal();
-  placed.shape.width = std::max(0.2, along.width);
-  // The leaf is seen. It hangs flush with the wall, or up to half of the frame's depth behind its face.
+  placed.shape.width = std::max(kLeastWidth_m, along.width);
+  // The depth points are on the leaf, which is flush with the wall or up to half of the frame's depth behind its face:
+  // the middle of both.
   const double seat = placed.shape.depth / 4;
   const Eigen::Vector2d leaf = plane.normal * plane.offset + plane.along() * along.center;
   const Eigen::Vector2d p = leaf - plane.normal * seat;

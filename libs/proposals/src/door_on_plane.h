@@ -5,12 +5,13 @@
 #include <optional>
 
 #include "roomgraph/proposals/placed_shape.h"
+#include "roomgraph/proposals/shape_fit.h"
 #include "vertical_plane.h"
 
 namespace roomgraph {
 
-/// What the sides of a box say about an interval: the places of its ends with their standard deviations, m.
-/// An end that is cut lies there or beyond.
+/// Ends of an interval as the sides of a box show them, with their standard deviations, m. An end that is cut is there
+/// or beyond.
 struct SeenInterval {
   double low = 0, high = 0;
   double low_sigma = 0, high_sigma = 0;
@@ -23,18 +24,22 @@ struct Interval {
   double center_sigma = 0;
 };
 
-/// Least squares of both ends and the usual width (mean, standard deviation; m). At least one end is seen, or
-/// the centre stays vague.
+/// Least squares of both ends and the usual width (mean, standard deviation; m). When both ends are cut, the centre has
+/// a large standard deviation.
 Interval fitInterval(const SeenInterval& seen, double usual_width, double width_sigma);
 
-/// Standard deviation of a box's side, px, by the box's extent across it.
+/// A class whose size hardly varies still leaves the construction some freedom, m.
+inline constexpr double kLeastDoorSigma_m = 0.02;
+
+/// Standard deviation of a box's side, px, by the box's extent across it: as in the fit of other shapes.
 inline double sideSigma(double extent_px) {
-  return 4 + 0.03 * extent_px;
+  const FitWeights fit;
+  return fit.box_side_px + fit.box_side_share * extent_px;
 }
 
-/// A door whose leaf lies in the plane, between the sides of the box, with its covariance: across the plane
-/// that of the plane and of the leaf's seat in its frame, along it what a pixel of the box's sides is worth
-/// at this angle. Nothing when the plane is seen edge-on, or a side of the box looks past it.
+/// A door whose leaf lies in the plane, between the sides of the box, with its covariance: across the plane from the
+/// plane's and that of the leaf's position in its frame, along it from the box's sides at this viewing angle. Nothing
+/// when the plane is seen edge-on, or the ray of a side of the box does not meet it.
 std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& evidence);
 
 }  // namespace roomgraph

@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace roomgraph {
 namespace {
 
-constexpr double kNear = 0.05;   // m, in front of the camera
-constexpr double kAngle = 0.12;  // rad, of a segment that points at a vanishing point
+constexpr double kNear = 0.05;          // m; edges nearer to the camera are not compared
+constexpr double kAngle = 0.12;         // rad; a segment this far off its vanishing point counts 1/e
+constexpr int kEdgeSteps = 12;          // intervals per edge
+constexpr double kOutlineShare = 0.5;   // of the agreement; the rest is that of the segments
+// Distance at which a point of the outline counts 1/e: a constant, px, and a share of the box's diagonal.
+constexpr double kOffEdge_px = 2, kOffEdgeShare = 0.02;
 
 /// Corner k of a cuboid: bit 0 front, bit 1 left, bit 2 up.
 Eigen::Vector3d corner(const ObjectShape& s, int k) {
@@ -23,19 +28,18 @@ bool faceSeen(const ObjectShape& s, const Eigen::Vector3d& camera, int axis, boo
   return high ? camera[axis] > high_side : camera[axis] < low_side;
 }
 
-// An edge is part of the outline or a crease when one of its two faces is seen.
+// An edge is visible when one of its two faces is.
 bool edgeSeen(const ObjectShape& s, const Eigen::Vector3d& camera, int from, int along) {
   for (int axis = 0; axis < 3; ++axis)
     if (axis != along && faceSeen(s, camera, axis, (from >> axis) & 1)) return true;
   return false;
 }
 
-// Distance of the visible edges' points to image edges, levelled off; 1: all of them on edges.
+// Mean over the visible edges' points of exp(-distance to the nearest image edge / scale): 1 when all are on edges.
 double outlineAgreement(const PlacedShape& placed, const BoxEvidence& e) {
-  constexpr int kSteps = 12;
   const Pose3 camera_from_object = cameraFromObject(placed, e);
   const Eigen::Vector3d camera = camera_from_object.inverse().translation();
-  const double scale = 2 + 0.02 * e.box.diagonal();  // px
+  const double scale = kOffEdge_px + kOffEdgeShare * e.box.diagonal();  // px
   double sum = 0;
   int count = 0;
   for (int along = 0; along < 3; ++along)
@@ -45,8 +49,8 @@ double outlineAgreement(const PlacedShape& placed, const BoxEvidence& e) {
                             b = camera_from_object * corner(placed.shape, from | (1 << along));
       if (a.z() < kNear || b.z() < kNear) continue;
       const Eigen::Vector2d pa = e.camera.project(a), pb = e.camera.project(b);
-      for (int i = 0; i <= kSteps; ++i) {
-        const Eigen::Vector2d p = pa + (pb - pa) * i / kSteps;
+      for (int i = 0; i <= kEdgeSteps; ++i) {
+        const Eigen::Vector2d p = pa + (pb - pa) * i / kEdgeSteps;
         if (!e.camera.sees(p.x(), p.y()) || (e.hidden.left && p.x() < e.box.u_min) ||
             (e.hidden.right && p.x() > e.box.u_max) || (e.hidden.top && p.y() < e.box.v_min) ||
             (e.hidden.bottom && p.y() > e.box.v_max))
@@ -71,7 +75,7 @@ double segmentAgreement(const PlacedShape& placed, const BoxEvidence& e) {
   double sum = 0, total = 0;
   for (const Segment2& s : e.segments) {
     const double length = (s.b - s.a).norm();
-    double angle = 10;
+    double angle = std::numbers::pi;
     for (const auto& p : points) angle = std::min(angle, angleTo(s, p));
     sum += length * std::exp(-std::pow(angle / kAngle, 2));
     total += length;
@@ -88,7 +92,8 @@ std::array<Eigen::Vector3d, 3> vanishingPoints(const PlacedShape& placed, const 
 
 std::optional<double> edgeAgreement(const PlacedShape& placed, const BoxEvidence& evidence) {
   if (evidence.edges.distance.empty() || placed.shape.kind == ShapeKind::kCylinder) return std::nullopt;
-  return 0.5 * outlineAgreement(placed, evidence) + 0.5 * segmentAgreement(placed, evidence);
+  return kOutlineShare * outlineAgreement(placed, evidence) +
+         (1 - kOutlineShare) * segmentAgreement(placed, evidence);
 }
 
 }  // namespace roomgraph

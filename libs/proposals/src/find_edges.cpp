@@ -9,8 +9,16 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kSide = 140;  // px the box is reduced to
-constexpr double kBoxRim = 3;  // px around the box, and 3 % of its size: its sides are edges of the object
+constexpr int kSide = 140;  // px; a longer side of the box is reduced to it
+// Rim around the box, whose sides are edges of the object: px, and a share of the box's size.
+constexpr double kBoxRim = 3, kRimShare = 0.03;
+constexpr double kLeastBox_px = 8;                     // of both sides; smaller boxes show no lines
+constexpr double kCannyLow = 50, kCannyHigh = 120;     // gradient thresholds of the 8-bit image
+constexpr double kHoughAngle_rad = CV_PI / 90;         // resolution
+constexpr int kLeastSegment_px = 6, kSegmentPart = 6;  // least length; also this part of the box's shorter side
+constexpr int kLargestGap_px = 2;                      // within a segment
+// A segment is supported by depth points this near, px: a constant, and the spacing of samples spread over the box.
+constexpr double kReach_px = 4, kReachSpacings = 2, kSamplesPerBox = 1000;
 
 cv::Mat grayPart(const Frame& frame, const cv::Rect& roi) {
   const cv::Mat& source = frame.gray.empty() ? frame.color : frame.gray;
@@ -25,8 +33,8 @@ double lengthOf(const Segment2& s) {
 
 void findSegments(const cv::Mat& edges, BoxEdges& out) {
   std::vector<cv::Vec4i> lines;
-  const int shortest = std::max(6, std::min(edges.cols, edges.rows) / 6);
-  cv::HoughLinesP(edges, lines, 1, CV_PI / 90, shortest, shortest, 2);
+  const int shortest = std::max(kLeastSegment_px, std::min(edges.cols, edges.rows) / kSegmentPart);
+  cv::HoughLinesP(edges, lines, 1, kHoughAngle_rad, shortest, shortest, kLargestGap_px);
   for (const auto& l : lines)
     out.segments.push_back({out.origin + Eigen::Vector2d(l[0] + 0.5, l[1] + 0.5) / out.scale,
                             out.origin + Eigen::Vector2d(l[2] + 0.5, l[3] + 0.5) / out.scale});
@@ -60,10 +68,10 @@ double totalLength(const std::vector<Segment2>& segments) {
 BoxEdges findEdges(const Frame& frame, const Box2& box) {
   BoxEdges out;
   const cv::Mat& source = frame.gray.empty() ? frame.color : frame.gray;
-  const double du = kBoxRim + 0.03 * box.width(), dv = kBoxRim + 0.03 * box.height();
+  const double du = kBoxRim + kRimShare * box.width(), dv = kBoxRim + kRimShare * box.height();
   const Box2 rimmed =
       clipped({box.u_min - du, box.v_min - dv, box.u_max + du, box.v_max + dv}, source.cols, source.rows);
-  if (source.empty() || box.width() < 8 || box.height() < 8 || rimmed.width() < 8 || rimmed.height() < 8)
+  if (source.empty() || std::min({box.width(), box.height(), rimmed.width(), rimmed.height()}) < kLeastBox_px)
     return out;
   const cv::Rect roi(cv::Point(static_cast<int>(rimmed.u_min), static_cast<int>(rimmed.v_min)),
                      cv::Point(static_cast<int>(rimmed.u_max), static_cast<int>(rimmed.v_max)));
@@ -71,7 +79,7 @@ BoxEdges findEdges(const Frame& frame, const Box2& box) {
   out.scale = std::min(1.0, static_cast<double>(kSide) / std::max(roi.width, roi.height));
   out.origin = {roi.x, roi.y};
   if (out.scale < 1) cv::resize(part, part, cv::Size(), out.scale, out.scale, cv::INTER_AREA);
-  cv::Canny(part, out.pixels, 50, 120);
+  cv::Canny(part, out.pixels, kCannyLow, kCannyHigh);
   findSegments(out.pixels, out);
   return out;
 }
@@ -79,8 +87,7 @@ BoxEdges findEdges(const Frame& frame, const Box2& box) {
 std::vector<Segment2> supportedSegments(const std::vector<Segment2>& segments, const DepthMask& mask,
                                         const Box2& box) {
   if (mask.points.empty()) return segments;
-  // Twice the spacing of the samples, were they all over the box.
-  const double reach = 4 + 2 * std::sqrt(box.area() / 1000);
+  const double reach = kReach_px + kReachSpacings * std::sqrt(box.area() / kSamplesPerBox);
   std::vector<Segment2> out;
   for (const Segment2& s : segments) {
     const Eigen::Vector2d middle = (s.a + s.b) / 2;

@@ -13,12 +13,12 @@ namespace roomgraph {
 /// Canny edges and Hough segments of the box with a small rim; empty without an image.
 BoxEdges findEdges(const Frame& frame, const Box2& box);
 
-/// Fills in `distance` where there are edges: only scoring without depth needs it.
+/// Computes the distance transform of the edges; only scoring without depth needs it.
 void addDistances(BoxEdges& edges);
 
 double totalLength(const std::vector<Segment2>& segments);
 
-/// Only the segments whose middle lies on the mask or at its rim; all of them when the mask is empty.
+/// The segments whose middle lies on the mask or at its rim; all of them when the mask is empty.
 std::vector<Segment2> supportedSegments(const std::vector<Segment2>& segments, const DepthMask& mask,
                                         const Box2& box);
 

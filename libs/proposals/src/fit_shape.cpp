@@ -23,12 +23,12 @@ enum Residual {
   kFixedCount
 };
 
-constexpr double kNearRange = 0.03;    // quantile of the ranges that stands for the nearest point
+constexpr double kNearRange = 0.03;    // quantile of the ranges taken for the nearest point
 constexpr double kLeastSize_m = 0.05;  // no side of the shape becomes smaller
 constexpr int kMaxEvaluations = 30;    // bounds the time per hypothesis
 constexpr double kTolerance = 1e-4;    // relative
 
-// Large residuals level off (Geman-McClure): wrong mask points and box sides cut by an occluder.
+// Geman-McClure residual: outliers are wrong mask points and box sides cut by an occluder.
 double saturated(double r, double scale) {
   return r / std::sqrt(1 + r * r / (scale * scale));
 }
@@ -166,7 +166,7 @@ class FitProblem {
     r[kNearSide] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (w_.near_side_gain * sigma_point_),
                                                w_.near_side_saturation)
                                    : 0;
-    // The directions of the sides, found in the points, say more about yaw than the box does.
+    // The directions of the sides, found in the depth points, are more accurate than what the box tells of yaw.
     const double yaw_sigma = points_.empty() ? w_.yaw_sigma_blind_rad : w_.yaw_sigma_rad;
     r[kYaw] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / yaw_sigma;
     r[kLeg] = besideLeg(p);
@@ -175,11 +175,11 @@ class FitProblem {
     return r;
   }
 
-  // The local ground's normal is corrected when it was not seen: the box's sides, which the bottom and the
-  // top circle or face reach, then disagree with the usual size (paper sec. IV.A).
+  // The local ground's normal is corrected when it was predicted, not measured: an error makes the projection of the
+  // usual size disagree with the box's sides (paper sec. IV.A).
   bool tilts() const { return points_.empty() && e_.ground_tilt_sigma > 0; }
 
-  // How far the axis' foot is beside the leg, which was extended to the box's bottom line.
+  // Horizontal distance in the image of the axis' foot from the leg, extended to the box's bottom side.
   double besideLeg(const PlacedShape& p) const {
     const Eigen::Vector3d foot = cameraFromObject(p, e_).translation();
     if (!p.leg_column || foot.z() <= 0) return 0;
@@ -187,7 +187,7 @@ class FitProblem {
                      w_.leg_saturation);
   }
 
-  // What lies outside the image may be nearer than all that is seen.
+  // Parts outside the image may be nearer than every depth point.
   bool nearSideKnown() const {
     return !points_.empty() && (round() || !(e_.cut.left || e_.cut.right || e_.cut.bottom));
   }
@@ -198,7 +198,7 @@ class FitProblem {
     return distanceOutside(p.shape, {object_from_ground.x, object_from_ground.y, 0}).x();
   }
 
-  // A side at the image border says only that the model reaches the border there.
+  // At a cut side the model must reach the side; how far beyond is unknown.
   Eigen::Vector4d boxSides(const PlacedShape& p) const {
     const auto projected = project(p, e_);
     if (!projected) return Eigen::Vector4d::Constant(w_.out_of_view);

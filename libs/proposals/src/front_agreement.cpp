@@ -11,10 +11,11 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMiddleShare = 0.3;  // of the width, to both sides: arm rests may be as high as the back
-constexpr double kTop = 0.97;         // quantile of the heights that stands for the object's top
-constexpr double kHighShare = 0.8, kLowShare = 0.6;  // of the top: what is back rest, and what is seat
-constexpr int kFewPoints = 5;
-// Weight of the assumption that a seat rather faces the viewer than the wall behind it, where no depth shows its back.
+constexpr double kTop = 0.97;         // quantile of the heights taken for the object's top
+constexpr double kHighShare = 0.8;    // of the top: points above it belong to the back rest
+constexpr double kLowShare = 0.6;     // of that height: points below it belong to the seat
+constexpr int kFewInPart = 5;         // fewer of them tell nothing
+// Weight, without depth, of the assumption that a seat faces the camera rather than the wall behind it.
 constexpr double kBlindWeight = 0.3;
 
 // 1: the front faces the camera; -1: it faces away.
@@ -41,8 +42,8 @@ double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>
     if (q.z() >= high) high_sum += q.x(), ++high_count;
     if (q.z() <= low) low_sum += q.x(), ++low_count;
   }
-  if (high_count < kFewPoints) return 0;
-  const double back = high_sum / high_count, seat = low_count < kFewPoints ? back : low_sum / low_count;
+  if (high_count < kFewInPart) return 0;
+  const double back = high_sum / high_count, seat = low_count < kFewInPart ? back : low_sum / low_count;
   return std::clamp((seat - 2 * back) / (placed.shape.depth / 2), -1.0, 1.0);
 }
 

@@ -8,12 +8,12 @@
 
 namespace roomgraph {
 
-/// How far the points in the upper part lie towards the back, of the model and of the points in the lower part, in
-/// [-1, 1]: a sofa's back rest is its high side. 0 when there are too few such points.
+/// How far the high points lie towards the back of the model, compared with its middle and with the low points, in
+/// [-1, 1]: the back rest is the high side. 0 when there are too few high points.
 double backRestAgreement(const PlacedShape& placed, const std::vector<MaskPoint>& points);
 
-/// How well the hypothesis' front agrees with the rule that tells the front of its class (ObjectModel::frontRule()), in
-/// [-1, 1]; 0 where nothing tells it.
+/// Agreement of the hypothesis' front with the rule of its class (ObjectModel::frontRule()), in [-1, 1]; 0 without a
+/// rule.
 double frontAgreement(const PlacedShape& placed, const BoxEvidence& evidence);
 
 }  // namespace roomgraph

@@ -12,18 +12,23 @@
 namespace roomgraph {
 namespace {
 
+constexpr double kBorder_px = 3;     // a box side this near to the image border is cut
+constexpr int kExplanations = 2;     // depth masks that are tried
+constexpr double kObjectFront = 0.1;  // quantile of the ranges taken for the object's nearest part
+// Distance of the line beside the box along which an occluder is searched: px, and a share of the box's extent.
+constexpr double kBesideBox_px = 3, kBesideBoxShare = 0.02;
+constexpr int kSamples = 24;          // along that line
+constexpr double kHidingShare = 0.4;  // of them, nearer than the object: the side is hidden
+constexpr double kNearer_m = 0.15;    // what counts as nearer
+
 BoxSides sidesAtBorder(const BoxEvidence& e) {
-  constexpr double kBorder_px = 3;
   const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
   return {!inside.left, !inside.top, !inside.right, !inside.bottom};
 }
 
-// Whether most of what lies along the line from a to b (px, just outside the box) stands nearer than the
-// object.
+// Whether an occluder, nearer than the object, covers enough of the line from a to b (px, just outside the box).
 bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double object_range,
                  const BoxEvidence& e, const Frame& frame) {
-  constexpr int kSamples = 24;
-  constexpr double kShare = 0.4, kNearer = 0.15, kStanding = 0.12;  // m: nearer by, higher than
   const Pose3 ground_from_camera = e.camera_from_ground.inverse();
   int hiding = 0;
   for (int i = 0; i < kSamples; ++i) {
@@ -31,19 +36,19 @@ bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double obje
     const float z = frame.depthAt(p.x(), p.y());
     if (!(z > 0) || !std::isfinite(z)) continue;
     const Eigen::Vector3d q = ground_from_camera * e.camera.backProject(p.x(), p.y(), z);
-    hiding += q.z() > kStanding && q.head<2>().norm() < object_range - kNearer;
+    hiding += q.z() > kStanding_m && q.head<2>().norm() < object_range - kNearer_m;
   }
-  return hiding >= kShare * kSamples;
+  return hiding >= kHidingShare * kSamples;
 }
 
-// A side that stops at a nearer object says no more about the model than one at the image border.
+// Behind an occluder the object may extend beyond the box's side, as beyond the image border: the side counts as cut.
 void markHidden(BoxEvidence& e, const Frame& frame) {
   if (e.mask.points.empty() || !frame.hasDepth()) return;
   std::vector<double> ranges;
   for (const auto& p : e.mask.points) ranges.push_back(p.in_ground.head<2>().norm());
-  const double range = quantile(std::move(ranges), 0.1);
+  const double range = quantile(std::move(ranges), kObjectFront);
   const Box2& b = e.box;
-  const double du = 3 + 0.02 * b.width(), dv = 3 + 0.02 * b.height();
+  const double du = kBesideBox_px + kBesideBoxShare * b.width(), dv = kBesideBox_px + kBesideBoxShare * b.height();
   const auto along = [&](double u0, double v0, double u1, double v1) {
     return hiddenAlong({u0, v0}, {u1, v1}, range, e, frame);
   };
@@ -69,8 +74,8 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.model = &model;
   e.edges = findEdges(frame, e.box);
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
-  auto masks = explanations(e.all, e.box, model, frame.camera.fx, 2);
-  masks.resize(2);
+  auto masks = explanations(e.all, e.box, model, frame.camera.fx, kExplanations);
+  masks.resize(kExplanations);
   masks[0].valid_ratio = e.all.valid_ratio;
   e.other_mask = std::move(masks[1]);
   return withMask(e, masks[0], frame);

@@ -17,7 +17,7 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 namespace {
 
 constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
-constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points there are
+constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points
 
 // Largest standard deviation of the ground's normal.
 double tiltSigma(const GroundEstimate& ground) {
@@ -25,9 +25,9 @@ double tiltSigma(const GroundEstimate& ground) {
   return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
 }
 
-// Share of the box in which something stands clearly before the shape: the detector saw that, then.
+// Share of the box in which something stands clearly before the shape, and is what the detector saw.
 double obscured(const PlacedShape& placed, const BoxEvidence& e) {
-  constexpr double kBefore_m = 0.3, kStanding_m = 0.12;
+  constexpr double kBefore_m = 0.3;
   const double front = std::hypot(placed.x, placed.y) - placed.shape.radius() - kBefore_m;
   const auto before = std::count_if(e.all.points.begin(), e.all.points.end(), [&](const MaskPoint& p) {
     return p.in_ground.z() > kStanding_m && p.in_ground.head<2>().norm() < front;
@@ -37,8 +37,8 @@ double obscured(const PlacedShape& placed, const BoxEvidence& e) {
              : e.all.valid_ratio * static_cast<double>(before) / static_cast<double>(e.all.points.size());
 }
 
-// With the next cluster, and without depth, when the first one explains the box badly: an occluder may have
-// been taken for the object.
+// Proposals from the next depth cluster and without depth, for when the first cluster explains the box badly: it may
+// be an occluder.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
                                       const Frame& frame, const ShapeGenerator& generator,
                                       const GeneratorLimits& limits) {
@@ -53,7 +53,7 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
   return keepBest(std::move(all), {}, limits);
 }
 
-// Nothing when it is out of view.
+// Nothing when the shape is out of view.
 std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence& evidence,
                                    const InitialScore& start, double tilt_sigma) {
   const auto projected = project(placed, evidence);

@@ -6,10 +6,10 @@
 
 namespace roomgraph {
 
-/// Box + ground + depth -> placed shapes, by the shape generator of the detection's class. A proposal's covariance is of (x, y, z, yaw) in the
-/// ground frame (geometry/ground.h: below the camera, x along the optical axis' horizontal direction, y left,
-/// z up). Its score is the detection's initialisation score times how well the shape explains box, points and
-/// usual size; the proposals of one detection stand together, best first.
+/// Box + ground + depth -> placed shapes, by the shape generator of the detection's class. Covariances are of (x, y,
+/// z, yaw) in the ground frame (geometry/ground.h: below the camera, x along the optical axis' horizontal direction, y
+/// left, z up). Its score is the detection's initialisation score times the shape's quality. The
+/// proposals of a detection are consecutive, best first.
 class GeometricProposalGenerator : public ProposalGenerator {
   DEFINE_MRPT_OBJECT(GeometricProposalGenerator, roomgraph)
  public:

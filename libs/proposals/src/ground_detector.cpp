@@ -8,7 +8,7 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(GroundDetector, Stage, roomgraph)
 
 namespace {
 
-constexpr double kPredictedVariance = 1e-4;  // rad², m²: about half a degree and 1 cm, as a robot rocks on its wheels
+constexpr double kPredictedVariance = 1e-4;  // rad², m²: half a degree and 1 cm, as a robot pitches on its wheels
 
 }  // namespace
 

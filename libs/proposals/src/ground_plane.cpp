@@ -11,11 +11,19 @@ namespace roomgraph {
 namespace {
 
 constexpr int kColumns = 80;          // of the grid of sampled points
-constexpr double kSupportUnit = 100;  // of a point on the plane
-constexpr int kCountStride = 3;       // every third of them is enough to compare hypotheses
-constexpr int kNormalReach = 2;       // samples to each side over which the surface's direction is taken
-constexpr double kNormalGate = 0.30;  // rad, surface direction against the plane's
-constexpr double kMinSpread = 0.12;   // m; a strip narrower than this does not fix a plane
+constexpr double kSupportUnit = 100;  // integer support of a point exactly on the plane
+constexpr int kCountStride = 3;       // every third sample is enough to compare hypotheses
+constexpr int kNormalReach = 2;       // samples to each side from which the surface normal is computed
+constexpr double kNormalGate = 0.30;  // rad, between the surface normal and the plane's
+constexpr double kMostTilt = 1.5;     // rad; wider gates would admit walls
+constexpr double kMinSpread = 0.12;   // m; a narrower strip does not determine a plane
+// Inliers are this near to the plane: m, and a factor on the depth noise.
+constexpr double kInlier_m = 0.012, kInlierPerNoise = 3;
+// Points below the plane are farther from it than this: m, and a factor on the inliers' distance.
+constexpr double kBelow_m = 0.05, kBelowPerInlier = 3;
+// RANSAC: an expected plane leaves few of the points in question. Without one a small plane is not trusted.
+constexpr int kTriesExpected = 80, kTriesUnknown = 400;
+constexpr int kMorePointsUnknown = 2;
 const Eigen::Vector3d kImageUp(0, -1, 0);
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -23,15 +31,14 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 double tolerance(const Eigen::Vector3d& p) {
-  return 0.012 + 3 * depthSigma(p.z());
+  return kInlier_m + kInlierPerNoise * depthSigma(p.z());
 }
 
 struct Sample {
   Eigen::Vector3d point, normal;  // normal towards the camera; zero: unknown
 };
 
-// Direction of the surface at a grid position, from its neighbours across (or itself, where one is missing);
-// zero next to holes.
+// Surface normal at a grid position from its neighbours (where one is missing, from itself); zero next to holes.
 Eigen::Vector3d surfaceNormal(const std::vector<Eigen::Vector3d>& grid, int columns, int i) {
   const int column = i % columns, r = kNormalReach;
   const auto at = [&](int k, bool inside) {
@@ -62,29 +69,29 @@ std::vector<Sample> sampleSurface(const Frame& frame, double max_range) {
 
 bool plausible(const Plane& plane, const std::optional<Plane>& expected, const GroundSearch& search) {
   if (expected)
-    return angleBetween(plane.normal, expected->normal) <= search.max_angle_error &&
+    return angleBetween(plane.normal, expected->normal) <= search.max_angle_error_rad &&
            std::abs(plane.offset - expected->offset) <= search.max_height_error_m;
-  return angleBetween(plane.normal, kImageUp) <= search.max_tilt &&
+  return angleBetween(plane.normal, kImageUp) <= search.max_tilt_rad &&
          plane.offset >= search.min_camera_height_m && plane.offset <= search.max_camera_height_m;
 }
 
 // Share of points clearly below: a floor has nothing under it, a table has.
 double ratioBelow(const Plane& plane, const std::vector<Sample>& samples) {
   const auto below = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) {
-    return plane.distance(s.point) < -(0.05 + 3 * tolerance(s.point));
+    return plane.distance(s.point) < -(kBelow_m + kBelowPerInlier * tolerance(s.point));
   });
   return static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
 }
 
-// Samples that may be floor: facing the right way, and near the expected floor when there is one.
+// Samples that may be floor: with a normal that points up, and near the expected floor when there is one.
 std::vector<Sample> candidates(const std::vector<Sample>& samples, const std::optional<Plane>& expected,
                                const GroundSearch& search) {
   std::vector<Sample> out;
   const Eigen::Vector3d up = expected ? expected->normal : kImageUp;
   const double least =
-      std::cos(std::min(1.5, kNormalGate + (expected ? search.max_angle_error : search.max_tilt)));
+      std::cos(std::min(kMostTilt, kNormalGate + (expected ? search.max_angle_error_rad : search.max_tilt_rad)));
   for (const Sample& s : samples) {
-    const double reach = search.max_height_error_m + s.point.norm() * search.max_angle_error;
+    const double reach = search.max_height_error_m + s.point.norm() * search.max_angle_error_rad;
     if (s.normal.dot(up) >= least && (!expected || std::abs(expected->distance(s.point)) <= reach))
       out.push_back(s);
   }
@@ -103,15 +110,15 @@ std::vector<Eigen::Vector3d> pointsOf(const std::vector<Sample>& samples) {
   return points;
 }
 
-// An inlier's surface looks the plane's way: a plane that merely cuts through clutter collects none.
+// Inliers have the plane's normal, so that a plane that merely cuts through clutter has few.
 std::optional<Plane> hypothesis(const std::vector<Sample>& samples, const std::vector<Sample>& near,
                                 const std::optional<Plane>& expected, const GroundSearch& search) {
   const std::vector<Sample> few = thinned(near), all = thinned(samples);
   const double least = std::cos(kNormalGate);
-  return bestPlane(pointsOf(few), expected ? 80 : 400, [&](const Plane& plane) {
+  return bestPlane(pointsOf(few), expected ? kTriesExpected : kTriesUnknown, [&](const Plane& plane) {
     if (!plausible(plane, expected, search)) return 0;
     if (ratioBelow(plane, all) > search.max_below_ratio) return 0;
-    double support = 0;  // nearer points count more: a slanted plane between floor and step must not win
+    double support = 0;  // points near the plane count more: a slanted plane between floor and step must not win
     for (const Sample& s : few) {
       const double r = plane.distance(s.point) / tolerance(s.point);
       if (std::abs(r) < 1 && s.normal.dot(plane.normal) > least) support += 1 - r * r;
@@ -135,8 +142,7 @@ Outcome<GroundEstimate> findGround(const Frame& frame, const std::optional<Plane
     return Result::failure(expected ? "no plane near the expected floor"
                                     : "no plane below the camera can be the floor");
   const RefinedPlane refined = refinePlane(*initial, pointsOf(near));
-  // Nothing speaks for a small plane when nothing is expected.
-  if (refined.inliers < (expected ? 1 : 2) * search.min_points)
+  if (refined.inliers < (expected ? 1 : kMorePointsUnknown) * search.min_points)
     return Result::failure("too few floor points");
   if (refined.spread_m < kMinSpread) return Result::failure("the visible floor is too narrow");
   if (!plausible(refined.plane, expected, search))

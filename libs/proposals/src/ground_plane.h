@@ -12,19 +12,19 @@ namespace roomgraph {
 
 /// Bounds of the ground plane search (method.md sec. 1.2).
 struct GroundSearch {
-  double max_angle_error = 0.10;     ///< rad, against the expected normal
+  double max_angle_error_rad = 0.10;  ///< against the expected normal
   double max_height_error_m = 0.12;  ///< against the expected camera height
-  double max_tilt = 0.87;  ///< rad, normal against the image's up direction when nothing is expected
-  double min_camera_height_m = 0.8;  ///< when nothing is expected: what is nearer is a table
+  double max_tilt_rad = 0.87;         ///< normal against the image's up direction, without an expected plane
+  double min_camera_height_m = 0.8;   ///< without an expected plane: a nearer one is a table
   double max_camera_height_m = 2.5;
   double max_range_m = 5.0;       ///< depth beyond is not used
   double max_below_ratio = 0.04;  ///< share of all points that may lie below the floor
   int min_points = 120;           ///< sampled floor points
 };
 
-/// The floor in the depth image, normal up, camera frame; or why there is none. With an expected plane only
-/// planes near it count; without, the largest plane below the camera that has (nearly) nothing under it, so
-/// that a desk larger than the visible floor does not win. Fixed random numbers: same image, same answer.
+/// The floor in the depth image, normal up, camera frame; or why there is none. With an expected plane only planes near
+/// it are considered; without, the largest plane below the camera with (nearly) no points below it, so that a desk
+/// larger than the visible floor is not taken for it. Fixed random numbers: the same image gives the same plane.
 Outcome<GroundEstimate> findGround(const Frame& frame, const std::optional<Plane>& expected,
                                    const GroundSearch& search = {});
 

@@ -11,7 +11,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kFullArea = 0.08;  // of the image: boxes from here on have the full area part
+constexpr double kFullArea = 0.08;  // of the image; from here on the area part is 1
 constexpr double kAreaWeight = 0.4, kEdgeWeight = 0.25, kDepthWeight = 0.35;  // method.md sec. 1.5
 
 }  // namespace

@@ -8,11 +8,13 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kSteep = 0.2;      // of horizontal to vertical extent, of a leg
-constexpr double kVoteSteep = 1.0;  // of a segment that may vote
-constexpr double kLower = 0.5;      // part of the box above which no leg begins
+constexpr double kSteep = 0.2;      // largest ratio of horizontal to vertical extent of a leg
+constexpr double kVoteSteep = 1.0;  // the same of a segment that may vote
+constexpr double kLower = 0.5;      // part of the box above which the middle of no leg lies
 constexpr double kMargin = 0.15;    // of the box's width, at both sides: chair feet and arm rests
 constexpr double kBeside = 0.08;    // of the box's width, between both sides of a tube
+constexpr double kLegLength = 0.1;  // of the box's height, at least
+constexpr double kLegGap = 1.5;     // of its own length: the farthest a leg is extended
 constexpr std::size_t kVotes = 5;
 
 struct Steep {
@@ -41,7 +43,7 @@ LegLine findLeg(const std::vector<Segment2>& segments, const Box2& box) {
     if (const auto vote = extended(s, box, kVoteSteep); vote && out.votes.size() < kVotes)
       out.votes.push_back(vote->column);
     const auto leg = extended(s, box, kSteep);
-    if (!leg || leg->length < 0.1 * box.height() || leg->gap > 1.5 * leg->length) continue;
+    if (!leg || leg->length < kLegLength * box.height() || leg->gap > kLegGap * leg->length) continue;
     if (!longest) longest = leg;
     if (std::abs(leg->column - longest->column) > kBeside * box.width()) continue;
     sum += leg->length * leg->column;

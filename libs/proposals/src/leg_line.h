@@ -10,14 +10,14 @@
 
 namespace roomgraph {
 
-/// What the segments say about where a single leg stands (paper sec. IV.A).
+/// Column of an object's single leg, from image segments (paper sec. IV.A).
 struct LegLine {
-  std::optional<double> column;  ///< px on the box's bottom line; nothing when the leg is ill-conditioned
-  std::vector<double> votes;     ///< px on the bottom line, of all steep segments near it
+  std::optional<double> column;  ///< px, at the box's bottom side; nothing without a clear leg
+  std::vector<double> votes;     ///< px, at the bottom side, of steep segments near it
 };
 
-/// Near-vertical segments in the lower part of the box, extended to its bottom line. The leg is where the
-/// longest of them and those beside it (the tube's other side) agree; it must not be far to extend.
+/// Near-vertical segments in the lower part of the box, extended to its bottom side by no more than a multiple of their
+/// length. The leg is the weighted mean of the longest and those beside it (the tube's other side).
 LegLine findLeg(const std::vector<Segment2>& segments, const Box2& box);
 
 }  // namespace roomgraph

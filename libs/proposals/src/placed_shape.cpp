@@ -13,7 +13,7 @@ bool heightKnown(const BoxEvidence& evidence) {
 }
 
 PlacedShape usualShape(const BoxEvidence& evidence) {
-  constexpr double kLowest = 0.03;  // quantile of the heights that stands for the lowest point
+  constexpr double kLowest = 0.03;  // quantile of the heights taken for the lowest point
   PlacedShape placed;
   placed.shape = evidence.model->nominal();
   if (evidence.model->rests_on_ground) return placed;

@@ -10,11 +10,15 @@
 namespace roomgraph {
 namespace {
 
-// Neighbouring pixels share their error (disparity steps, correlated noise), so a point counts only for a
-// part.
+// Errors of neighbouring pixels are correlated (disparity steps): so many points count as one independent one.
 constexpr double kCorrelation = 25;
-// What the depth camera's calibration leaves, however many points there are.
+// Least standard deviations (rad, m), from the calibration of the depth camera, however many points there are.
 constexpr double kAngleFloor = 0.003, kOffsetFloor = 0.005;
+constexpr double kTukeyWidth = 3;         // standard deviations
+constexpr int kRefinements = 6;           // enough for the weights to settle
+constexpr int kLeastInliers = 10;         // with fewer the plane stays as it is
+constexpr double kLeastTriangle = 1e-4;   // m², twice the area: smaller ones are taken for collinear
+constexpr unsigned kRansacSeed = 12345;
 
 struct Moments {
   double weight = 0;
@@ -26,7 +30,7 @@ struct Moments {
 Moments momentsNear(const Plane& plane, const std::vector<Eigen::Vector3d>& points) {
   Moments m;
   const auto weightOf = [&](const Eigen::Vector3d& p) {
-    const double sigma = depthSigma(p.z()) + 0.004, r = plane.distance(p) / (3 * sigma);
+    const double sigma = depthSigma(p.z()) + kSurfaceNoise_m, r = plane.distance(p) / (kTukeyWidth * sigma);
     return std::abs(r) < 1 ? std::pow(1 - r * r, 2) / (sigma * sigma) : 0.0;  // Tukey's biweight
   };
   for (const auto& p : points)
@@ -42,7 +46,7 @@ Moments momentsNear(const Plane& plane, const std::vector<Eigen::Vector3d>& poin
   return m;
 }
 
-// Information of (tilt about both in-plane axes, offset along the normal) carried to (normal, offset).
+// Covariance of (tilt about both in-plane axes, offset along the normal), propagated to (normal, offset).
 Eigen::Matrix4d covarianceOf(const Moments& m, const Eigen::Matrix<double, 3, 2>& axes) {
   const Eigen::Matrix2d tilt_information = axes.transpose() * m.scatter * axes / kCorrelation;
   const Eigen::Matrix2d tilt =
@@ -69,7 +73,7 @@ std::optional<Plane> planeThrough(const Eigen::Vector3d& a, const Eigen::Vector3
                                   const Eigen::Vector3d& c) {
   Eigen::Vector3d normal = (b - a).cross(c - a);
   const double length = normal.norm();
-  if (length < 1e-4) return std::nullopt;  // m²: twice the triangle's area
+  if (length < kLeastTriangle) return std::nullopt;
   normal /= length;
   Plane plane{normal, -normal.dot(a)};
   if (plane.offset < 0) plane = {-plane.normal, -plane.offset};
@@ -79,7 +83,7 @@ std::optional<Plane> planeThrough(const Eigen::Vector3d& a, const Eigen::Vector3
 std::optional<Plane> bestPlane(const std::vector<Eigen::Vector3d>& points, int tries,
                                const std::function<int(const Plane&)>& inliers) {
   if (points.size() < 3) return std::nullopt;
-  std::mt19937 random(12345);
+  std::mt19937 random(kRansacSeed);
   std::optional<Plane> best;
   int most = 0;
   for (int i = 0; i < tries; ++i) {
@@ -98,16 +102,16 @@ std::optional<Plane> bestPlane(const std::vector<Eigen::Vector3d>& points, int t
 RefinedPlane refinePlane(const Plane& initial, const std::vector<Eigen::Vector3d>& points) {
   RefinedPlane out;
   out.plane = initial;
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  for (int iteration = 0; iteration < kRefinements; ++iteration) {
     const Moments m = momentsNear(out.plane, points);
     out.inliers = m.count;
-    if (m.count < 10) return out;
+    if (m.count < kLeastInliers) return out;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(m.scatter);
     Eigen::Vector3d normal = axes.eigenvectors().col(0);
     if (normal.dot(initial.normal) < 0) normal = -normal;
     out.plane = {normal, -normal.dot(m.mean)};
     out.spread_m = std::sqrt(axes.eigenvalues()(1) / m.weight);
-    if (iteration == 5) out.covariance = covarianceOf(m, axes.eigenvectors().rightCols<2>());
+    if (iteration == kRefinements - 1) out.covariance = covarianceOf(m, axes.eigenvectors().rightCols<2>());
   }
   return out;
 }

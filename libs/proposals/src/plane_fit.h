@@ -11,8 +11,10 @@
 
 namespace roomgraph {
 
-/// Standard deviation of a Kinect-like depth measurement, m.
+/// Axial standard deviation of a Kinect's depth measurement, m (Nguyen, Izadi and Lovell 2012).
 double depthSigma(double z_m);
+/// Roughness of floors and walls, added to it, m.
+inline constexpr double kSurfaceNoise_m = 0.004;
 
 /// Plane through three points, normal turned towards the camera centre (origin); nothing when they are
 /// collinear.
@@ -20,7 +22,7 @@ std::optional<Plane> planeThrough(const Eigen::Vector3d& a, const Eigen::Vector3
                                   const Eigen::Vector3d& c);
 
 /// Plane that maximises inliers(plane) over `tries` random triples among the points, fixed seed. `inliers`
-/// returns 0 for a plane that is out of the question.
+/// returns 0 for a plane that is not acceptable.
 std::optional<Plane> bestPlane(const std::vector<Eigen::Vector3d>& points, int tries,
                                const std::function<int(const Plane&)>& inliers);
 

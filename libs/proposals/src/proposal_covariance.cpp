@@ -12,30 +12,30 @@ namespace {
 constexpr double kHeightSigma = 0.02;   // m, of the ground below the object
 constexpr double kBottomSigma_m = 0.05;  // of the lowest depth point of an object that does not rest on the ground
 
-// The figures below were calibrated so that the errors of the best proposal are covered: `roomgraph bench proposals` prints
-// the normalised squared errors.
+// The values below were calibrated so that the errors of the best proposal are consistent with them:
+// `roomgraph bench proposals` prints the normalised squared errors.
 
 // Error of a good fit to depth points: along the view a constant (m) and a part with the squared range (1/m), as of
-// stereo depth; across it a constant and a part with the range; yaw (rad). A real sofa differs from a box, and its back is
-// not seen.
+// stereo depth; across it a constant and a part with the range; yaw (rad). A real sofa differs from a box, and its back
+// is not seen.
 struct FitError {
   double along_m, along_per_m, across_m, across_ratio, yaw_rad;
 };
 constexpr FitError kRoundFit{0.025, 0.003, 0.015, 0.003, 0}, kSidedFit{0.08, 0.003, 0.05, 0.005, 0.06};
 
-// Error of a shape placed by its box alone: constants (m) to which the range (ratio) and the box's bottom add.
+// Error of a shape placed by its box alone: constants (m), to which parts with the range and the box's bottom add.
 struct BoxError {
   double along_m, across_m;
 };
 constexpr BoxError kRoundBox{0.05, 0.02}, kSidedBox{0.18, 0.10};
 constexpr double kBoxPerRange = 0.01, kBoxYaw_rad = 0.5;
 constexpr double kBottomSigma = 0.05;   // of the box's height; detectors' boxes, some of them partly hidden
-constexpr double kLeastCamera_m = 0.3;  // camera height below which Eq. 2 says nothing
+constexpr double kLeastCamera_m = 0.3;  // camera height below which Eq. 2 tells no range
 
-// What a quality of 0 adds (m, rad), by the square of what is missing to 1. Without a corner or side to hold it a poorly
-// fitted cylinder slides along the view.
+// What a quality of 0 adds (m, rad); less by the square of 1 - quality. A poorly fitted cylinder has the largest error
+// along the view, as it has no corner or side that fixes it.
 constexpr double kMisfitRound_m = 2.0, kMisfitSided_m = 0.4, kMisfitAcross_m = 0.2, kMisfitYaw_rad = 1;
-constexpr double kFewPoints = 60;  // fewer of them are worth less than the model above says
+constexpr double kFewPoints = 60;  // with fewer the error is larger than the model above
 
 /// Factors on the standard deviations.
 struct Growth {
@@ -70,7 +70,7 @@ Deviations withoutDepth(ShapeKind kind, double range, const BoxEvidence& e, doub
           error.across_m + kBoxPerRange * range, kBoxYaw_rad};
 }
 
-// Of a shape whose construction says how well each direction is known.
+// Covariance of a shape whose construction comes with one.
 Eigen::Matrix4d constructed(const PlacedShape& placed) {
   const double misfit = std::pow(1 - std::clamp(placed.quality, 0.0, 1.0), 2);
   Eigen::Matrix4d out = Eigen::Matrix4d::Zero();

@@ -8,11 +8,10 @@
 
 namespace roomgraph {
 
-/// Covariance of (x, y, z, yaw) of a placed shape in the ground frame: m, rad. Along the view the error grows
-/// with the square of the distance (disparity); where no depth point supports the place it comes from the
-/// box's bottom, and `ground_tilt_sigma` (rad) carries over to it (paper Eq. 2). A poor fit, a cut box and
-/// few points make it larger. Calibrated so that errors with true boxes are covered, the part that comes from
-/// shapes that are not quite like their models included: it repeats from frame to frame.
+/// Covariance of (x, y, z, yaw) of a placed shape in the ground frame: m, rad. Along the view the error grows with the
+/// square of the distance (disparity). Without supporting depth points it is propagated from the box's bottom and from
+/// `ground_tilt_sigma` (rad, paper Eq. 2). A poor fit, a cut box and few points increase it. Calibrated with true
+/// boxes; it includes how real objects differ from their models, an error that repeats from frame to frame.
 Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& evidence,
                              double ground_tilt_sigma);
 

@@ -12,6 +12,11 @@ namespace roomgraph {
 namespace {
 
 constexpr int kSteps = 45;  // of 2 degrees over [0, 90)
+constexpr int kPeakReach = 4;                  // steps to each side within which a maximum is the largest
+constexpr double kLow = 0.02, kHigh = 0.98;    // quantiles taken for the ends of noisy points
+constexpr double kLeastDistance_m = 0.03;      // nearer points are all equally near: the depth noise
+constexpr double kLeastSide_m = 0.05;          // a thinner rectangle is no better
+constexpr std::size_t kLeastFootprint = 5;     // points
 
 struct Extent {
   double low = 0, high = 0;
@@ -22,10 +27,10 @@ Extent extentAlong(const std::vector<Eigen::Vector2d>& points, const Eigen::Vect
                    std::vector<double>& values) {
   values.clear();
   for (const auto& p : points) values.push_back(axis.dot(p));
-  return {quantile(values, 0.02), quantile(values, 0.98)};
+  return {quantile(values, kLow), quantile(values, kHigh)};
 }
 
-// Of both ends of an axis the one with more points near it is the visible side: distances from that side.
+// The end of an axis with more points near it is the visible side; replaces the values by distances from it.
 void distancesToSide(std::vector<double>& values, const Extent& extent) {
   double to_low = 0, to_high = 0;
   for (const double x : values) {
@@ -47,8 +52,8 @@ Trial tryYaw(const std::vector<Eigen::Vector2d>& points, double yaw) {
   distancesToSide(a, ea);
   distancesToSide(b, eb);
   double closeness = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) closeness += 1 / std::max(0.03, std::min(a[i], b[i]));
-  const double area = std::max(ea.size(), 0.05) * std::max(eb.size(), 0.05);
+  for (std::size_t i = 0; i < points.size(); ++i) closeness += 1 / std::max(kLeastDistance_m, std::min(a[i], b[i]));
+  const double area = std::max(ea.size(), kLeastSide_m) * std::max(eb.size(), kLeastSide_m);
   Trial trial;
   trial.rectangle.center = first * (ea.low + ea.high) / 2 + second * (eb.low + eb.high) / 2;
   trial.rectangle.yaw = yaw;
@@ -62,13 +67,13 @@ Trial tryYaw(const std::vector<Eigen::Vector2d>& points, double yaw) {
 
 std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points, int max_count) {
   std::vector<FootprintRectangle> out;
-  if (points.size() < 5) return out;
+  if (points.size() < kLeastFootprint) return out;
   std::vector<Trial> trials;
   for (int k = 0; k < kSteps; ++k) trials.push_back(tryYaw(points, k * std::numbers::pi / 2 / kSteps));
   std::vector<Trial> peaks;
   for (int k = 0; k < kSteps; ++k) {
     bool peak = true;
-    for (int step = -4; step <= 4; ++step)
+    for (int step = -kPeakReach; step <= kPeakReach; ++step)
       if (trials[(k + step + kSteps) % kSteps].score > trials[k].score) peak = false;
     if (peak) peaks.push_back(trials[k]);
   }

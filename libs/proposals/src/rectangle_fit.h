@@ -13,8 +13,8 @@ struct FootprintRectangle {
   double yaw = 0, size_first = 0, size_second = 0;
 };
 
-/// Rectangles whose two visible sides lie close to many points (L-shape criterion over sampled yaw), best
-/// first: local maxima of the criterion, at most `max_count`. Extents are the 2 % and 98 % quantiles.
+/// Rectangles with many points near their two visible sides (closeness criterion of L-shape fitting, over sampled yaw):
+/// local maxima of the criterion, best first, at most `max_count`. Extents are the 2 % and 98 % quantiles.
 std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points, int max_count = 2);
 
 }  // namespace roomgraph

@@ -11,21 +11,25 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kTries = 120;
+constexpr int kTries = 120;  // of RANSAC
+constexpr unsigned kPairSeed = 777;
+constexpr double kLeastPair_m = 0.1;      // nearer points tell no direction
 constexpr std::size_t kLeastInPlane = 30;
-constexpr double kLeastShare = 0.35;
-constexpr double kPointsPerSample = 25;  // neighbouring pixels share their error: a point counts for a part
-// What a camera's calibration and a door's panels leave, however many points there are.
+constexpr double kLeastShare = 0.35;      // of inliers among the points
+constexpr double kPointsPerSample = 25;   // errors of neighbouring pixels are correlated: so many count as one
+// Inliers are this near to the plane: m, and standard deviations.
+constexpr double kOnWall_m = 0.01, kOnWallSigmas = 2.5;
+// Least standard deviations (rad, m), from the camera's calibration and a door's panels.
 constexpr double kWallAngleFloor = 0.01, kWallOffsetFloor = 0.012;
 
 // Standard deviation of a point across the plane, m.
 double noiseAcross(const VerticalPlane& plane, const Eigen::Vector2d& p) {
   const double range = std::max(p.norm(), 1e-6);
-  return 0.004 + depthSigma(range) * std::abs(plane.normal.dot(p)) / range;
+  return kSurfaceNoise_m + depthSigma(range) * std::abs(plane.normal.dot(p)) / range;
 }
 
 bool isInlier(const VerticalPlane& plane, const Eigen::Vector2d& p) {
-  return std::abs(plane.normal.dot(p) - plane.offset) < 0.01 + 2.5 * noiseAcross(plane, p);
+  return std::abs(plane.normal.dot(p) - plane.offset) < kOnWall_m + kOnWallSigmas * noiseAcross(plane, p);
 }
 
 std::ptrdiff_t inliers(const VerticalPlane& plane, const std::vector<Eigen::Vector2d>& points) {
@@ -74,12 +78,12 @@ VerticalPlane planeThrough(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 std::optional<VerticalPlane> fitVerticalPlane(const std::vector<Eigen::Vector2d>& points) {
   if (points.size() < kLeastInPlane) return std::nullopt;
-  std::mt19937 random(777);
+  std::mt19937 random(kPairSeed);
   VerticalPlane best;
   std::ptrdiff_t most = 0;
   for (int i = 0; i < kTries; ++i) {
     const Eigen::Vector2d a = points[random() % points.size()], b = points[random() % points.size()];
-    if ((b - a).norm() < 0.1) continue;
+    if ((b - a).norm() < kLeastPair_m) continue;
     const VerticalPlane plane = planeThrough(a, b);
     if (const auto count = inliers(plane, points); count > most) {
       most = count;

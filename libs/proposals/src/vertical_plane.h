@@ -13,7 +13,7 @@ namespace roomgraph {
 struct VerticalPlane {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double offset = 0;        ///< m
-  double middle = 0;        ///< m, of the points, as a coordinate along the line
+  double middle = 0;        ///< m, mean of the points, as a coordinate along the line
   double sigma_m = 0;       ///< of the offset, at the points' middle
   double sigma_rad = 0;     ///< of the normal's direction
   double inlier_share = 0;  ///< of the points
@@ -24,10 +24,9 @@ struct VerticalPlane {
 /// Plane through two points of the ground.
 VerticalPlane planeThrough(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
-/// Plane that most of the points (ground frame, measured from above the origin by a depth camera) lie on:
-/// random pairs, fixed seed, then weighted total least squares. A depth error lies along the view, so a wall
-/// seen at a glancing angle scatters little across itself. Nothing when there are few points, or less than a
-/// third of them are on one plane.
+/// Plane with the most inliers among the points (ground frame, measured from above the origin by a depth camera):
+/// RANSAC over pairs with a fixed seed, then weighted total least squares. Depth errors are along the view, hence small
+/// across a wall seen at a glancing angle. Nothing when there are few points, or about two thirds are outliers.
 std::optional<VerticalPlane> fitVerticalPlane(const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace roomgraph

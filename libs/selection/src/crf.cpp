@@ -22,9 +22,9 @@ ChainProblem remembering(const ChainProblem& problem) {
     const Eigen::MatrixXd& pair = problem.pairwise[f];
     Eigen::MatrixXd& table = out.pairwise.emplace_back(pair.rows() + 1, pair.cols() + 1);
     table.topLeftCorner(pair.rows(), pair.cols()) = pair;
-    table.rightCols(1).setConstant(kInfinity);  // nothing leads back to fresh …
+    table.rightCols(1).setConstant(kInfinity);  // no state leads back to fresh …
     table.bottomRows(1).leftCols(pair.cols()) = pair.topRows(1);
-    table(pair.rows(), 0) = kInfinity;  // … which goes on only as fresh or with a proposal
+    table(pair.rows(), 0) = kInfinity;  // … from which a chain continues as fresh or with a proposal
     table(pair.rows(), pair.cols()) = pair(0, 0);
   }
   if (out.unary.empty()) return out;

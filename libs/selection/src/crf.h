@@ -9,8 +9,7 @@ namespace roomgraph {
 
 /// The terms of paper Eq. 3 that concern one object over a window of frames. Given gamma they are a chain:
 /// per frame one of the states {0: none, i: proposal i of 1..P}; P may be 0. "At most one proposal per frame"
-/// (Eq. 7) holds by construction. Its (1 - beta*) stands before a term that is 0 or infinite, so it is left
-/// out.
+/// (Eq. 7) holds by construction. Its factor (1 - beta*), of a term that is 0 or infinite, is left out.
 struct ChainProblem {
   std::vector<std::vector<double>> unary;  ///< [frame][state]; +infinity forbids a state
   /// [frame](x, y): of state x in this frame and y in the next; one fewer than frames.

@@ -20,7 +20,7 @@ std::vector<std::vector<const Proposal*>> byDetection(const FrameProposals& fram
   return out;
 }
 
-// States of least energy, where the newest frame may only take what is good enough by itself.
+// States of least energy, with only those proposals in the newest frame whose own energy is low enough.
 ChainSolution minimizeReportable(ChainProblem problem, double max_energy) {
   auto& newest = problem.unary.back();
   for (std::size_t x = 1; x < newest.size(); ++x)

@@ -8,8 +8,8 @@
 namespace roomgraph {
 namespace {
 
-// The affine map of each axis that takes the area `from` to `to`, applied to `box`. A side cut by the image
-// border is no side of the object: there the side of `to` is taken.
+// The affine map per axis from the area `from` to `to`, applied to `box`. A side cut by the image border is not a side
+// of the object: the side of `to` takes its place.
 Box2 movedAlong(const Box2& box, const ProjectedShape& from, const Box2& to) {
   const Box2& full = from.full;
   const double su = to.width() / full.width(), sv = to.height() / full.height();

@@ -10,7 +10,7 @@
 
 namespace roomgraph {
 
-/// One sighting of an object: what later frames need of a detection and its proposals.
+/// One sighting of an object: the parts of a detection and its proposals that later frames need.
 struct Sighting {
   int frame = 0;  ///< count of the frame, set when it enters the window
   Box2 box;       ///< of the detection, px

@@ -36,11 +36,11 @@ struct ShapeInWorld {
 };
 ShapeInWorld shapeInWorld(const Proposal& proposal, const Pose3& world_from_camera);
 
-/// H A(x): the shape's area carried into another view, px; nothing when it lies outside that image or behind.
+/// H A(x): the shape's area projected into another view, px; nothing when it is outside that image or behind.
 std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewpoint& view);
 
 /// Pairwise potential of two proposals (paper Eq. 6): P = 1 - IoU(A(x_t), H A(x_{t-1})), in [0, 1]; of the
-/// areas inside the image. 1 when the former proposal should not be seen.
+/// areas inside the image. 1 when the former proposal is out of view.
 double pairwisePotential(const ProjectedShape& area, const std::optional<ProjectedShape>& carried);
 
 /// s of Eq. 3: of the features inside either box (ids, ascending), the share inside both. 0 without features.

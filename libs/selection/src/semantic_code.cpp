@@ -46,7 +46,7 @@ CodeMatch matchCodes(const SemanticCode& a, const SemanticCode& b, const Eigen::
   const auto linked = [&](const Value& rest, std::size_t i, std::size_t k) {
     return Value{rest.first + 1, rest.second + overlap(a.objects[i], b.objects[k])};
   };
-  // best[i][k]: of what is left of a from i and of b from k.
+  // best[i][k]: for the rest of a from i on and of b from k on.
   std::vector<std::vector<Value>> best(n + 1, std::vector<Value>(m + 1));
   for (std::size_t i = n; i-- > 0;)
     for (std::size_t k = m; k-- > 0;) {

@@ -22,7 +22,7 @@ class LabelCodes {
   std::vector<std::string> names_;
 };
 
-/// What a semantic code keeps of an object in an image.
+/// An object in an image, for its semantic code.
 struct LabelledBox {
   Box2 box;
   std::uint8_t label = 0;
@@ -36,7 +36,7 @@ struct SemanticCode {
   int bits() const { return 8 * static_cast<int>(labels.size()); }
 };
 
-/// Reading order: a row starts with the highest box left and takes in all whose centres lie above its bottom
+/// Reading order: a row begins with the highest remaining box and contains all whose centres are above its bottom
 /// side; rows from top to bottom, inside a row by the centre's column.
 SemanticCode semanticCode(const std::vector<LabelledBox>& objects);
 

@@ -6,7 +6,7 @@
 
 namespace roomgraph {
 
-/// Each frame on its own: per detection the proposal with the lowest alpha * U, if it is low enough.
+/// Each frame alone: per detection the proposal with the lowest alpha * U, if it is low enough.
 /// Confidence is the Boltzmann probability of the choice among {none} and the detection's proposals.
 class UnarySelector : public ProposalSelector {
   DEFINE_MRPT_OBJECT(UnarySelector, roomgraph)

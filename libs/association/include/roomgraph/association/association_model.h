@@ -6,7 +6,7 @@
 
 namespace roomgraph {
 
-/// All factors of paper Eq. 10 and how much each counts.
+/// All factors of paper Eq. 10 with their weights.
 struct AssociationModel {
   MeasurementModel measurement;
   double forgetting = 0.2;

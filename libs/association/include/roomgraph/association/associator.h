@@ -27,14 +27,14 @@ class Associator : public Stage {
   /// One association per measurement, in order; no landmark is given to two measurements.
   virtual std::vector<Association> associate(const std::vector<WorldMeasurement>& measurements,
                                              const std::vector<Landmark>& landmarks) = 0;
-  /// Tells what became of a measurement: the id of its landmark, also of one that was just made for it.
+  /// Called with the landmark that a measurement was fused into, perhaps a new one.
   virtual void assigned(const WorldMeasurement& measurement, LandmarkId landmark) {
     (void)measurement, (void)landmark;
   }
-  /// Tells that landmarks were merged or split: ids that the associator remembers are to be resolved anew.
+  /// Called after landmarks were merged or split: stored ids must be resolved again.
   virtual void identitiesChanged(const LandmarkIdentity& identity) { (void)identity; }
-  /// What re-association of a whole run (reassociate()) weighs measurements with; null: this associator's
-  /// decisions are final.
+  /// The model by which reassociate() decides the measurements of a whole run again; null: this associator's decisions
+  /// are final.
   virtual const AssociationModel* model() const { return nullptr; }
 };
 

@@ -13,25 +13,25 @@
 namespace roomgraph {
 
 struct ConstellationOptions {
-  int min_pairs = 3;            ///< fewer objects in common say nothing
+  int min_pairs = 3;            ///< fewer objects in common are no evidence
   double tolerance_m = 0.3;     ///< of an object's place after the transform
   double yaw_tolerance = 0.6;   ///< rad, of an object's front; objects without a yaw fit any
-  double min_separation_m = 1;  ///< two objects nearer to each other do not fix a direction
+  double min_separation_m = 1;  ///< two objects nearer to each other do not determine a rotation
   int min_lead = 1;             ///< pairs more than the best clearly different transform has
 };
 
-/// How two sets of objects lie on each other.
+/// Transform between two sets of objects, with the pairs that agree.
 struct ConstellationMatch {
   Pose2 map_from_query;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< (query, map), ascending
   double rms_m = 0;                                        ///< of the pairs' distances
 };
 
-/// The rigid transform on the floor that lays the most objects of `query` on objects of `map`, class by class
-/// and one to one (method.md sec. 4: loop closing by objects). Every two pairs of objects with equal distance
-/// propose a transform, the pairs it brings within tolerance vote for it, least squares (Umeyama 1991)
-/// refines it. Nothing when too few objects agree, or when a clearly different transform explains nearly as
-/// many: a row of equal chairs fits itself in several ways.
+/// The rigid transform on the floor that matches the most objects of `query` with objects of `map`, class by class and
+/// one to one (method.md sec. 4: loop closing by objects). Every two objects of `query` and two of `map` at equal
+/// distances propose a transform; its inliers are the pairs within tolerance; least squares (Umeyama 1991) refines it.
+/// Nothing when there are too few inliers, or when a clearly different transform has nearly as many: a row of equal
+/// chairs matches itself in several ways.
 std::optional<ConstellationMatch> matchConstellation(const std::vector<Landmark>& query,
                                                      const std::vector<Landmark>& map,
                                                      const ConstellationOptions& options = {});

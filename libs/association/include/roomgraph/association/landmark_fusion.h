@@ -12,7 +12,7 @@
 
 namespace roomgraph {
 
-/// Place of one sighting, for the test whether a landmark is two objects.
+/// Position of one sighting, for the test whether a landmark is two objects.
 struct PlaceSketch {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
   double sigma_m = 0;  ///< larger standard deviation on the ground
@@ -25,10 +25,10 @@ struct ExistenceUpdate {
   double log_ratio = 0;  ///< added to the log odds of existence
 };
 
-/// What is remembered about a landmark beside its estimate.
+/// Record of a landmark beside its estimate.
 struct LandmarkRecord {
   double evidence = 0;                             ///< sum of the sightings' weights
-  double ray_support = 0;                          ///< log odds of existence that rays gave in favour
+  double ray_support = 0;                          ///< log odds of existence gained from rays
   std::vector<ExistenceUpdate> existence_updates;  ///< in order of time
   std::map<std::string, double> labels;            ///< class -> sum of the sightings' weights
   double front = 0, back = 0;                      ///< votes for the landmark's yaw and for the opposite one
@@ -36,8 +36,7 @@ struct LandmarkRecord {
   std::deque<PlaceSketch> recent;
 };
 
-/// Whether the sighting's place is an outlier with respect to the landmark (it was assigned for other
-/// reasons).
+/// Whether the sighting's position is an outlier with respect to the landmark (it was assigned by track or features).
 bool isElsewhere(const Landmark& landmark, const WorldMeasurement& seen);
 /// Kalman update of (x, y, z, yaw); the covariance of carried boxes and of outliers is inflated.
 void fusePlace(Landmark& landmark, const WorldMeasurement& seen);
@@ -52,7 +51,7 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen);
 /// Adds the record of a merged landmark; `turned`: its yaw is the opposite one.
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned);
 
-/// Two groups of sightings that one object cannot explain.
+/// Two groups of sightings too far apart for one object.
 struct Split {
   Eigen::Vector2d first, second;  ///< means
   std::vector<char> is_second;    ///< per sighting

@@ -23,23 +23,23 @@ struct IdentityChange {
   LandmarkId from, to;
 };
 
-/// The single record of which landmark ids exist and which of them denote the same object. Whoever stores
-/// landmark ids resolves them with today(). A split cannot be resolved by id alone, because sightings have to
-/// be divided by place: who stores sightings reads changes(). An id is never given twice.
+/// Which landmark ids exist and which of them denote the same object. Stored ids are resolved with today(). A split
+/// cannot be resolved by id alone, because sightings are divided by position: stored sightings are updated with
+/// changes(). An id is never used twice.
 class LandmarkIdentity {
  public:
   /// An id that no landmark has had.
   LandmarkId create() { return LandmarkId{next_++}; }
-  /// Keeps an id that was given elsewhere from being created again.
+  /// Reserves an id that was created elsewhere.
   void reserve(LandmarkId id) { next_ = std::max(next_, id.value + 1); }
 
-  /// The landmarks are one object. Throws std::logic_error when one of them was merged before, or both are
+  /// Records that the landmarks are one object. Throws std::logic_error when one of them was merged before, or both are
   /// the same.
   void merge(LandmarkId removed, LandmarkId kept);
-  /// The landmark is two objects: returns the id created for the second.
+  /// Records that the landmark is two objects; returns the id created for the second.
   LandmarkId split(LandmarkId id);
 
-  /// Id after all merges so far; ids that were never merged, also the invalid one, stay.
+  /// Id after all merges so far; unchanged for ids that were never merged, and for the invalid one.
   LandmarkId today(LandmarkId id) const;
   /// All merges and splits in the order in which they happened.
   const std::vector<IdentityChange>& changes() const { return changes_; }
@@ -51,7 +51,7 @@ class LandmarkIdentity {
 };
 
 /// The weights with every id replaced by `rename(id)`; weights of ids that become equal are added, at most to
-/// 1, and stand where the first of them stood.
+/// 1, at the position of the first of them.
 WeightedLandmarks renamed(const WeightedLandmarks& weights,
                           const std::function<LandmarkId(LandmarkId)>& rename);
 

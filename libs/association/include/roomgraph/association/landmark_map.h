@@ -42,7 +42,7 @@ class LandmarkMap {
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const ObjectShape& shape,
                const Eigen::Matrix4d& covariance);
 
-  /// Takes a landmark, with what is remembered of its places, into another frame.
+  /// Transforms a landmark, with the positions in its record, into another frame.
   void move(LandmarkId id, const Pose3& new_from_old);
 
   /// Merges landmarks of one class that are one object; returns (removed, kept) pairs.

@@ -39,17 +39,17 @@ struct DuplicateRule {
 
   void declare(ParameterVisitor& visitor);
 
-  /// Their volumes overlap as those of two objects cannot, or their centres are too close for two; where
-  /// frames show both (`together` of the sightings of the one seen less), only if they cover each other.
+  /// Whether their volumes overlap too much, or their centres are too close, for two objects. Landmarks seen side by
+  /// side in frames (`together` of the sightings of the one seen less) must cover each other.
   bool same(const Landmark& a, const Landmark& b, int together) const;
 
-  /// Distance of two groups of a landmark's sightings from which on they are two objects, m.
+  /// Distance of two groups of a landmark's sightings beyond which they are two objects, m.
   double splitDistance(const ObjectShape& shape) const {
     return split_distance_ratio * std::max(shape.width, shape.depth);
   }
 };
 
-/// How landmarks begin and which of them are one object: the same in the live map and in re-association.
+/// Initialisation and merging of landmarks, in the live map and in re-association alike.
 struct LandmarkRules {
   double birth_existence = 0.3;  ///< existence probability of a landmark seen once
   DuplicateRule duplicates;

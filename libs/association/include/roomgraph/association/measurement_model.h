@@ -11,10 +11,10 @@
 
 namespace roomgraph {
 
-/// What a measurement may be, each with its density in 1/m^2 (not normalised).
+/// Alternatives of a measurement, each with its density in 1/m^2 (not normalised).
 struct Alternatives {
   WeightedLandmarks same_class;   ///< landmarks of its class in gate, in the order of the map
-  WeightedLandmarks other_class;  ///< landmarks of another class that stand where it is: its label is wrong
+  WeightedLandmarks other_class;  ///< landmarks of another class at its position: its label may be wrong
   double fresh = 0;               ///< an object that has no landmark yet
 };
 
@@ -38,16 +38,14 @@ struct MeasurementModel {
   /// Whether the measurement can be the landmark: class, and gate or viewing ray.
   bool inGate(const WorldMeasurement& seen, const Landmark& landmark) const;
 
-  /// Density of the measured place given the landmark, 1/m^2: a bivariate Student t, because proposals fail
-  /// now and then by more than their covariance says; and, for those whose depth came from something in front
-  /// or behind (the likelier the lower their score), a stripe along the viewing ray, which counts as much as
-  /// the boxRatio says.
+  /// Density of the measured position given the landmark, 1/m^2: a bivariate Student t, because some proposals are
+  /// outliers of their covariance; mixed with a stripe along the viewing ray, for proposals whose depth is that of
+  /// something in front or behind (more probable at low scores), weighted by the boxRatio.
   double density(const WorldMeasurement& seen, const Landmark& landmark) const;
 
-  /// How much better (or worse) the landmark explains the detection's box than the proposal itself does:
-  /// ratio of the densities of the four sides, each a Gaussian around the side of the projected model, or,
-  /// when the side is hidden or the box takes in something else, anywhere. Sides on the image border don't
-  /// count. 1 without a camera.
+  /// Likelihood ratio of the detection's box given the landmark and given the proposal: of the densities of the four
+  /// sides, each a Gaussian around the side of the projected model mixed with a uniform density, for sides that are
+  /// hidden or include something else. Sides on the image border are left out. 1 without a camera.
   double boxRatio(const WorldMeasurement& seen, const Landmark& landmark) const;
 
   /// The Student t alone.

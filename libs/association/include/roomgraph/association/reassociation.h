@@ -17,18 +17,18 @@ struct BatchDecision {
 };
 
 struct Reassociation {
-  std::vector<std::vector<BatchDecision>> decisions;  ///< by frame and measurement, as they came in
-  std::vector<Landmark> landmarks;  ///< those with sightings, by id; place, yaw and size anew
+  std::vector<std::vector<BatchDecision>> decisions;  ///< by frame and measurement, in the order of the input
+  std::vector<Landmark> landmarks;  ///< those with sightings, by id; position, yaw and size estimated again
   LandmarkIdentity identity;        ///< the one given, with the merges and splits made here
   int rounds = 0;
   bool settled = false;  ///< the last round changed no decision
 };
 
-/// The E-step over a whole run (method.md sec. 4): every measurement is decided again against the landmarks,
-/// with the past and the future of its track; landmarks are placed again by a robust mean of their
-/// sightings, duplicates become one, landmarks that nobody claims go, unclaimed measurements make new ones;
-/// at most `max_rounds` times, until no decision changes. `by_frame`: in order of time, with poses as they
-/// are known now. `identity`: of the landmarks in `initial`. Deterministic; touches no state.
+/// The E-step over a whole run (method.md sec. 4): every measurement is assigned to the landmarks again, with the past
+/// and the future of its track; landmarks become the robust mean of their sightings, duplicates are merged, landmarks
+/// without sightings are dropped, measurements without landmark initialise new ones; repeated until no decision
+/// changes, at most `max_rounds` times. `by_frame`: in order of time, with the current poses. `identity`: of the
+/// landmarks in `initial`. Deterministic, without side effects.
 Reassociation reassociate(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                           std::vector<Landmark> initial, LandmarkIdentity identity,
                           const AssociationModel& model, const LandmarkRules& rules, int max_rounds = 10);

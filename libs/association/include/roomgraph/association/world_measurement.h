@@ -8,7 +8,7 @@
 
 namespace roomgraph {
 
-/// A measurement brought into world with the robot's current pose.
+/// A measurement transformed into world with the current estimate of the pose.
 struct WorldMeasurement {
   ObjectMeasurement measurement;
   Pose3 world_from_object = Pose3::Identity();

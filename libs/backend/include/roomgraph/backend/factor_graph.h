@@ -14,15 +14,15 @@
 
 namespace roomgraph {
 
-/// How far to solve.
+/// When to stop iterating.
 struct SolveOptions {
   int max_iterations = 50;
-  double function_tolerance = 1e-8;  ///< stop when the cost changes by less than this share
-  /// Told after every iteration: its number and the cost so far. May be empty.
+  double function_tolerance = 1e-8;  ///< relative change of the cost below which it stops
+  /// Called after every iteration. May be empty.
   std::function<void(int iteration, double cost)> progress = {};
 };
 
-/// What a solve did.
+/// Outcome of an optimisation.
 struct SolveReport {
   bool usable = false;  ///< the solution may be used (converged, or stopped early at a better point)
   double initial_cost = 0, final_cost = 0;  ///< half the sum of squared (robust) residuals
@@ -35,7 +35,7 @@ using NodeTimes = std::map<NodeId, double>;  ///< s
 
 /// Poses, landmarks, points and the factors between them; robust non-linear least squares (method.md Eq. 9).
 /// Ids are the caller's; every id used in a factor must have been added before. Throws std::out_of_range
-/// otherwise. Nothing here depends on the number of threads: the same input gives the same bits.
+/// otherwise. Results do not depend on the number of threads: the same input gives the same bits.
 class FactorGraph {
  public:
   FactorGraph();
@@ -50,15 +50,15 @@ class FactorGraph {
   /// size.
   void add(const Factor& factor);
 
-  /// Minimises over everything that is not fixed. The yaw of a landmark moves only if a factor measures it,
-  /// its size only with a LandmarkSizeFactor.
+  /// Minimises over everything that is not fixed. The yaw of a landmark is variable only if a factor measures it, its
+  /// size only with a LandmarkSizeFactor.
   SolveReport optimize(int max_iterations = 50);
   SolveReport optimize(const SolveOptions& options);
-  /// Poses from the movements alone by chordal relaxation, without need of a good start; kept when they lower
-  /// the cost. Only for graphs of nothing but poses and movements. Returns whether anything changed.
+  /// Initialises the poses from the movements alone by chordal relaxation, which needs no good initial estimate; kept
+  /// when they lower the cost. Only for graphs of poses and movements. Returns whether anything changed.
   bool initializePoses();
   /// Sum of squared residuals, whitened and weighted, with robust losses applied: twice the cost.
-  /// NaN when it cannot be evaluated (something in it is not finite, or too large).
+  /// NaN when it cannot be evaluated (a residual is not finite or too large).
   double chiSquared() const;
 
   Pose3 pose(NodeId id) const;
@@ -73,22 +73,20 @@ class FactorGraph {
   /// singular or cannot be evaluated. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
 
-  /// What is left for `keep` when everything else is removed (Schur complement at the current estimate). It
-  /// takes in every factor that touches something removed, and every MarginalPrior; factors among kept
-  /// variables stay the caller's to add again. Add it to a graph of the kept variables. Nothing when the
-  /// removed part says nothing about the kept one, or cannot be evaluated.
+  /// Marginalises everything but `keep` (Schur complement at the current estimate). The prior contains every factor on
+  /// a removed variable, and every MarginalPrior; the caller adds it, and the factors among kept variables, to a graph
+  /// of the kept variables. Nothing when the removed part has no factor on a kept variable, or cannot be evaluated.
   std::optional<MarginalPrior> marginalize(const Variables& keep) const;
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
-  /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). Priors, points and robust
-  /// losses have no place in it. `times` of poses go beside them as comments. Throws RunError when the file
+  /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). The format has
+  /// no priors, points and robust losses. `times` of poses are written as comments. Throws RunError when the file
   /// cannot be written.
   void saveG2o(const std::filesystem::path& file, const NodeTimes& times = {}) const;
-  /// The same graph seen from above, for robots on a floor: the same vertices (landmarks too) and edges,
-  /// without heights, roll and pitch.
+  /// The graph projected onto the floor: the same vertices (landmarks too) and edges, without height, roll and pitch.
   PlanarGraph planar() const;
 
-  struct Impl;  ///< behind the scenes
+  struct Impl;  ///< private
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -25,7 +25,7 @@ struct LandmarkEstimate {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< bottom centre
   double yaw = 0;
   ObjectShape shape =
-      {};  ///< kind and size; the kind never changes, the size only when a factor speaks of it
+      {};  ///< kind and size; the kind never changes, the size only with a LandmarkSizeFactor
 };
 
 /// Movement between two poses: odometry, visual odometry, scan match, loop closure.
@@ -73,13 +73,13 @@ struct LandmarkViewFactor {
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
-/// The object stands on the floor: z = 0.
+/// The object rests on the floor: z = 0.
 struct LandmarkGroundFactor {
   LandmarkId landmark;
   double sigma_z_m = 0.02;
 };
 
-/// What the object database knows of a landmark's size (factor 6). Frees the landmark's size.
+/// Prior of a landmark's size from the object database (factor 6). Makes the landmark's size variable.
 struct LandmarkSizeFactor {
   LandmarkId landmark;
   Eigen::Vector3d size_m = Eigen::Vector3d::Ones();  ///< width, depth, height
@@ -87,7 +87,7 @@ struct LandmarkSizeFactor {
 };
 
 /// Bounding box of a landmark in an image against that of its projected model (factor 3, paper Eq. 12). A
-/// side of the measured box on the image border says nothing of where the object ends: it is not compared.
+/// side of the measured box on the image border is not compared: the object may extend beyond it.
 /// The landmark must have a size.
 struct LandmarkBoxFactor {
   NodeId node;
@@ -116,8 +116,8 @@ struct CameraPointFactor {
   double robust_width = 2.5;  ///< in standard deviations; 0: plain least squares
 };
 
-/// A point of a landmark lies inside its model (factor 4, paper Eq. 14): distance outside the volume, its
-/// horizontal and vertical parts apart, nothing inside.
+/// A point of a landmark lies inside its model (factor 4, paper Eq. 14): horizontal and vertical distance from the
+/// volume, 0 inside.
 struct PointLandmarkFactor {
   PointId point;
   LandmarkId landmark;
@@ -133,21 +133,21 @@ struct Variables {
   std::vector<PointId> points;
 };
 
-/// What the measurements of a removed part say about the variables next to it: cost 1/2 |root d + offset|^2
-/// with d the difference from the place of linearisation. Per pose 6 numbers (translation in world, rotation
+/// Prior on variables from the measurements of a marginalised part: cost 1/2 |root d + offset|^2 with d the difference
+/// from the point of linearisation. Per pose 6 numbers (translation in world, rotation
 /// vector w with R = exp(w) R_linearised), per landmark 7 (x, y, z, yaw, width, depth, height), per point 3,
 /// in the order of `variables`: poses, landmarks, points. Made by FactorGraph::marginalize.
 struct MarginalPrior {
   Variables variables;
-  std::vector<Pose3> poses;                 ///< linearised at, like the following
+  std::vector<Pose3> poses;                 ///< point of linearisation, like the following
   std::vector<LandmarkEstimate> landmarks;  ///< shape kinds are not used
   std::vector<Eigen::Vector3d> points;
   Eigen::MatrixXd root;
   Eigen::VectorXd offset;
 };
 
-/// Every kind of measurement a graph can hold. A new one belongs here; the tests don't compile until it has
-/// its specimens (tests/backend/residual_specimens.h).
+/// Every kind of measurement in a graph. A new kind is added here; the tests do not compile until it has specimens
+/// (tests/backend/residual_specimens.h).
 using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkViewFactor,
                             LandmarkGroundFactor, LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor,
                             PointLandmarkFactor, MarginalPrior>;

@@ -12,16 +12,16 @@
 
 namespace roomgraph {
 
-/// What a g2o file holds.
+/// Content of a g2o file.
 struct G2oContent {
   std::variant<PlanarGraph, FactorGraph> graph;  ///< 2D or 3D
   NodeTimes times;                               ///< of the poses that have one
-  std::map<std::string, int> skipped;            ///< lines by tag that is not known
+  std::map<std::string, int> skipped;            ///< number of lines by unknown tag
 };
 
 /// Reads VERTEX_SE2 and EDGE_SE2, or VERTEX_SE3:QUAT and EDGE_SE3:QUAT, FIX, and the landmarks
 /// and times of FactorGraph::saveG2o (docs/formats.md). Without FIX the first pose is held. Throws InputError
-/// with file and line for everything that makes no sense: unreadable numbers, unknown or doubled vertices,
+/// with file and line for every inconsistency: unreadable numbers, unknown or doubled vertices,
 /// information that is not positive definite, 2D and 3D mixed.
 G2oContent loadG2o(const std::filesystem::path& file);
 

@@ -18,14 +18,14 @@ struct PlanarEdge {
       Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in the measurement's b frame
 };
 
-/// A vertex that stands for an object: its bottom centre, and the yaw of its front.
+/// A vertex that is an object: its bottom centre, and the yaw of its front.
 struct PlanarLandmark {
   LandmarkId id;
   ObjectShape shape;
 };
 
-/// Pose graph in the plane, as 2D g2o files hold it. Its error is the one of g2o's EDGE_SE2, with which the
-/// optima of the public data sets are published: e = (x, y, yaw) of a_from_b(measured)^-1
+/// Pose graph in the plane, as in 2D g2o files. Its error is that of g2o's EDGE_SE2, in which the optima of the public
+/// data sets are published: e = (x, y, yaw) of a_from_b(measured)^-1
 /// a_from_b(estimated), yaw wrapped; chi^2 = sum e' information e.
 struct PlanarGraph {
   std::map<NodeId, Pose2> poses;  ///< world_from_robot; of landmarks, too
@@ -35,8 +35,8 @@ struct PlanarGraph {
 };
 
 double chiSquared(const PlanarGraph& graph);
-/// Poses from the edges alone by chordal relaxation; kept when they lower chi^2. Returns whether anything
-/// changed.
+/// Initialises the poses from the edges alone by chordal relaxation; kept when they lower chi^2. Returns whether
+/// anything changed.
 bool initializePoses(PlanarGraph& graph);
 /// Least squares over every pose that is not fixed. Throws std::out_of_range for an edge between unknown
 /// poses.

@@ -12,7 +12,7 @@
 namespace roomgraph {
 
 /// Names (without namespace) of all registered classes that implement `interface`, sorted. Throws ConfigError
-/// when two classes have the same name in different namespaces: the configuration could not tell them apart.
+/// when two classes have the same name in different namespaces, as the name in a configuration would be ambiguous.
 std::vector<std::string> implementationsOf(const mrpt::rtti::TRuntimeClassId* interface);
 
 /// Makes an object by class name, with or without namespace. Throws ConfigError that lists the known names, and

@@ -24,8 +24,8 @@ class Config {
   /// ConfigError when it does not have that form.
   void override(const std::string& assignment);
 
-  /// Reads every declared parameter that has an entry in `section`; others keep their defaults. Files come
-  /// out with absolute paths. Throws ConfigError with file, section, key, value and what is allowed.
+  /// Reads every declared parameter that has an entry in `section`; others keep their defaults. Files get
+  /// absolute paths. Throws ConfigError with file, section, key, value and what is allowed.
   void read(const std::string& section, Configurable& target) const;
 
   /// Text of one entry, or `fallback`. Throws ConfigError when its quotes are not closed.

@@ -7,7 +7,7 @@
 
 namespace roomgraph {
 
-/// Base of everything the program reports as one clear line; the exit code is part of the command line's
+/// Base of all errors that the program reports in one line; the exit code is part of the command line's
 /// contract.
 struct Error : std::runtime_error {
   Error(const std::string& what, int code) : std::runtime_error(what), exit_code(code) {}

@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// Integer id that cannot be mixed up with an id of another kind. Negative means "none".
+/// Integer id with a type of its own for every kind. Negative means "none".
 template <class Tag>
 struct Id {
   std::int64_t value = -1;

@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// Whatever the entries' values, or the items of lists, would name if they were files.
+/// The entries' values, and the items of lists, as file names.
 std::vector<std::filesystem::path> mentionedFiles(const Config& config);
 
 }  // namespace roomgraph

@@ -9,8 +9,7 @@
 
 namespace roomgraph {
 
-/// The value at `ratio` (in [0, 1]) of the way from the smallest to the largest, nearest rank; 0 for no
-/// values.
+/// Quantile of `ratio` in [0, 1] by nearest rank; 0 for no values.
 inline double quantile(std::vector<double> values, double ratio) {
   if (values.empty()) return 0;
   const auto index = static_cast<std::ptrdiff_t>(ratio * static_cast<double>(values.size() - 1) + 0.5);
@@ -18,7 +17,7 @@ inline double quantile(std::vector<double> values, double ratio) {
   return values[static_cast<std::size_t>(index)];
 }
 
-/// The upper one of two in the middle; 0 for no values.
+/// Median: of an even number of values the upper one of the middle two; 0 for no values.
 inline double median(std::vector<double> values) {
   return quantile(std::move(values), 0.5);
 }

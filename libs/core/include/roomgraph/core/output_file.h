@@ -9,28 +9,28 @@
 
 namespace roomgraph {
 
-/// A text file being written. A stream alone is silent about a full disk.
+/// A text file being written that reports a full disk, unlike a plain stream.
 class OutputFile : public std::ofstream {
  public:
   /// Makes or empties the file. Throws RunError naming file and cause.
   explicit OutputFile(std::filesystem::path file);
-  /// Throws RunError naming file and cause when something could not be written so far.
+  /// Throws RunError naming file and cause when something written so far failed.
   void check();
-  /// Writes what is left, checks, closes.
+  /// Flushes, checks and closes.
   void finish();
 
  private:
   std::filesystem::path file_;
 };
 
-/// A file under a temporary name beside its place until it is whole: whatever goes wrong, the place holds
-/// what it held before, or all of the new content.
+/// A file that is written under a temporary name in the same folder and then replaces its target atomically: after any
+/// failure the target has its former content, or all of the new one.
 class PendingFile {
  public:
   /// Reserves the temporary name. Throws RunError: the folder cannot be written, the place is a folder or a
   /// device, or another process is writing the same file.
   explicit PendingFile(const std::filesystem::path& place);
-  /// Removes what was not put into place.
+  /// Removes the temporary file unless it was put into place.
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;

@@ -8,10 +8,10 @@
 
 namespace roomgraph {
 
-/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and put into
-/// place when all are whole, so FOLDER holds the former results or the new ones, never some of each. It is
-/// locked meanwhile (the lock goes with the process). What a killed process left is removed by the next one;
-/// if it was killed while the files changed places, the next one goes on with that.
+/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and moved into place
+/// when all are complete, so FOLDER holds the former results or the new ones, never a mixture. It is locked meanwhile
+/// (the lock ends with the process). Files left by a killed process are removed by the next one; if it was killed while
+/// files were being moved, the next one completes that.
 class OutputFolder {
  public:
   /// Makes and locks the folder. `names`: every file that such a command may write, the one that says that
@@ -30,7 +30,7 @@ class OutputFolder {
   std::filesystem::path pending(const std::string& name) const;
   /// Puts all files into place, the last name last; removes those of the names that were not written this
   /// time. Before that the last one of the former results goes: without it a folder is not whole. Signals
-  /// that end a program wait meanwhile. Throws RunError.
+  /// that end a program are ignored meanwhile. Throws RunError.
   void publish();
 
  private:

@@ -32,7 +32,7 @@ class ParameterVisitor {
   virtual void add(std::string_view key, std::vector<std::string>& value, const ParameterInfo& info) = 0;
 };
 
-/// Anything that has parameters.
+/// Base of classes with parameters.
 class Configurable {
  public:
   virtual ~Configurable() = default;

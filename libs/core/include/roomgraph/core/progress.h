@@ -10,7 +10,7 @@
 namespace roomgraph {
 
 /// One line of progress on a stream: share done, rate and time left. Rewrites the line on a terminal; prints
-/// a line now and then otherwise. Purely for people: nothing computed depends on it.
+/// a line now and then otherwise. For display only: results do not depend on it.
 class Progress {
  public:
   /// `total` in units of `unit` (0: unknown; empty unit: only the share is shown); silent when `out` is null.

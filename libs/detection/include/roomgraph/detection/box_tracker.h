@@ -18,17 +18,17 @@ namespace roomgraph {
 /// may be carried is not decided here.
 ///
 /// Corners on the object (by depth, where there is depth) are followed by pyramidal Lucas-Kanade with a
-/// forward-backward check; the median of their distance ratios is the box's scale, the median of what is left
-/// its shift (Kalal et al., "Forward-Backward Error", ICPR 2010). Corners are compared with where they were
-/// when they were chosen, so that rounding does not add up from frame to frame. A box of a class that does
-/// not move by itself, with too few corners, goes where the camera's movement and its depth put it, as long
-/// as the depth image agrees. What has neither support, or has left the image, ends.
+/// forward-backward check; the median of their distance ratios is the box's scale, the median of the remaining
+/// displacements its shift (Kalal et al., "Forward-Backward Error", ICPR 2010). Corners are compared with where they
+/// were when they were chosen, so that rounding does not add up from frame to frame. A box with too few corners, of a
+/// class that does not move by itself, is predicted from the camera's movement and its depth, as long as the depth
+/// image agrees. A box with neither support, or outside the image, ends.
 class BoxTracker {
  public:
   /// The database outlives the tracker; it says which classes move by themselves (landmark = false).
   explicit BoxTracker(const ObjectDatabase& database) : database_(&database) {}
 
-  /// The detector ran on this frame: forgets everything before.
+  /// Begins with the boxes of a frame on which the detector ran; drops all earlier ones.
   void start(const std::vector<Detection>& detections, const Frame& frame);
   /// The boxes in the next frame, marked as carried, in the order they were started in; those that ended are
   /// left out. Nothing when this frame or the last one has no image, or their sizes differ; then, and before the

@@ -9,11 +9,11 @@
 
 namespace roomgraph {
 
-/// What the detector found on a frame, as a record of a rawlog: replayed with RecordedDetector it gives the
+/// The detections of a frame as a record of a rawlog: replayed with RecordedDetector it gives the
 /// same detections, bit for bit.
 CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>& detections,
                                 const DetectorIdentity& identity);
-/// The boxes of a record; class_name is not filled in, the object database knows it by the label.
+/// The boxes of a record; class_name is empty: it follows from the label and the object database.
 std::vector<Detection> detectionsOf(const CObservationDetections& record);
 
 /// 64-bit FNV-1a hash of a file's bytes as 16 hexadecimal digits. Throws InputError when it cannot be read.

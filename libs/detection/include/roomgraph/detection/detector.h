@@ -14,7 +14,7 @@
 
 namespace roomgraph {
 
-/// Who made detections: enough to tell whether recorded ones may be used again.
+/// Origin of detections, by which it is decided whether recorded ones may be used again.
 struct DetectorIdentity {
   std::string model;  ///< names of the networks, joined by "+"; or what made the recording
   std::string hash;   ///< of the weights files (fileHash(), joined by "+"); empty when there are none
@@ -29,14 +29,13 @@ class Detector : public Stage {
   virtual void setDatabase(const ObjectDatabase& database) = 0;
   /// Detections recorded in the rawlog, as they are read.
   virtual void feed(const CObservationDetections& recorded) { (void)recorded; }
-  /// True while there is nothing to detect with; then detect() need not be called.
+  /// True while there is neither network nor record; then detect() need not be called.
   virtual bool idle() const { return false; }
-  /// Detections of classes in the database, boxes clipped to the image, best first; or why this frame could not
-  /// be looked at ("no colour image", "no record at this time"). On which frames it is called is not the
-  /// detector's concern.
+  /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
+  /// ("no colour image", "no record at this time"). The caller decides on which frames the detector runs.
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
   virtual DetectorIdentity identity() const { return {}; }
-  /// What the user should know about the detections of this run; empty when there is nothing.
+  /// Warning for the user about the detections of this run; empty without one.
   virtual std::string warning() const { return {}; }
 };
 

@@ -29,7 +29,7 @@ struct Preprocessing {
   cv::Scalar mean, deviation{255, 255, 255, 255};  ///< in the image's order, BGR
 };
 
-/// A box as a network gave it, before non-maximum suppression.
+/// A box from a network, before non-maximum suppression.
 struct RawBox {
   Box2 box;  ///< px of the network's input
   int class_index = -1;
@@ -37,14 +37,14 @@ struct RawBox {
   cv::Mat mask;  ///< CV_8UC1 (0 / 255) over the box at the network's own resolution, or empty
 };
 
-/// What a network gave for one image.
+/// Outputs of a network for one image.
 struct NetworkOutputs {
-  std::filesystem::path file;  ///< of the network: Darknet's outputs are told from others by ".weights"
+  std::filesystem::path file;  ///< of the network: ".weights" marks Darknet's outputs
   cv::Size input;              ///< px
-  std::vector<cv::Mat> blobs;  ///< as OpenCV's dnn module gives them, never empty
+  std::vector<cv::Mat> blobs;  ///< from OpenCV's dnn module, never empty
 };
 
-/// Which boxes are asked for.
+/// Which boxes are wanted.
 struct DecodingTask {
   int classes = 0;          ///< of the network
   std::vector<int> wanted;  ///< class indices; boxes of other classes may be left out

@@ -17,7 +17,7 @@ struct KeyPose {
   Pose3 world_from_robot = Pose3::Identity();
 };
 
-/// The robot's poses in world: key poses, and between them what the sources of motion say.
+/// The robot's poses in world: key poses, and between them those of the sources of motion.
 class KeyPoses {
  public:
   explicit KeyPoses(const Motion& motion) : motion_(motion) {}
@@ -34,10 +34,10 @@ class KeyPoses {
   void set(NodeId id, const Pose3& world_from_robot);
   /// Moves that key pose and all later ones rigidly in world.
   void moveFrom(NodeId first, const Pose3& new_from_old);
-  /// Pose at any time: from the key poses before and after, blended. Holds the nearest pose when no source of
-  /// motion covers the time. There must be a key pose.
+  /// Pose at any time, interpolated between the predictions from the key poses before and after; the nearest key pose
+  /// when no source of motion covers the time. There must be a key pose.
   Pose3 at(double t) const;
-  /// Movement from a key pose to a time near it; holds still when nothing is known.
+  /// Movement from a key pose to a time near it; none when no source of motion covers it.
   Pose3 offset(const KeyPose& node, double t) const;
   Trajectory trajectory() const;
 

@@ -12,8 +12,8 @@
 
 namespace roomgraph {
 
-/// A map made earlier, in whose frame a run is to be: the constellation of the objects seen so far says where
-/// it lies, the latest scan against the map's grid confirms it (method.md sec. 4 and 6).
+/// An earlier map in whose frame the run is to be: the constellation of the objects seen so far gives the transform,
+/// the latest scan in the map's grid verifies it (method.md sec. 4 and 6).
 class MapAnchor {
  public:
   MapAnchor(CSemanticMap map, const ConstellationOptions& rule) : map_(std::move(map)), rule_(rule) {}
@@ -26,7 +26,7 @@ class MapAnchor {
   void add(const Scan& scan);
 
   /// map_from_world at the moment at which the map is recognised, once; the caller moves its world there. Nothing
-  /// when the objects do not lie as in the map, or the latest scan contradicts it. Without a scan or a grid one
+  /// when the objects do not match those of the map, or the latest scan contradicts it. Without a scan or a grid one
   /// more object than usual must agree. There must be a key pose.
   std::optional<Pose2> recognise(const std::vector<Landmark>& seen, const KeyPoses& poses);
 
@@ -43,7 +43,7 @@ class MapAnchor {
 double shareOnWalls(const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<Eigen::Vector2d>& points,
                     double reach_m = 0.15);
 
-/// The landmarks, and those of an earlier map where none of their class stands now; these get new ids.
+/// The landmarks, and those of an earlier map where none of their class is now; these get new ids.
 std::vector<Landmark> joined(std::vector<Landmark> landmarks, const std::vector<Landmark>& earlier);
 
 }  // namespace roomgraph

@@ -10,18 +10,18 @@
 
 namespace roomgraph {
 
-/// Movement of the robot as one source saw it.
+/// Movement of the robot measured by one source.
 struct Movement {
   Pose3 a_from_b = Pose3::Identity();
   Matrix6d covariance = Matrix6d::Identity();
 };
 
-/// One source of motion: its trajectory in its own frame, and how far it is trusted.
+/// One source of motion: its trajectory in its own frame, and its noise model.
 class MotionSource {
  public:
   MotionSource(MotionNoise noise, bool planar) : noise_(noise), planar_(planar) {}
 
-  /// Ignores a pose whose stamp does not come after the last one; returns whether it was taken.
+  /// Ignores a pose whose stamp does not come after the last one; returns whether it was added.
   /// `step_covariance`: of the movement since the last pose, on top of the noise model.
   bool add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance);
   /// Replaces the poses (later data refined them); the step covariances stay.
@@ -43,8 +43,7 @@ class MotionSource {
 struct Motion {
   MotionSource odometry, visual, lidar;
 
-  /// Best guess of the movement between two times: scans first, then images, then wheels; nothing when none
-  /// knows.
+  /// Movement between two times by the best source that covers them: scans, then images, then wheels; else nothing.
   std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
 };
 

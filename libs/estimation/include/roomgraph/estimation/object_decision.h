@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// One selected measurement and what became of it.
+/// One selected measurement and the landmark it was given to.
 struct ObjectDecision {
   WorldMeasurement seen;
   Association association;
@@ -22,7 +22,7 @@ struct ObjectFrame {
   double t = 0;
   PinholeCamera camera;
   Pose3 robot_from_camera = Pose3::Identity();
-  std::vector<ObjectDecision> decisions;  ///< places in world as of the last E-step
+  std::vector<ObjectDecision> decisions;  ///< positions in world as of the last E-step
   std::vector<FeatureTrack> features;     ///< some with depth that lie on the objects
 };
 

@@ -15,7 +15,7 @@
 
 namespace roomgraph {
 
-/// What the graph is to know of objects (method.md sec. 4, factors 2, 3, 4 and 6).
+/// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
   std::map<LandmarkId, LandmarkEstimate> views;  ///< landmarks as they seem from one direction
   std::vector<LandmarkViewFactor> shared_errors; ///< of views against their landmarks
@@ -27,7 +27,7 @@ struct ObjectFactors {
   std::vector<PointLandmarkFactor> insides;
 };
 
-/// The landmarks as they are now, and what ties them to the key poses.
+/// The current landmarks, and their factors with the key poses.
 struct ObjectsInGraph {
   std::vector<Landmark> landmarks;
   ObjectFactors factors;

@@ -23,18 +23,18 @@ struct Visits {
 std::vector<Visits> splitByTime(const std::vector<Landmark>& landmarks, const SeenSpans& spans, double now,
                                double recent_s, std::size_t min_each);
 
-/// Asks the scans or the images whether a closure is right; refines it.
+/// Verifies a closure by scans or images, and refines it.
 using ClosureVerifier = std::function<std::optional<RelativePose>(const RelativePose&)>;
 
-/// Landmarks made lately that lie on each other like older ones elsewhere: the robot came back with drift (or
-/// after being lost) and mapped the same objects again. The constellation gives the candidate, scans or
-/// images verify it (method.md sec. 4).
+/// Finds recent landmarks in the same constellation as older ones elsewhere: the robot came back with drift (or after
+/// being lost) and mapped the same objects again. The constellation gives a candidate, which scans or images verify
+/// (method.md sec. 4).
 class ObjectLoopCloser {
  public:
   explicit ObjectLoopCloser(const ObjectLoopOptions& options) : options_(options) {}
 
-  /// Called with every new key pose. Returns a verified closure that the current estimate does not agree
-  /// with, or nothing.
+  /// Called with every new key pose. Returns a verified closure that disagrees with the current
+  /// estimate, or nothing.
   std::optional<RelativePose> search(const ObjectMapper& objects, const KeyPoses& poses,
                                      const ClosureVerifier& verify);
 

@@ -16,8 +16,8 @@
 
 namespace roomgraph {
 
-/// The object part of a run: association (method.md sec. 4, E-step), and the memory of what was measured, relative
-/// to the robot, so that it can be judged again when poses have moved.
+/// The object part of a run: association (method.md sec. 4, E-step), and the storage of all measurements relative to
+/// the robot, so that they can be decided again when the poses have changed.
 class ObjectMapper {
  public:
   /// `pose_sigma_m`: uncertainty of the current pose when objects are associated. `poses` outlives the mapper.
@@ -25,7 +25,7 @@ class ObjectMapper {
                const KeyPoses& poses)
       : associator_(std::move(associator)), landmarks_(options), pose_sigma_m_(pose_sigma_m), poses_(poses) {}
 
-  /// The measurements of one frame: gives them to landmarks and fuses them. `features`: tracked in that frame.
+  /// Assigns the measurements of one frame to landmarks and fuses them. `features`: tracked in that frame.
   std::vector<ObjectDecision> associate(const std::vector<ObjectMeasurement>& measurements, const Frame& frame,
                                         const std::vector<FeatureTrack>& features);
 
@@ -33,22 +33,23 @@ class ObjectMapper {
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
                   const Frame& frame);
 
-  /// What a scan says of the landmarks it crosses, by what of their classes stops beams; one from each place.
+  /// Updates the existence of the landmarks that a scan crosses, by how much of their classes is solid; scans from one
+  /// place count once.
   void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
 
-  /// Merges landmarks that turned out to be one object, in the memory too; splits those that are two.
+  /// Merges landmarks that are one object, also in the stored measurements; splits those that are two.
   void tidy();
 
-  /// E-step over everything measured so far, with the poses as they are now (method.md sec. 4); whether a
+  /// E-step over everything measured so far, with the current poses (method.md sec. 4); whether a
   /// decision changed. Does nothing with an associator whose decisions are final.
   bool reassociate();
 
   /// Moves the landmarks that were first seen then or later.
   void move(const PathShift& shift);
 
-  /// What the graph is to know, with the weights and options of the back end.
+  /// Factors for the graph, with the weights and options of the back end.
   ObjectsInGraph inGraph(const ObjectDatabase& database, const BackendOptions& options) const;
-  /// Takes over where an optimisation of the graph puts the landmarks.
+  /// Sets the landmarks to the result of an optimisation of the graph.
   void apply(const LandmarkEstimates& estimates);
 
   const std::vector<ObjectFrame>& frames() const { return frames_; }

@@ -7,7 +7,7 @@
 
 namespace roomgraph {
 
-/// What a source of motion is trusted with: standard deviations grow with the movement.
+/// Noise model of a source of motion: standard deviations that grow with the movement.
 struct MotionNoise {
   double floor_m = 0.01, per_m = 0.02;       ///< translation
   double floor_rad = 0.003, per_rad = 0.02;  ///< rotation

@@ -11,18 +11,17 @@
 
 namespace roomgraph {
 
-/// A rigid move, in world, of everything that was first seen at that time or later.
+/// A rigid transform, in world, of everything first seen at that time or later.
 struct PathShift {
   double since_t = 0;
   Pose3 new_from_old = Pose3::Identity();
 };
 
-/// Landmarks as an optimisation of the graph has them.
+/// Landmarks estimated by an optimisation of the graph.
 using LandmarkEstimates = std::map<LandmarkId, LandmarkEstimate>;
 
 /// The robot's poses in world: key poses, what was measured between them, and the optimisations (method.md
-/// sec. 4, M-step). Knows nothing of how objects are remembered: it is given what the graph is to hold of them and
-/// returns where the optimisation puts them.
+/// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their estimates.
 class PoseEstimator {
  public:
   /// Both outlive the estimator.
@@ -40,10 +39,10 @@ class PoseEstimator {
   void setPlanar() { measurements_.planar = true; }
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
   bool advance(double t);
-  /// A closure over a gap that no source of motion saw across also lays the poses after the gap where it says;
-  /// what was first seen there is to be moved likewise.
+  /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first seen there
+  /// are to be moved likewise.
   std::vector<PathShift> addClosures(const std::vector<RelativePose>& closures);
-  /// The floor as a handheld camera saw it in depth at time t (a plane in the camera's frame). The first one levels
+  /// The floor that a handheld camera measured by depth at time t (a plane in the camera's frame). The first one levels
   /// the world; later ones, seen from a key pose, become factors. Nothing for a robot on the floor.
   void addFloor(double t, const Plane& in_camera, const Pose3& robot_from_camera);
 
@@ -72,9 +71,9 @@ class PoseEstimator {
   FactorGraph graph_;
   Window window_;                       ///< of the latest key poses
   std::size_t first_ = 0;               ///< oldest key pose in it
-  std::optional<MarginalPrior> prior_;  ///< what was measured before says of them, since all was optimised
+  std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
   int nodes_since_optimization_ = 0;
-  bool surprised_ = false;  ///< a closure disagrees with the estimate: do not wait long
+  bool surprised_ = false;  ///< a closure disagrees with the estimate: optimise soon
   bool levelled_ = false;
 };
 

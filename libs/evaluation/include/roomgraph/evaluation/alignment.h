@@ -15,11 +15,11 @@ struct PosePair {
 };
 
 /// truth_from_estimate in SE(3) that minimises the squared distances of the positions, without scale (Umeyama
-/// 1991, Eq. 40-42). What the positions leave open (all on one line, or at one point) is taken from the
+/// 1991, Eq. 40-42). What the positions do not determine (all on one line, or at one point) is taken from the
 /// orientations. Identity when there are no pairs.
 Pose3 alignSpatial(const std::vector<PosePair>& pairs);
 
-/// The same in the plane: only x, y and yaw are moved.
+/// The same in the plane: a transform of x, y and yaw.
 Pose2 alignPlanar(const std::vector<PosePair>& pairs);
 
 /// True when no pose of either side leaves the horizontal plane: constant z, no roll or pitch.

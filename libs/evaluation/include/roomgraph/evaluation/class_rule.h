@@ -10,7 +10,7 @@
 
 namespace roomgraph {
 
-/// What has to be known about a class to compare two of its objects.
+/// Properties of a class by which two of its objects are compared.
 struct ClassRule {
   ShapeKind shape = ShapeKind::kCuboid;
   int symmetry = 1;  ///< of yaw: 0 any angle, n by 360 deg / n

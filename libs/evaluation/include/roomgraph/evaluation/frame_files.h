@@ -11,7 +11,7 @@
 
 namespace roomgraph {
 
-// What the truth and a run say about single images: one line of JSON per frame. Stamps in s, boxes in px.
+// Truth and results per image: one line of JSON per frame. Stamps in s, boxes in px.
 
 /// A true object in one image.
 struct TrueBox {
@@ -40,8 +40,8 @@ struct AssociatedBox {
   std::string class_name;
   Box2 box;
   int landmark = -1;       ///< id; of the new landmark when is_new
-  bool is_new = false;     ///< the decision was: none of the landmarks so far
-  double probability = 0;  ///< posterior of the decision; NaN: the file does not say
+  bool is_new = false;     ///< decided to be none of the landmarks so far
+  double probability = 0;  ///< posterior of the decision; NaN: not in the file
 };
 struct AssociatedFrame {
   double t = 0;

@@ -17,7 +17,7 @@ namespace roomgraph {
 
 struct ObjectOptions {
   double gate_m = 0.5;       ///< largest distance of the centres on the ground
-  double min_existence = 0;  ///< landmarks below are not looked at
+  double min_existence = 0;  ///< landmarks below are left out
   std::map<std::string, ClassRule> classes = {{"swivel_chair", {ShapeKind::kCylinder, 0}},
                                               {"sofa", {ShapeKind::kCuboid, 1}},
                                               {"door", {ShapeKind::kPlanar, 2}}};
@@ -35,7 +35,7 @@ enum class Verdict {
 };
 std::string toString(Verdict verdict);
 
-/// What became of one landmark.
+/// Result of one landmark.
 struct LandmarkVerdict {
   int landmark = -1;  ///< id
   std::string class_name;
@@ -49,7 +49,7 @@ struct LandmarkVerdict {
 
 struct ObjectFigures {
   int correct = 0, false_alarms = 0, missed = 0, duplicates = 0, uncounted = 0;
-  double precision = 0, recall = 0, f1 = 0;  ///< 0 where nothing is to divide
+  double precision = 0, recall = 0, f1 = 0;  ///< 0 where the denominator is 0
   ErrorStatistics position_m, yaw_deg, size_m;
   double iou3d_mean = 0;
 };
@@ -62,8 +62,8 @@ struct ObjectErrors {
 };
 
 /// Compares a map with the truth: optimal one-to-one matching per class within the gate. True objects of
-/// class `person` or `other` never count; a landmark of class person is a false alarm; a landmark of a class
-/// without rule is not looked at.
+/// class `person` or `other` never count; a landmark of class person is a false alarm; a landmark of a class without
+/// rule is left out.
 ObjectErrors evaluateObjects(const std::vector<EvaluatedObject>& truth,
                              const std::vector<EvaluatedObject>& landmarks,
                              const ObjectOptions& options = {});

@@ -26,7 +26,7 @@ struct EvaluatedObject {
 /// Throws InputError naming file, object and field.
 std::vector<EvaluatedObject> readObjects(const std::filesystem::path& file);
 
-/// When a true object counts as really seen.
+/// When a true object counts as seen.
 struct VisibilityRule {
   int min_frames = 10;
   double min_visible = 0.4;   ///< share of the silhouette, exclusive
@@ -34,7 +34,7 @@ struct VisibilityRule {
   double max_depth_m = 4.5;   ///< median depth, exclusive
 };
 
-/// Ids of the objects that boxes.jsonl shows in enough good frames. Throws InputError with file and line.
+/// Ids of the objects that are clearly visible in enough frames of boxes.jsonl. Throws InputError with file and line.
 std::set<int> readSeenObjects(const std::filesystem::path& boxes_jsonl, const VisibilityRule& rule = {});
 
 }  // namespace roomgraph

@@ -13,7 +13,7 @@
 
 namespace roomgraph {
 
-/// The proposals of one detection, best first, and the true object they are about.
+/// The proposals of one detection, best first, and the true object.
 struct ProposalCase {
   std::string class_name;
   ClassRule rule;
@@ -23,7 +23,7 @@ struct ProposalCase {
   std::vector<Proposal> proposals;
 };
 
-/// Errors of a class. `top`: the first proposal; `best`: the least error among all of a detection.
+/// Errors of a class. `top`: of the first proposal; `best`: the least among all proposals of a detection.
 struct ProposalFigures {
   int detections = 0, without_proposal = 0;
   ErrorStatistics center_top_m, center_best_m;  ///< on the ground
@@ -32,7 +32,7 @@ struct ProposalFigures {
   double share_good = 0;  ///< of all detections, those with a proposal whose 3D IoU exceeds .4
   double away_mean_m = 0, left_mean_m = 0;  ///< mean error of the top proposal along and across the view
   double nees_mean = 0, nees_median = 0;    ///< of (x, y): expected 2, and 1.39
-  ErrorStatistics sigma_m;                  ///< what the top proposals say of themselves, root of trace / 2
+  ErrorStatistics sigma_m;                  ///< standard deviation that the top proposals claim: root of trace / 2
 };
 
 std::map<std::string, ProposalFigures> evaluateProposals(const std::vector<ProposalCase>& cases);

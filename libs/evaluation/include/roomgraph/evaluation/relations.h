@@ -17,7 +17,7 @@ struct Relation {
 };
 
 struct RelationOptions {
-  double max_extrapolation_s = 0.02;  ///< how far outside the estimate's time span a relation may reach
+  double max_extrapolation_s = 0.02;  ///< largest time of a relation outside the estimate's time span
 };
 
 struct RelationErrors {

@@ -21,8 +21,7 @@ std::string toTable(const AssociationErrors& errors);
 std::string toTable(const DetectionErrors& errors);
 std::string toTable(const MapErrors& errors);
 
-/// The same figures as one JSON object with stable names. A figure that has nothing to be computed from is
-/// null.
+/// The same figures as one JSON object with stable names; null for figures without data.
 std::string toJson(const TrajectoryErrors& errors);
 std::string toJson(const RelationErrors& errors);
 std::string toJson(const ObjectErrors& errors);

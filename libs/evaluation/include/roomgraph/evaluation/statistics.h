@@ -6,7 +6,7 @@
 
 namespace roomgraph {
 
-/// Summary of a set of errors; all 0 when there are none (count says so).
+/// Summary of a set of errors; all 0 when count is 0.
 struct ErrorStatistics {
   int count = 0;
   double rmse = 0, mean = 0, median = 0, max = 0;

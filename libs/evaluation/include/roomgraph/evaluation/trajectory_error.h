@@ -13,11 +13,11 @@ namespace roomgraph {
 struct TrajectoryOptions {
   double max_difference_s = 0.02;  ///< largest difference of the stamps of a pair
   bool interpolate_truth =
-      false;                 ///< truth at the estimate's own stamps, between neighbours up to max_gap_s apart
-  bool align = true;         ///< false: both are in the same world already
+      false;                 ///< truth at the estimate's stamps, between neighbours up to max_gap_s apart
+  bool align = true;         ///< false: both are in the same frame already
   double rpe_delta_s = 1.0;  ///< time between the two poses of a relative error
   int rpe_delta_frames = 0;  ///< > 0: that many pairs apart instead of rpe_delta_s
-  double max_gap_s = 1.0;    ///< longer holes between pairs do not count as covered
+  double max_gap_s = 1.0;    ///< longer gaps between pairs do not count as covered
 };
 
 struct TrajectoryErrors {
@@ -29,7 +29,7 @@ struct TrajectoryErrors {
   double matched_share = 0;  ///< share of the estimated poses that have a true one
 };
 
-/// Pairs by nearest stamp; when two estimated poses have the same nearest true pose, the closer one gets it.
+/// Pairs by nearest stamp; of two estimated poses with the same nearest true pose the closer one is paired.
 std::vector<PosePair> associate(const Trajectory& truth, const Trajectory& estimate,
                                 const TrajectoryOptions& options);
 

@@ -8,11 +8,11 @@
 
 namespace roomgraph {
 
-/// A trajectory as read from a text file, with what had to be put right.
+/// A trajectory read from a text file, and how the file had to be corrected.
 struct TrajectoryFile {
   Trajectory trajectory;  ///< sorted by time, one pose per stamp
   int duplicates = 0;     ///< lines dropped because an earlier line has the same stamp
-  bool sorted = true;     ///< the file was in the order of time
+  bool sorted = true;     ///< the file was in order of time
   bool planar = false;    ///< four columns
 };
 

@@ -8,11 +8,11 @@
 
 namespace roomgraph {
 
-/// Farther away from the world's origin is nothing that a robot indoors records.
+/// No pose recorded indoors is farther from the world's origin, m.
 inline constexpr double kFarthest_m = 1e6;
 
-/// Why these values cannot be true ("pose is not finite", "pose is more than 1000 km away"); empty when they
-/// can. `rounding`: of the rotation matrix, per element.
+/// Why a pose is invalid ("pose is not finite", "pose is more than 1000 km away"); empty when it is not. `rounding`:
+/// tolerance of the rotation matrix, per element.
 std::string problemOf(const Pose3& pose, double rounding = 1e-6);
 std::string problemOf(const Pose2& pose);
 

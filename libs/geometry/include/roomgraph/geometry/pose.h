@@ -45,11 +45,10 @@ Eigen::Matrix3d expSO3(const Eigen::Vector3d& rotation_vector);
 double rotationAngle(const Pose3& pose);
 /// Linear in translation, spherical linear in rotation; ratio 0 gives a, 1 gives b.
 Pose3 interpolate(const Pose3& a, const Pose3& b, double ratio);
-/// The rotation part made orthonormal again, after long chains of products.
+/// With the rotation made orthonormal again, which long products of poses lose.
 Pose3 normalized(const Pose3& pose);
 
-/// robot_from_optical for a camera looking along the robot's x axis: body (x forward, z up) from optical
-/// axes.
+/// Rotation robot_from_camera of a camera that looks along the robot's x axis: from optical axes to x forward, z up.
 Eigen::Matrix3d bodyFromOptical();
 
 }  // namespace roomgraph

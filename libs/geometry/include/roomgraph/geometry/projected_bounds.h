@@ -41,7 +41,7 @@ std::array<T, 2> circleBounds(const Vec3<T>& center, const Vec3<T>& normal, cons
   };
   const T c22 = dual(2, 2), c02 = dual(axis, 2), c00 = dual(axis, axis);
   const T under_root = c02 * c02 - c22 * c00;
-  // A circle seen exactly edge-on: its width along this axis is 0, and the root has no derivative there.
+  // Width 0 for a circle seen exactly edge-on, where the root has no derivative.
   const T root = under_root > T(1e-18) ? T(sqrt(under_root)) : T(0);
   return {focal * (c02 - root) / c22 + principal, focal * (c02 + root) / c22 + principal};
 }
@@ -55,8 +55,7 @@ void addCircle(const Vec3<T>& center, const Vec3<T>& normal, const T& radius, co
   bounds.add(u[1], v[1]);
 }
 
-/// Adds the first end of an edge and where the edge crosses the near plane; the second end is the next edge's
-/// first.
+/// Adds the first end of an edge and its intersection with the near plane; the second end is the next edge's first.
 template <class T>
 void addClippedEdge(const Vec3<T>& p, const Vec3<T>& q, const PinholeCamera& camera, double near_m,
                     ImageBounds<T>& bounds) {
@@ -68,9 +67,9 @@ void addClippedEdge(const Vec3<T>& p, const Vec3<T>& q, const PinholeCamera& cam
 }
 
 /// Bounds (u_min, v_min, u_max, v_max) of the model's silhouette (paper Eq. 13), not cut by the image border;
-/// the object's axes and bottom centre are in the camera frame. A cylinder wholly in front of the camera is
-/// exact, one cut by the near plane is a prism of 48 sides. Edges are clipped at `near_m`; nothing when all
-/// of the model is behind.
+/// the object's axes and bottom centre are in the camera frame. The bounds of a cylinder
+/// wholly in front of the camera are exact; one that the near plane cuts is approximated by a prism of 48 sides. Edges
+/// are clipped at `near_m`; nothing when the whole model is behind it.
 template <class T>
 std::optional<std::array<T, 4>> projectedBounds(ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes,
                                                 const Vec3<T>& bottom, const PinholeCamera& camera,

@@ -9,8 +9,8 @@
 
 namespace roomgraph {
 
-// Every writer replaces the file at once (a reader never sees half of it) and throws RunError naming file and
-// cause; every reader throws InputError naming file, place and cause. Coordinates are world: m, rad.
+// Every writer replaces the file atomically and throws RunError naming file and cause; every reader throws InputError
+// naming file, place and cause. Coordinates are in world: m, rad.
 
 /// Writes / reads map.rgmap (MRPT archive, gzipped).
 void saveMap(const CSemanticMap& map, const std::filesystem::path& file);
@@ -18,7 +18,7 @@ CSemanticMap loadMap(const std::filesystem::path& file);
 
 /// Where the objects of a landmarks.json come from.
 struct LandmarksOrigin {
-  std::string recording, version;  ///< name of the file; of the program
+  std::string recording, version;  ///< file name; version of the program
   SeenSpans seen;
 };
 

@@ -16,13 +16,13 @@ namespace roomgraph {
 class OccupancyMapper {
  public:
   explicit OccupancyMapper(const OccupancyOptions& options = {}) : options_(options) {}
-  /// Keeps what is needed to (re)build the grid later with other poses.
+  /// Stores the scan, so that the grid can be built again with other poses.
   void add(const Scan& scan);
   /// `ground`: floor in the camera frame. A frame without depth is left out.
   void add(const Frame& frame, const Plane& ground);
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
-  /// when nothing was kept. Cells hold the probability of being free (MRPT). Throws RunError when the grid
-  /// would be absurdly large (a wrong trajectory).
+  /// without any. Cells hold the probability of being free (MRPT). Throws RunError when the grid would be too large to
+  /// be right (a wrong trajectory).
   mrpt::maps::COccupancyGridMap2D::Ptr build(const Trajectory& world_from_robot) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace roomgraph {
 
-/// What one scan or one depth image says about free and occupied space, kept compactly: beams from one point,
-/// in the plane of the fan (z = 0 of its frame).
+/// Free and occupied space measured by one scan or depth image: beams from one point in the plane of the fan (z = 0 of
+/// its frame).
 struct RangeFan {
   double t = 0;  ///< s
   Pose3 robot_from_fan = Pose3::Identity();
@@ -20,11 +20,11 @@ struct RangeFan {
                                 ///< free up to -range, nothing known beyond; 0: nothing known
 };
 
-/// A lidar scan. A beam that met nothing within the sensor's range (both neighbours neither, so that a single
-/// dropout does not count) is free up to at most `no_return_free_m`.
+/// From a lidar scan. A beam without return is free up to at most `no_return_free_m`, if both neighbours have none
+/// either: a single one may be a dropout.
 RangeFan fanFromScan(const Scan& scan, double no_return_free_m);
 
-/// How a depth image is cut into a level scan.
+/// How a level scan is cut from a depth image.
 struct DepthSlice {
   double min_height_m = 0.1, max_height_m = 1.6;  ///< band above the ground whose nearest point is the return
   double max_range_m = 4.5;                       ///< farther points are not used
@@ -32,9 +32,8 @@ struct DepthSlice {
   double beam_rad = 0.00873;                      ///< width of a beam
 };
 
-/// Virtual level scan in the local ground frame below the camera: a beam is the nearest of the points within
-/// the band (the third nearest, so that a lone flying pixel is no wall), or else free up to the farthest
-/// floor point.
+/// Virtual level scan in the local ground frame below the camera: a beam ends at the nearest point in the
+/// band (more exactly the third nearest, as outliers: flying pixels), or else is free up to the farthest floor point.
 RangeFan fanFromDepth(const Frame& frame, const Plane& ground, const DepthSlice& slice);
 
 }  // namespace roomgraph

@@ -18,7 +18,7 @@ struct BoxEdges {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< px; the reduced image's corner in the whole one
   double scale = 1;                                  ///< reduced px per px
 
-  /// Distance to the nearest edge pixel, px; far outside the box the largest there is. Needs `distance`.
+  /// Distance to the nearest edge pixel, px. Outside the box: that of the nearest pixel in it, plus the distance to it.
   double distanceAt(const Eigen::Vector2d& pixel) const;
 };
 

@@ -27,9 +27,14 @@ struct BoxEvidence {
   DepthMask other_mask;  ///< the second best explanation of the box's points; may be empty
   BoxEdges edges;
   std::vector<Segment2> segments;      ///< of the edges, those the mask supports, longest first
-  double ground_tilt_sigma = 0;        ///< rad, of the ground's normal; 0: it was seen, nothing to correct
+  double ground_tilt_sigma = 0;        ///< rad, of the ground's normal; 0: measured, not corrected
   const ObjectModel* model = nullptr;  ///< class of the object; never null when a generator is called
 };
+
+/// Farther away a pixel of the box's bottom side is metres on the ground: it places nothing.
+inline constexpr double kFarthestGround_m = 20;
+/// A box of a smaller half angle is too narrow to tell a range.
+inline constexpr double kLeastHalfAngle_rad = 1e-3;
 
 /// Where the middle of the box's bottom side meets the ground (paper Eq. 2), ground frame; nothing when that side is
 /// cut or above the horizon.

@@ -15,7 +15,7 @@ struct MaskPoint {
 
 /// Depth points that belong to a detected object (method.md sec. 1.3).
 struct DepthMask {
-  std::vector<MaskPoint> points;  ///< empty: no depth, or nothing that could be the object
+  std::vector<MaskPoint> points;  ///< empty: no depth, or no cluster that can be the object
   double valid_ratio = 0;         ///< share of the box's (mask's) pixels that have a depth
 };
 

@@ -15,13 +15,13 @@ namespace roomgraph {
 class GroundDetector : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(GroundDetector)
  public:
-  /// The floor as it is seen in the frame, normal up, camera frame; or why it was not seen. `expected`: plane predicted
+  /// The floor measured in the frame, normal up, camera frame; or why there is none. `expected`: plane predicted
   /// from the extrinsics or from the frames before, camera frame; nothing when unknown (a handheld camera that has not
   /// seen the floor yet).
   virtual Outcome<GroundEstimate> detect(const Frame& frame, const std::optional<Plane>& expected) = 0;
 };
 
-/// The ground of a frame: as the detector sees it; else as it is expected, with a small fixed covariance; else none.
+/// The ground of a frame: measured by the detector; else the expected one, with a small fixed covariance; else none.
 FrameGround groundOf(const Frame& frame, const std::optional<Plane>& expected, GroundDetector& detector);
 
 }  // namespace roomgraph

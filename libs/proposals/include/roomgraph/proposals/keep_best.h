@@ -20,7 +20,7 @@ struct GeneratorLimits {
 struct SamePlace {
   double distance_m = 0.05, angle_rad = 0.1;
 };
-/// More than any two yaws differ by: only the place counts.
+/// Larger than any difference of yaws: only the distance is compared.
 inline constexpr double kAnyYaw_rad = 2 * std::numbers::pi;
 
 /// Best quality first, at most as many as allowed, none that is the same as a better one.

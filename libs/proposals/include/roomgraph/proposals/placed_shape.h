@@ -14,26 +14,26 @@ namespace roomgraph {
 struct PlacedShape {
   ObjectShape shape;
   double x = 0, y = 0, yaw = 0;  ///< m, rad, ground frame: bottom centre and direction of the front
-  double z = 0;                  ///< m, of the bottom above the ground: 0 for what rests on it
+  double z = 0;                  ///< m, of the bottom above the ground: 0 for an object that rests on it
   double roll = 0, pitch = 0;    ///< rad, small correction of the local ground's normal, about the camera
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
   std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
-  std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction tells it
-  bool supported = true;                      ///< false: the evidence's depth points do not speak for it
+  std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction gives one
+  bool supported = true;                      ///< false: made without the evidence's depth points
   std::string source;                         ///< how it was made, for debug pictures
   std::string reason;                         ///< why it was dropped
 };
 
-/// The usual size of the class, not placed yet: on the ground or, for what does not rest on it, at the height where the
-/// object's depth points begin.
+/// The usual size of the class, not placed yet: on the ground or, for an object that does not rest on it, at the height
+/// of the lowest depth points.
 PlacedShape usualShape(const BoxEvidence& evidence);
 /// Whether the height is known: the object rests on the ground, or depth points show where its bottom is.
 bool heightKnown(const BoxEvidence& evidence);
-/// Pose on the ground as it was given, without the correction of its normal.
+/// Pose without the correction of the ground's normal.
 Pose3 groundFromObject(const PlacedShape& placed);
-/// Pose with the correction of the ground's normal.
+/// Pose with that correction.
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence);
 /// Nothing when it is out of view.
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);

@@ -18,8 +18,8 @@ class ProposalGenerator : public Stage {
  public:
   /// The object database outlives the generator; called before prepare().
   virtual void setDatabase(const ObjectDatabase& database) = 0;
-  /// The shape generators that the database's classes name; called before prepare(). One that makes its shapes in
-  /// another way ignores them.
+  /// The shape generators that the database's classes name; called before prepare(). A proposal generator that does not
+  /// use any ignores them.
   virtual void setShapeGenerators(ShapeGenerators generators) { (void)generators; }
   /// Proposals of every detection; none without a ground plane. The ground becomes part of the result.
   virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,

@@ -14,19 +14,19 @@
 namespace roomgraph {
 
 /// Makes hypotheses of one detected object's place and size (method.md sec. 1.A to 1.C). Chosen for every object class
-/// by the key `generator` of objects.ini; its parameters stand in the section [shape_generators] of the configuration.
+/// by the key `generator` of objects.ini; its parameters are in the section [shape_generators] of the configuration.
 class ShapeGenerator : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(ShapeGenerator)
  public:
   /// Hypotheses within `limits`, best quality first (fitShape() and judge() set the quality). Called again for the same
-  /// detection with another depth mask, or none, when the first explanation was poor. Keeps nothing between calls.
+  /// detection with another depth mask, or none, when the first fit was poor. Keeps nothing between calls.
   virtual std::vector<PlacedShape> generate(const BoxEvidence& evidence, const GeneratorLimits& limits) const = 0;
 };
 
 /// The shape generators that the classes of an object database name, one object per name.
 class ShapeGenerators {
  public:
-  /// Makes a generator by its class name; `asked_by` says for messages where the name stands.
+  /// Makes a generator by its class name; `asked_by` names, for messages, the file and section that ask for it.
   using Make = std::function<std::shared_ptr<ShapeGenerator>(const std::string& name, const std::string& asked_by)>;
 
   ShapeGenerators() = default;

@@ -11,7 +11,7 @@
 
 namespace roomgraph {
 
-/// How a frame was taken, beside what was detected in it.
+/// Camera, pose and features of a frame, beside its detections.
 struct FrameContext {
   PinholeCamera camera;
   Pose3 world_from_camera = Pose3::Identity();  ///< best estimate at this time
