@@ -100,39 +100,45 @@ class Program:
         return libraries[0].read_bytes() if libraries else b""
 
 
-def sequence(program, world, seed, folder):
-    """Folder of the simulated sequence; simulated into a folder beside it first, so that no half of one is ever used."""
-    key = hashlib.sha256(world.read_bytes() + program.simulator_version()).hexdigest()[:12]
-    target = folder / f"{world.stem}_{key}" / f"seed_{seed}"
+def simulated(program, name, content, seed, folder, arguments):
+    """Folder of a simulated sequence; simulated into a folder beside it first, so that no half of one is ever used. It is used
+    again until `content` (bytes that describe what is simulated) or the simulator changes."""
+    key = hashlib.sha256(content + program.simulator_version()).hexdigest()[:12]
+    target = folder / f"{name}_{key}" / f"seed_{seed}"
     if target.exists():
         return target
     partial = target.with_name(target.name + ".partial")
     shutil.rmtree(partial, ignore_errors=True)
     partial.mkdir(parents=True)
-    problem = program.call("simulate", world, "-o", partial, "--seed", seed, "--quiet")
+    problem = program.call("simulate", *arguments, "-o", partial, "--seed", seed, "--quiet")
     if problem:
         sys.exit(problem)
     partial.rename(target)
     return target
 
 
+def sequence(program, world, seed, folder):
+    """Folder of the sequence of a world file."""
+    return simulated(program, world.stem, world.read_bytes(), seed, folder, [world])
+
+
 def evaluations(truth, run, handheld):
-    """Arguments of each evaluation whose files are there. Landmarks and map are aligned by the trajectories; without a
-    robot these are the camera's."""
+    """Report, and arguments of the evaluation that makes it, of each whose files are there. Landmarks and map are aligned by
+    the trajectories; without a robot these are the camera's."""
     path = truth / ("groundtruth.txt" if handheld else "groundtruth_robot.txt")
     estimate, boxes = run / ("trajectory_camera.tum" if handheld else "trajectory.tum"), truth / "boxes.jsonl"
     aligned = ["--truth-trajectory", path, "--trajectory", estimate]
-    yield "trajectory", [path, estimate]
+    yield "trajectory", ["trajectory", path, estimate]
     if (run / "landmarks.json").exists():
         images = ["--truth-boxes", boxes, "--associations", run / "associations.jsonl"] if boxes.exists() else []
-        yield "objects", [truth / "objects.json", run / "landmarks.json", *images, *aligned]
+        yield "objects", ["objects", truth / "objects.json", run / "landmarks.json", *images, *aligned]
     if boxes.exists() and (run / "detections.jsonl").stat().st_size > 0:
-        yield "detections", [boxes, run / "detections.jsonl"]
+        yield "detections", ["detections", boxes, run / "detections.jsonl"]
     if (truth / "map_truth.yaml").exists() and (run / "map.yaml").exists():
-        yield "map", [truth / "map_truth.yaml", run / "map.yaml", *aligned]
+        yield "map", ["map", truth / "map_truth.yaml", run / "map.yaml", *aligned]
 
 
-def measure(program, truth, run, handheld, settings, threads):
+def measure(program, truth, run, handheld, settings, threads, reports_of=evaluations, figures_of=FIGURES):
     """The figures of one run by report and key; what failed, and why the run did without something."""
     shutil.rmtree(run, ignore_errors=True)
     rawlog = next(truth.glob("*.rawlog"), None)
@@ -146,14 +152,14 @@ def measure(program, truth, run, handheld, settings, threads):
     summary = json.loads((run / "summary.json").read_text())
     reports = {"run": {"seconds": time.monotonic() - started, "peak_memory_mb": summary.get("peak_memory_mb")}}
     problems = [f"{count} x {reason}" for reason, count in summary.get("reasons", {}).items()]
-    for name, arguments in evaluations(truth, run, handheld):
+    for name, arguments in reports_of(truth, run, handheld):
         report = run / f"{name}_score.json"
-        problem = program.call("evaluate", name, *arguments, "--json", report)
+        problem = program.call("evaluate", *arguments, "--json", report)
         if problem:
             problems.append(problem)
         else:
             reports[name] = json.loads(report.read_text())
-    figures = {f"{report}.{key}": reports.get(report, {}).get(key) for report, key, _, _ in FIGURES}
+    figures = {f"{report}.{key}": reports.get(report, {}).get(key) for report, key, *_ in figures_of}
     return {name: value for name, value in figures.items() if value is not None}, problems
 
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `roomgraph simulate`: synthetic recording of a described world with its ground truth.
+// `roomgraph simulate`: synthetic recording of a described world or a random flat, with its ground truth.
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/simulation/flat.h"
 #include "roomgraph/simulation/simulate.h"
 #include "roomgraph/simulation/world_file.h"
 
@@ -15,17 +17,28 @@ namespace roomgraph {
 namespace {
 
 struct SimulateArguments {
-  std::filesystem::path world, folder;
-  std::uint64_t seed = 1;
-  bool quiet = false;
+  std::filesystem::path world, folder, meshes;
+  std::optional<std::uint64_t> seed, flat;
+  int rooms = 0;
+  bool handheld = false, quiet = false;
 };
 
+/// The world, and its text when it was drawn.
+std::pair<World, std::string> chosenWorld(const SimulateArguments& arguments) {
+  if (!arguments.flat) return {readWorld(arguments.world), ""};
+  const std::string text = flatText({*arguments.flat, arguments.rooms, arguments.handheld, arguments.meshes});
+  return {parseWorld(text, "flat " + std::to_string(*arguments.flat)), text};
+}
+
 void simulateWorld(const SimulateArguments& arguments) {
-  const World world = readWorld(arguments.world);
+  if (arguments.world.empty() == !arguments.flat)
+    throw ConfigError("simulate needs a world file or --flat SEED, one of them");
+  const auto [world, text] = chosenWorld(arguments);
   catchInterrupts();
   std::unique_ptr<Progress> line;
   SimulateOptions options;
-  options.seed = arguments.seed;
+  options.seed = arguments.seed.value_or(arguments.flat.value_or(1));
+  options.world_text = text;
   options.interrupted = interrupted;
   options.progress = [&](double done, double total) {
     if (!line)
@@ -45,15 +58,28 @@ void simulateWorld(const SimulateArguments& arguments) {
 
 void addSimulateCommand(CLI::App& app) {
   auto arguments = std::make_shared<SimulateArguments>();
-  auto* command = app.add_subcommand("simulate", "Make a recording of a described world, with its truth");
-  command->add_option("WORLD", arguments->world, "world description (JSON)")->required();
+  auto* command = app.add_subcommand("simulate", "Make a recording of a described world or a random flat, with its truth");
+  auto* world = command->add_option("WORLD", arguments->world, "world description (JSON)");
   command->add_option("-o,--output", arguments->folder, "folder for the rawlog and the truth files")
       ->required();
-  command->add_option("--seed", arguments->seed, "random seed: same seed, same bytes")->capture_default_str();
+  command->add_option("--seed", arguments->seed,
+                      "random seed of the noise: same seed, same bytes (default 1, or the number of the flat)");
+  auto* flat = command->add_option("--flat", arguments->flat, "draw a flat with this number in place of WORLD")
+                   ->excludes(world);
+  command->add_option("--rooms", arguments->rooms, "of the flat, without corridors; 0: drawn")
+      ->check(CLI::Range(0, 5))
+      ->needs(flat);
+  command->add_flag("--handheld", arguments->handheld, "the flat is seen by a camera in a hand, without robot")->needs(flat);
+  command->add_option("--meshes", arguments->meshes,
+                      "folder of worlds/extract_meshes.sh: some of the flat's chairs and sofas are catalogue models")
+      ->check(CLI::ExistingDirectory)
+      ->needs(flat);
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  roomgraph simulate worlds/lab.json -o data/lab\n"
+      "  roomgraph simulate --flat 7 --rooms 3 -o data/flat_7\n"
+      "A flat is described by data/flat_7/world.json, which makes the same recording with --seed 7.\n"
       "Ctrl-C ends the recording; what was simulated so far is complete, and the exit code is 4.");
   command->callback([arguments] { simulateWorld(*arguments); });
 }

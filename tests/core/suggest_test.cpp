@@ -16,6 +16,12 @@ TEST(Suggest, FindsMisspellings) {
   EXPECT_EQ(didYouMean("enable", kKeys), " (did you mean 'enabled'?)");
 }
 
+TEST(Suggest, FindsKeysByTheirNameWithoutUnit) {
+  EXPECT_EQ(closestMatch("tilt", {"title", "tilt_rad"}), "tilt_rad");
+  EXPECT_EQ(closestMatch("tilt", {"tilt_of_the_camera_rad"}), "") << "more than a unit";
+  EXPECT_EQ(closestMatch("tilt", {"tiltedge"}), "") << "no unit";
+}
+
 TEST(Suggest, SaysNothingAboutOtherWords) {
   EXPECT_EQ(closestMatch("colour", kKeys), "");
   EXPECT_EQ(didYouMean("colour", kKeys), "");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -90,6 +91,21 @@ TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   EXPECT_NEAR(last.odom_from_robot.x, 1.5, 0.15);
   EXPECT_NEAR(last.odom_from_robot.y, 0, 0.025);  // half a cell
   EXPECT_GT(last.step_covariance(0, 0), 2 * last.step_covariance(1, 1));
+}
+
+// The corridor stands still while the robot turns, so the uncertain direction turns in the robot's frame.
+TEST(SubmapScanMatcher, CovarianceOfAStepIsInTheFrameOfTheRobotBeforeIt) {
+  std::vector<Pose2> poses{{0, 0, 0}};
+  for (int i = 0; i < 20; ++i) poses.push_back(poses.back() * Pose2{0, 0, 0.04});
+  const Replayed run = replay(test::corridor(), poses, true);
+  for (const std::size_t i : {5u, 12u, 20u}) {
+    ASSERT_TRUE(run.matches[i].matched);
+    const Eigen::Matrix2d covariance = run.matches[i].step_covariance.topLeftCorner<2, 2>();
+    const double widest = 0.5 * std::atan2(2 * covariance(0, 1), covariance(0, 0) - covariance(1, 1));
+    EXPECT_NEAR(widest, -poses[i - 1].yaw, 0.05) << i;
+    const auto sigmas = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues();
+    EXPECT_GT(sigmas[1], 2 * sigmas[0]) << "along the corridor against across it";
+  }
 }
 
 TEST(SubmapScanMatcher, TooFewReturnsIsAReason) {

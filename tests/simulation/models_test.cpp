@@ -39,6 +39,9 @@ TEST(MeshBuilder, SolidsHaveTheirVolume) {
   // Box of 2 x 2 x 2 with edges of radius 0.5: core, six plates, twelve quarter rods, one ball.
   const double rounded = 1 + 6 * 0.5 + 12 * pi * 0.25 / 4 + 4 * pi / 3 * 0.125;
   EXPECT_NEAR(made([&](MeshBuilder& m) { m.roundedBox(center, {2, 2, 2}, 0.5); }), rounded, 0.02 * rounded);
+  // A radius that does not fit is cut to half the shortest side: two plates of 1 x 2, rods of length 1 and 2, one ball.
+  const double cut = 2 * 2 * 0.5 + (4 * 1 + 4 * 2) * pi * 0.25 / 4 + 4 * pi / 3 * 0.125;
+  EXPECT_NEAR(made([&](MeshBuilder& m) { m.roundedBox(center, {1, 2, 3}, 9); }), cut, 0.03 * cut);
 }
 
 TEST(MeshBuilder, NormalsLookOutwards) {

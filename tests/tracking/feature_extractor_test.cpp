@@ -63,6 +63,42 @@ TEST(FeatureExtractor, LeavesOutExcludedBoxes) {
     EXPECT_FALSE(inner.contains(k.pt.x, k.pt.y));
 }
 
+// Centres of round spots are found where they are, also on a coarse level: resizing maps pixel centres, which moves
+// coordinates by half of (scale - 1) pixels.
+TEST(FeatureExtractor, CoarseLevelsDoNotMoveTheFeatures) {
+  TrackingParameters parameters;
+  constexpr int kLevel = 4;
+  const double scale = std::pow(parameters.scale_factor, kLevel);
+  // The level has a whole number of pixels: 243 x 190.
+  Frame frame;
+  frame.gray = cv::Mat(394, 504, CV_8U);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> within(0, 8);
+  std::vector<Eigen::Vector2d> spots;
+  for (double v = 46; v < 344; v += 34)
+    for (double u = 46; u < 454; u += 34) spots.emplace_back(u + within(random), v + within(random));
+  const auto nearest = [&](double u, double v) {
+    return *std::min_element(spots.begin(), spots.end(), [&](const auto& a, const auto& b) {
+      return (a - Eigen::Vector2d(u, v)).norm() < (b - Eigen::Vector2d(u, v)).norm();
+    });
+  };
+  for (int v = 0; v < frame.gray.rows; ++v)
+    for (int u = 0; u < frame.gray.cols; ++u)
+      frame.gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(
+          std::lround(40 + 180 * std::exp(-(nearest(u, v) - Eigen::Vector2d(u, v)).squaredNorm() / (2 * 4.0 * 4.0))));
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  int count = 0;
+  for (const auto& k : extractFeatures(frame.gray, frame, {}, parameters).keypoints) {
+    if (k.octave != kLevel) continue;
+    const Eigen::Vector2d error = Eigen::Vector2d(k.pt.x, k.pt.y) - nearest(k.pt.x, k.pt.y);
+    ASSERT_LT(error.norm(), 3) << "a corner beside the spots";
+    offset += error;
+    ++count;
+  }
+  ASSERT_GT(count, 60);
+  EXPECT_LT((offset / count).cwiseAbs().maxCoeff(), 0.2) << "against a shift by " << (scale - 1) / 2;
+}
+
 TEST(FeatureExtractor, DropsDepthAtEdges) {
   const test::TexturedRoom room;
   Frame frame = room.render(0, Pose3::Identity());

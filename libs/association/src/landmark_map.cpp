@@ -17,10 +17,6 @@ constexpr double kPrecise_m = 0.3;  // standard deviation on the ground up to wh
 constexpr double kClearMajority =
     3;  // ratio of label votes that changes the class: detectors often confuse classes
 
-double widthOf(const ObjectShape& shape) {
-  return std::max(shape.width, shape.depth);
-}
-
 bool opposite(double a, double b) {
   return std::abs(wrapAngle(a - b)) > M_PI / 2;
 }
@@ -90,7 +86,7 @@ void LandmarkMap::countTogether(FrameId frame, LandmarkId id) {
     const Landmark* other = find(other_id);
     if (!other || other_id == id) continue;
     // Pairs far apart are never duplicates and need no counting.
-    const double near = 2 * std::max(widthOf(landmark.shape), widthOf(other->shape));
+    const double near = 2 * std::max(landmark.shape.horizontalExtent(), other->shape.horizontalExtent());
     if ((other->position - landmark.position).head<2>().norm() < near)
       ++together_[{std::min(id, other_id), std::max(id, other_id)}];
   }

@@ -15,10 +15,6 @@ constexpr double kMostSuppression =
 constexpr double kRayLength_m = 8;
 constexpr double kLeastRange_m = 0.3;  // nearer: no viewing ray
 
-double width(const ObjectShape& shape) {
-  return std::max(shape.width, shape.depth);
-}
-
 Eigen::Vector2d apart(const WorldMeasurement& seen, const Landmark& landmark) {
   return (seen.world_from_object.translation() - landmark.position).head<2>();
 }
@@ -142,7 +138,7 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
       if (inGate(seen, landmark)) out.same_class.emplace_back(landmark.id, density(seen, landmark));
       continue;
     }
-    const double size = width(proposal.shape) + width(landmark.shape);
+    const double size = proposal.shape.horizontalExtent() + landmark.shape.horizontalExtent();
     if (apart(seen, landmark).norm() > size) continue;
     const double overlap =
         footprintOverlap(proposal.shape, seen.world_from_object, landmark.shape, landmark.worldFromObject());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levenshtein distance and the closest candidate within a third of the word's length.
+// Levenshtein distance, missing units, and the closest candidate within a third of the word's length.
 #include "roomgraph/core/suggest.h"
 
 #include <algorithm>
@@ -23,13 +23,19 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
+// Whether the candidate is the word with a unit such as "_rad".
+bool lacksUnit(const std::string& word, const std::string& candidate) {
+  constexpr std::size_t kLongestUnit = 4;
+  return candidate.starts_with(word + "_") && candidate.size() <= word.size() + kLongestUnit;
+}
+
 }  // namespace
 
 std::string closestMatch(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& candidate : candidates) {
-    const std::size_t distance = editDistance(word, candidate);
+    const std::size_t distance = lacksUnit(word, candidate) ? 1 : editDistance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -70,7 +70,7 @@ std::vector<Landmark> joined(std::vector<Landmark> landmarks, const std::vector<
   LandmarkIdentity identity;
   for (const auto& landmark : now) identity.reserve(landmark.id);
   for (Landmark old : earlier) {
-    const double near = std::max(old.shape.width, old.shape.depth) / 2;
+    const double near = old.shape.horizontalExtent() / 2;
     const bool there = std::any_of(now.begin(), now.end(), [&](const Landmark& landmark) {
       return landmark.class_name == old.class_name &&
              (landmark.position - old.position).head<2>().norm() < near;

@@ -42,7 +42,7 @@ bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& wor
   if (shape->visible.area() < kMinShareInImage * shape->full.area()) return false;
   for (const auto& detection : detections)
     if (iou(detection.box, shape->visible) > kSamePlace) return false;
-  const double margin = 0.3 + std::max(landmark.shape.width, landmark.shape.depth) / 2;
+  const double margin = 0.3 + landmark.shape.horizontalExtent() / 2;
   return hiddenShare(frame, shape->visible, distance, margin) < kMaxHidden;
 }
 

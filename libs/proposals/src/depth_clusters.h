@@ -7,7 +7,7 @@
 #include "roomgraph/observations/detection.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/object_database.h"
-#include "roomgraph/proposals/depth_mask.h"
+#include "roomgraph/proposals/box_evidence.h"
 
 namespace roomgraph {
 

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "roomgraph/observations/frame.h"
-#include "roomgraph/proposals/box_edges.h"
-#include "roomgraph/proposals/depth_mask.h"
+#include "roomgraph/proposals/box_evidence.h"
 
 namespace roomgraph {
 

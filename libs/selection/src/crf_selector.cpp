@@ -34,14 +34,7 @@ CrfSelector::CrfSelector() : window_(std::make_unique<ObjectWindow>()) {}
 CrfSelector::~CrfSelector() = default;
 
 void CrfSelector::declareParameters(ParameterVisitor& v) {
-  v.add("max_energy", max_energy_,
-        {.doc = "A proposal is selected when its unary energy alpha * U (Eq. 4) is at most this.",
-         .min = -1,
-         .max = 0});
-  v.add("temperature", temperature_,
-        {.doc = "Temperature of the Boltzmann distribution that turns energies into confidences.",
-         .min = 0.001,
-         .max = 10});
+  options_.declare(v);
   v.add("window_frames", window_frames_,
         {.doc = "Number N of frames in the window. An object that was missed for as many gets a new track.",
          .min = 2,
@@ -69,12 +62,12 @@ std::vector<ObjectMeasurement> CrfSelector::select(const FrameProposals& frame, 
     const ObjectChain& object = window_->objects[static_cast<std::size_t>(step.objects[j])];
     const bool whole_window = window_->frame - object.born + 1 >= window_frames_;
     const ChainProblem chain = chainProblem(object, whole_window);
-    const ChainSolution solution = minimizeReportable(chain, max_energy_);
+    const ChainSolution solution = minimizeReportable(chain, options_.max_energy);
     if (solution.states.empty() || solution.states.back() == 0) continue;
     const int state = solution.states.back();
     const Proposal& proposal = *proposals[j][static_cast<std::size_t>(state - 1)];
     ObjectMeasurement measurement{frame.frame, frame.t, frame.detections[j], proposal};
-    measurement.confidence = marginals(chain, temperature_).back()[static_cast<std::size_t>(state)];
+    measurement.confidence = marginals(chain, options_.temperature).back()[static_cast<std::size_t>(state)];
     measurement.energy.unary = chain.unary.back()[static_cast<std::size_t>(state)];
     if (!chain.pairwise.empty())
       measurement.energy.pairwise = chain.pairwise.back()(solution.states.end()[-2], state);

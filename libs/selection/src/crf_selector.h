@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "energy_options.h"
 #include "roomgraph/selection/proposal_selector.h"
 
 namespace roomgraph {
@@ -33,8 +34,7 @@ class CrfSelector : public ProposalSelector {
   std::vector<ObjectMeasurement> select(const FrameProposals& frame, const FrameContext& context) override;
 
  private:
-  double max_energy_ = -0.15;
-  double temperature_ = 0.1;
+  EnergyOptions options_;
   int window_frames_ = 5;
   double min_link_overlap_ = 0.2;
   std::unique_ptr<ObjectWindow> window_;

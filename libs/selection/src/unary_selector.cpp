@@ -11,14 +11,7 @@ namespace roomgraph {
 IMPLEMENTS_MRPT_OBJECT(UnarySelector, ProposalSelector, roomgraph)
 
 void UnarySelector::declareParameters(ParameterVisitor& v) {
-  v.add("max_energy", max_energy_,
-        {.doc = "A proposal is selected when its unary energy alpha * U (Eq. 4) is at most this.",
-         .min = -1,
-         .max = 0});
-  v.add("temperature", temperature_,
-        {.doc = "Temperature of the Boltzmann distribution that turns energies into confidences.",
-         .min = 0.001,
-         .max = 10});
+  options_.declare(v);
 }
 
 std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame,
@@ -27,18 +20,18 @@ std::vector<ObjectMeasurement> UnarySelector::select(const FrameProposals& frame
   for (std::size_t j = 0; j < frame.detections.size(); ++j) {
     const auto& detection = frame.detections[j];
     const Proposal* best = nullptr;
-    double best_energy = max_energy_, partition = 1;  // 1 = exp(0), the state "none"
+    double best_energy = options_.max_energy, partition = 1;  // 1 = exp(0), the state "none"
     for (const auto& proposal : frame.proposals) {
       if (proposal.detection != static_cast<int>(j)) continue;
       const double energy = unaryEnergy(proposal, detection);
-      partition += std::exp(-energy / temperature_);
+      partition += std::exp(-energy / options_.temperature);
       if (energy > best_energy) continue;
       best_energy = energy;
       best = &proposal;
     }
     if (!best) continue;
     ObjectMeasurement measurement{frame.frame, frame.t, detection, *best};
-    measurement.confidence = std::exp(-best_energy / temperature_) / partition;
+    measurement.confidence = std::exp(-best_energy / options_.temperature) / partition;
     measurement.energy.unary = best_energy;
     measurement.features =
         featuresOnObject(context.features, detection.box, *best, context.camera, kFeatureMargin_m);

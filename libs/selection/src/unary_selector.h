@@ -2,6 +2,7 @@
 // Proposal selection frame by frame by unary energy: a baseline.
 #pragma once
 
+#include "energy_options.h"
 #include "roomgraph/selection/proposal_selector.h"
 
 namespace roomgraph {
@@ -15,8 +16,7 @@ class UnarySelector : public ProposalSelector {
   std::vector<ObjectMeasurement> select(const FrameProposals& frame, const FrameContext& context) override;
 
  private:
-  double max_energy_ = -0.15;
-  double temperature_ = 0.1;
+  EnergyOptions options_;
 };
 
 }  // namespace roomgraph

@@ -15,12 +15,16 @@ struct BuildRequest {
   double w, d, h;
   Rgb color;
   int variant;
+  int shape;  ///< 0: the usual proportions; any other number: others
 };
 
 // Seats
 void buildSwivelChair(const BuildRequest& request);
 void buildSofa(const BuildRequest& request);
 void buildWoodenChair(const BuildRequest& request);
+void buildVisitorChair(const BuildRequest& request);
+void buildStool(const BuildRequest& request);
+void buildBench(const BuildRequest& request);
 // Tables and cases
 void buildDesk(const BuildRequest& request);
 void buildShelf(const BuildRequest& request);
@@ -31,12 +35,15 @@ void buildBed(const BuildRequest& request);
 void buildTable(const BuildRequest& request);
 void buildCupboard(const BuildRequest& request);
 void buildRefrigerator(const BuildRequest& request);
+void buildRoundTable(const BuildRequest& request);
 // Smaller things
 void buildPlant(const BuildRequest& request);
 void buildMonitor(const BuildRequest& request);
 void buildCardboardBox(const BuildRequest& request);
 void buildBin(const BuildRequest& request);
 void buildWhiteboard(const BuildRequest& request);
+void buildPrinter(const BuildRequest& request);
+void buildCoatStand(const BuildRequest& request);
 
 /// Colour made lighter (gain > 1) or darker.
 Rgb toned(const Rgb& color, double gain);

@@ -33,7 +33,14 @@ const std::map<std::string, Entry>& entries() {
       {"monitor", {{"other", "monitor", {0.54, 0.2, 0.42}, {0.06, 0.06, 0.07}}, buildMonitor}},
       {"box", {{"other", "box", {0.45, 0.4, 0.35}, {0.68, 0.52, 0.35}}, buildCardboardBox}},
       {"bin", {{"other", "bin", {0.3, 0.3, 0.36}, {0.25, 0.27, 0.3}}, buildBin}},
-      {"whiteboard", {{"other", "whiteboard", {1.6, 0.04, 1.0}, {0.9, 0.9, 0.9}}, buildWhiteboard}}};
+      {"whiteboard", {{"other", "whiteboard", {1.6, 0.04, 1.0}, {0.9, 0.9, 0.9}}, buildWhiteboard}},
+      {"visitor_chair", {{"other", "visitor chair", {0.56, 0.56, 0.84}, {0.15, 0.16, 0.19}}, buildVisitorChair}},
+      {"armchair", {{"other", "armchair", {0.84, 0.84, 0.88}, {0.42, 0.3, 0.2}}, buildSofa}},
+      {"stool", {{"other", "stool", {0.4, 0.4, 0.5}, {0.55, 0.38, 0.22}}, buildStool}},
+      {"bench", {{"other", "bench", {1.4, 0.4, 0.46}, {0.55, 0.4, 0.26}}, buildBench}},
+      {"round_table", {{"table", "round table", {1.1, 1.1, 0.74}, {0.6, 0.44, 0.3}}, buildRoundTable}},
+      {"printer", {{"other", "printer", {0.46, 0.42, 0.34}, {0.78, 0.78, 0.77}}, buildPrinter}},
+      {"coat_stand", {{"other", "coat stand", {0.55, 0.55, 1.8}, {0.3, 0.2, 0.12}}, buildCoatStand}}};
   return all;
 }
 
@@ -67,9 +74,9 @@ const FurnitureModel& furnitureModel(const std::string& name) {
 }
 
 Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const std::array<double, 3>& color,
-                   int variant, MaterialList& materials) {
+                   int variant, MaterialList& materials, int shape) {
   MeshBuilder builder(materials);
-  entries().at(name).build({builder, size_m.x(), size_m.y(), size_m.z(), color, variant});
+  entries().at(name).build({builder, size_m.x(), size_m.y(), size_m.z(), color, variant, shape});
   return fittedMesh(builder.take(), size_m);
 }
 

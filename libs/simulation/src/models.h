@@ -21,9 +21,9 @@ struct FurnitureModel {
 const FurnitureModel& furnitureModel(const std::string& name);
 
 /// Mesh in the object's frame (bottom centre, x to the front, z up) whose bounding box is exactly d x w x h.
-/// `variant` changes details (books, leaves, what a screen shows).
+/// `variant` changes details (books, leaves, what a screen shows), `shape` the proportions of seats (0: usual).
 Mesh furnitureMesh(const std::string& name, const Eigen::Vector3d& size_m, const std::array<double, 3>& color,
-                   int variant, MaterialList& materials);
+                   int variant, MaterialList& materials, int shape = 0);
 
 /// Moves and stretches a mesh so that its bounding box is d x w x h on the origin.
 Mesh fittedMesh(Mesh mesh, const Eigen::Vector3d& size_wdh);

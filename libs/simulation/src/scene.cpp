@@ -102,7 +102,7 @@ void Scene::addFurniture(const World& world) {
     object.world_from_object = poseFromYpr(item.at_m.x(), item.at_m.y(), item.at_m.z(), item.yaw_rad, 0, 0);
     const Mesh mesh = item.mesh_file.empty()
                           ? furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color),
-                                          variant, materials_)
+                                          variant, materials_, item.shape)
                           : fittedMesh(readMeshFile(item.mesh_file, materials_), object.size_wdh);
     ++variant;
     const Pose3 pose = object.world_from_object;

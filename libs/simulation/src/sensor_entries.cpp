@@ -73,12 +73,20 @@ OdometrySpec odometry(JsonEntry entry) {
 
 DetectionsSpec detections(JsonEntry entry) {
   DetectionsSpec out;
+  out.persistent = entry.choice("errors", "independent", {"independent", "persistent"}) == "persistent";
   out.detect_probability = entry.number("detect_probability", out.detect_probability, 0, 1);
   out.min_visible = entry.number("min_visible", out.min_visible, 0, 1);
   out.min_height_px = entry.number("min_height_px", out.min_height_px, 1, 4096);
   out.jitter = entry.number("jitter", out.jitter, 0, 1);
   out.false_positives = entry.number("false_positives", out.false_positives, 0, 20);
-  out.confusion = entry.number("confusion", out.confusion, 0, 1);
+  // A key of the other kind of errors is an unknown one: it would have no effect.
+  if (out.persistent) {
+    out.mislead = entry.number("mislead", out.mislead, 0, 4);
+    out.duplicates = entry.number("duplicates", out.duplicates, 0, 1);
+    out.memory_s = entry.number("memory_s", out.memory_s, 0, 60);
+  } else {
+    out.confusion = entry.number("confusion", out.confusion, 0, 1);
+  }
   entry.finish();
   return out;
 }

@@ -8,6 +8,7 @@
 #include <tbb/task_group.h>
 
 #include "color_renderer.h"
+#include "persistent_detector.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "roomgraph/observations/rawlog_writer.h"
@@ -77,6 +78,7 @@ class Simulation {
   Scene scene_;
   std::unique_ptr<ColorRenderer> renderer_;
   std::unique_ptr<LidarCaster> caster_;
+  std::unique_ptr<PersistentDetector> detector_;  ///< empty: errors are independent
   std::vector<Pose2> odometry_;
   RawlogWriter rawlog_;
   TruthFile camera_truth_, robot_truth_, odometry_truth_, boxes_, persons_;
@@ -85,16 +87,19 @@ class Simulation {
 };
 
 // objects.json is the last to be put into place.
-std::vector<std::string> fileNames(const World& world) {
-  return {world.name + ".rawlog", "groundtruth.txt", "groundtruth_robot.txt", "odometry.txt",
-          "boxes.jsonl",          "persons.txt",     "calibration.json",      "map_truth.pgm",
-          "map_truth.yaml",       "objects.json"};
+std::vector<std::string> fileNames(const World& world, bool with_world) {
+  std::vector<std::string> names{world.name + ".rawlog", "groundtruth.txt", "groundtruth_robot.txt",
+                                 "odometry.txt",         "boxes.jsonl",     "persons.txt",
+                                 "calibration.json",     "map_truth.pgm",   "map_truth.yaml"};
+  if (with_world) names.push_back("world.json");
+  names.push_back("objects.json");
+  return names;
 }
 
 Simulation::Simulation(const World& world, const std::filesystem::path& folder,
                        const SimulateOptions& options)
     : world_(world),
-      folder_(folder, fileNames(world), {world.file}),
+      folder_(folder, fileNames(world, !options.world_text.empty()), {world.file}),
       options_(options),
       scene_(world),
       rawlog_(folder_.pending(world.name + ".rawlog")),
@@ -109,6 +114,8 @@ Simulation::Simulation(const World& world, const std::filesystem::path& folder,
     mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
     mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(world.camera->jpeg_quality);
   }
+  if (world.detections && world.detections->persistent)
+    detector_ = std::make_unique<PersistentDetector>(scene_, world.camera->model, *world.detections, options.seed);
   if (world.lidar) {
     scans_ = {world.lidar->rate_hz, world.lidar->delay_s, 0};
     caster_ = std::make_unique<LidarCaster>(scene_, world.lidar->at_m.z());
@@ -143,7 +150,7 @@ void Simulation::frame(double t) {
   tbb::task_group beside;
   beside.run([&] {
     depth = measureDepth(exact.depth, spec, random(kDepthStream, index));
-    light = ambientLight(exact.depth, spec.model);
+    light = ambientLight(exact.depth, spec.model) * world_.light;
   });
   const cv::Mat plain = renderer_->render(parts, world_from_camera, nearest(exact.depth));
   beside.wait();
@@ -168,8 +175,9 @@ void Simulation::frame(double t) {
   rawlog_.write(record);
 
   if (world_.detections) {
-    auto found = measureDetections(exact.views, scene_, spec.model, *world_.detections,
-                                   random(kDetectionStream, index));
+    auto found = detector_ ? detector_->detect(exact, world_from_camera, t, index)
+                           : measureDetections(exact.views, scene_, spec.model, *world_.detections,
+                                               random(kDetectionStream, index));
     found.timestamp = record.timestamp;
     found.sensorLabel = "DETECTIONS";
     found.image_label = record.sensorLabel;
@@ -236,6 +244,11 @@ void Simulation::finish() {
   const double height = world_.lidar ? world_.lidar->at_m.z() : LidarSpec{}.at_m.z();
   writeMapTruth(folder_.pending("map_truth.pgm"), folder_.pending("map_truth.yaml"),
                 LidarCaster(scene_, height).fixedOutlines());
+  if (!options_.world_text.empty()) {
+    OutputFile world(folder_.pending("world.json"));
+    world << options_.world_text;
+    world.finish();
+  }
   folder_.publish();
   result_.frames = frames_.count;
   result_.scans = scans_.count;

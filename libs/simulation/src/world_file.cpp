@@ -104,6 +104,7 @@ Furniture furniture(JsonEntry& entry) {
     out.size_m = Eigen::Vector3d(size[0], size[1], size[2]);
   }
   if (entry.has("color")) out.color = entry.color("color", {});
+  out.shape = entry.integer("shape", 0, 0, 1000000);
   out.mesh_file = meshFile(entry);
   entry.finish();
   return out;
@@ -170,6 +171,7 @@ World world(JsonEntry& entry) {
   if (entry.has("duration_s")) out.duration_s = entry.number("duration_s", 0, 0.1, 1e5);
   out.wall_height_m = entry.number("wall_height_m", out.wall_height_m, 0.5, 20);
   out.wall_thickness_m = entry.number("wall_thickness_m", out.wall_thickness_m, 0.02, 2);
+  out.light = entry.number("light", out.light, 0.05, 2);
   for (auto& item : entry.children("rooms")) out.rooms.push_back(room(item, out.wall_height_m));
   if (out.rooms.empty()) entry.fail("rooms", "a world needs at least one room");
   for (auto& item : entry.children("furniture")) out.furniture.push_back(furniture(item));

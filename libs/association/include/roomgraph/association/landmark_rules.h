@@ -45,7 +45,7 @@ struct DuplicateRule {
 
   /// Distance of two groups of a landmark's sightings beyond which they are two objects, m.
   double splitDistance(const ObjectShape& shape) const {
-    return split_distance_ratio * std::max(shape.width, shape.depth);
+    return split_distance_ratio * shape.horizontalExtent();
   }
 };
 

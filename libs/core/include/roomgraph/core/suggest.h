@@ -7,7 +7,7 @@
 
 namespace roomgraph {
 
-/// The candidate closest to `word` by edit distance, or empty when none is near enough to be a likely
+/// The candidate closest to `word` by edit distance (a missing unit counts as one edit), or empty when none is a likely
 /// misspelling.
 std::string closestMatch(const std::string& word, const std::vector<std::string>& candidates);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct ObjectShape {
   ShapeKind kind = ShapeKind::kCuboid;
   double width = 0, depth = 0, height = 0;  ///< m; lateral, front to back, vertical
   double radius() const { return (width + depth) / 4; }
+  double horizontalExtent() const { return std::max(width, depth); }
 };
 
 /// Corners of the footprint polygon (counter-clockwise, object frame, z = 0); a circle is sampled with

@@ -2,16 +2,41 @@
 // What is known about one detection: box, depth points, image edges, ground and class.
 #pragma once
 
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
 #include "roomgraph/geometry/box_sides.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/observations/object_database.h"
-#include "roomgraph/proposals/box_edges.h"
-#include "roomgraph/proposals/depth_mask.h"
+#include "roomgraph/observations/proposal.h"
 
 namespace roomgraph {
+
+/// A depth measurement inside a detection's box.
+struct MaskPoint {
+  double u = 0, v = 0;        ///< px
+  Eigen::Vector3d in_ground;  ///< m, ground frame (geometry/ground.h)
+};
+
+/// Depth points that belong to a detected object (method.md sec. 1.3).
+struct DepthMask {
+  std::vector<MaskPoint> points;  ///< empty: no depth, or no cluster that can be the object
+  double valid_ratio = 0;         ///< share of the box's (mask's) pixels that have a depth
+};
+
+/// Image edges in and around a box (method.md sec. 1.4).
+struct BoxEdges {
+  std::vector<Segment2> segments;  ///< straight parts (Hough), px of the whole image, longest first
+  cv::Mat pixels;                  ///< CV_8UC1, Canny edges of the reduced image
+  cv::Mat distance;  ///< CV_32FC1, px of the reduced image: to the nearest edge pixel; empty where depth is known
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< px; the reduced image's corner in the whole one
+  double scale = 1;                                  ///< reduced px per px
+
+  /// Distance to the nearest edge pixel, px. Outside the box: that of the nearest pixel in it, plus the distance to it.
+  double distanceAt(const Eigen::Vector2d& pixel) const;
+};
 
 /// Everything a shape generator knows about one detection. The ground frame (geometry/ground.h) has its origin on
 /// the floor below the camera, x along the optical axis' horizontal direction, y left, z up.

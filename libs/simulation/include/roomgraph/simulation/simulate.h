@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "roomgraph/simulation/world.h"
 
@@ -12,6 +13,7 @@ namespace roomgraph {
 
 struct SimulateOptions {
   std::uint64_t seed = 1;
+  std::string world_text;  ///< written as world.json beside the recording; empty: no such file
   /// Called after every record group with simulated seconds done and in all; may be empty.
   std::function<void(double, double)> progress;
   /// True: stop; what was simulated so far becomes a complete recording. May be empty.

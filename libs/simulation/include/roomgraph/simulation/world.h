@@ -50,6 +50,7 @@ struct Furniture {
   double yaw_rad = 0;                              ///< direction of the front
   std::optional<Eigen::Vector3d> size_m;           ///< w, d, h; otherwise the model's own
   std::optional<std::array<double, 3>> color;
+  int shape = 0;          ///< proportions of a seat: 0 the usual ones, any other number others
   std::string mesh_file;  ///< replaces the built shape, fitted to the size; empty: built
   std::string place;
 };
@@ -114,17 +115,23 @@ struct OdometrySpec {
   double slip_m = 0.15, slip_rad = 0.1;  ///< spread of what such a slip adds
 };
 
+/// A simulated detector errs independently in every frame, or persistently: the same way from the same view.
 struct DetectionsSpec {
   double detect_probability = 0.9, min_visible = 0.25, min_height_px = 20;
   double jitter = 0.03;           ///< sigma of every edge, share of the box's size
   double false_positives = 0.05;  ///< expected per frame
-  double confusion = 0.03;        ///< probability of a wrong label
+  double confusion = 0.03;        ///< independent: probability of a wrong label
+  double mislead = 1;             ///< persistent: gain on how often things of other kinds get a label
+  double duplicates = 0.03;       ///< persistent: share of the objects' views with a second box
+  double memory_s = 0.8;          ///< persistent: time over which an error that is not of the view lasts
+  bool persistent = false;
 };
 
 struct World {
   std::string name, file;
   std::optional<double> duration_s;  ///< default: until the path ends
   double wall_height_m = 2.6, wall_thickness_m = 0.12;
+  double light = 1;  ///< brightness of the colour pictures before the sensor's noise
   std::vector<Room> rooms;
   std::vector<Furniture> furniture;
   std::vector<Person> people;

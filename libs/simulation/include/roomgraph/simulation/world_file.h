@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading of world files.
+// Reading and writing of world files.
 #pragma once
 
 #include <filesystem>
@@ -16,5 +16,8 @@ namespace roomgraph {
 World readWorld(const std::filesystem::path& file);
 /// The same from text; `name` stands for the file in messages.
 World parseWorld(const std::string& text, const std::string& name);
+
+/// The world file that describes this world: lengths and angles to six decimals, colours to 8 bits a channel.
+std::string worldText(const World& world, const std::string& comment = "");
 
 }  // namespace roomgraph

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Way of a robot or hand-held camera through all rooms of a flat.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flat_grid.h"
+#include "roomgraph/core/errors.h"
+#include "sensor_path.h"
+#include "world_check.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kMargin_m = 0.06;  ///< beyond the robot's radius: the driven curve rounds the planned corners
+using Waypoints = std::vector<Eigen::Vector2d>;
+
+/// Places of a room to go to: far from each other and with space around, then in the order of their direction from the
+/// middle, beginning where the way comes in.
+Waypoints placesToSee(const FloorGrid& grid, const Room& room, const Waypoints& reachable, const Eigen::Vector2d& from, int count) {
+  const PlanBox area(room.min_m, room.max_m);
+  Waypoints inside, chosen;
+  for (const auto& cell : reachable)
+    if (area.exteriorDistance(cell) < 1e-9 && grid.clearance(cell) > 0.3) inside.push_back(cell);
+  if (inside.empty())
+    for (const auto& cell : reachable)
+      if (area.exteriorDistance(cell) < 1e-9) inside.push_back(cell);
+  for (int i = 0; i < count && !inside.empty(); ++i) {
+    double best = -1;
+    Eigen::Vector2d farthest = inside.front();
+    for (const auto& cell : inside) {
+      double distance = i == 0 ? (cell - from).norm() : 1e9;
+      for (const auto& other : chosen) distance = std::min(distance, (cell - other).norm());
+      distance += 0.5 * std::min(1.0, grid.clearance(cell));
+      if (distance > best) {
+        best = distance;
+        farthest = cell;
+      }
+    }
+    if (i > 0 && best < 0.9) break;
+    chosen.push_back(farthest);
+  }
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& cell : inside) middle += cell / static_cast<double>(inside.size());
+  const auto turned = [&](const Eigen::Vector2d& p) {
+    const Eigen::Vector2d d = p - middle, e = from - middle;
+    return wrapAngle(std::atan2(d.y(), d.x()) - std::atan2(e.y(), e.x()) - std::numbers::pi) + std::numbers::pi;
+  };
+  std::sort(chosen.begin(), chosen.end(), [&](const auto& a, const auto& b) { return turned(a) < turned(b); });
+  return chosen;
+}
+
+/// Moves every point towards the middle of its neighbours, as far as the clearance allows.
+void smooth(Waypoints& way, const FloorGrid& grid, double clearance) {
+  for (int pass = 0; pass < 60; ++pass)
+    for (std::size_t i = 1; i + 1 < way.size(); ++i) {
+      const Eigen::Vector2d next = 0.5 * way[i] + 0.25 * (way[i - 1] + way[i + 1]);
+      if (grid.clearance(next) >= std::min(clearance + 0.05, grid.clearance(way[i]))) way[i] = next;
+    }
+}
+
+/// The way past all goals in their order; empty when one cannot be reached.
+Waypoints wayPast(const Waypoints& goals, const FloorGrid& grid, double clearance) {
+  Waypoints out{goals.front()};
+  for (std::size_t i = 1; i < goals.size(); ++i) {
+    const Waypoints leg = grid.way(out.back(), goals[i], clearance);
+    if (leg.empty()) return {};
+    out.insert(out.end(), leg.begin() + 1, leg.end());
+  }
+  smooth(out, grid, clearance);
+  Waypoints thin{out.front()};
+  for (const auto& point : out)
+    if ((point - thin.back()).norm() >= 0.3) thin.emplace_back(inSteps(point.x(), 0.001), inSteps(point.y(), 0.001));
+  thin.front() = {inSteps(thin.front().x(), 0.001), inSteps(thin.front().y(), 0.001)};
+  return thin;
+}
+
+/// Rooms by their neighbours, from the start on: each is left by the way that led to it.
+std::vector<std::size_t> roomOrder(const FlatDraft& draft, const Waypoints& reachable, Random& random) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < draft.world.rooms.size(); ++i) {
+    const PlanBox area(draft.world.rooms[i].min_m, draft.world.rooms[i].max_m);
+    const bool seen = std::any_of(reachable.begin(), reachable.end(), [&](const auto& cell) { return area.contains(cell); });
+    if (seen) out.push_back(i);
+  }
+  for (std::size_t i = out.size(); i > 1; --i)
+    std::swap(out[i - 1], out[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(i) - 1))]);
+  return out;
+}
+
+RobotPathSpec drawRobot(Random& random) {
+  RobotPathSpec out;
+  out.max_speed_m_s = inSteps(random.uniform(0.3, 0.6));
+  out.max_turn_rad_s = inSteps(random.uniform(0.5, 1.0));
+  out.acceleration_m_s2 = inSteps(random.uniform(0.25, 0.6));
+  out.radius_m = inSteps(random.uniform(0.17, 0.2));
+  return out;
+}
+
+/// Views along a way: ahead, and now and then at the middle of the room.
+HandheldSpec handheldAlong(const Waypoints& way, const FlatDraft& draft, Random& random) {
+  HandheldSpec out;
+  out.speed_m_s = inSteps(random.uniform(0.3, 0.5));
+  const double height = random.uniform(1.4, 1.6), phase = random.uniform(0, 2 * std::numbers::pi);
+  for (std::size_t i = 0; i < way.size(); i += 2) {
+    const Eigen::Vector2d at = way[i], ahead = way[std::min(i + 4, way.size() - 1)];
+    Eigen::Vector2d look = ahead + (ahead - at).normalized();
+    if ((ahead - at).norm() < 0.1) break;
+    for (const auto& room : draft.world.rooms) {
+      const Eigen::Vector2d middle = (room.min_m + room.max_m) / 2;
+      if (!PlanBox(room.min_m, room.max_m).contains(at) || (middle - at).norm() < 1.2) continue;
+      const double pull = 0.35 + 0.35 * std::sin(0.4 * static_cast<double>(i) + phase);
+      look = (1 - pull) * look + pull * middle;
+    }
+    if ((look - at).norm() < 0.5) look = at + (ahead - at).normalized();
+    const double z = height + 0.08 * std::sin(0.5 * static_cast<double>(i) + phase);
+    out.keys.push_back({{at.x(), at.y(), inSteps(z)},
+                        {inSteps(look.x(), 0.001), inSteps(look.y(), 0.001),
+                         inSteps(height - random.uniform(0.15, 0.5) * (look - at).norm())}});
+  }
+  return out;
+}
+
+bool worldIsSound(const World& world) {
+  try {
+    checkWorld(world);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
+}
+
+/// Seconds that the way takes; the draft then holds it.
+double adopt(FlatDraft& draft, const Waypoints& way, const RobotPathSpec& robot, Random random) {
+  if (draft.options.handheld) {
+    draft.world.handheld = handheldAlong(way, draft, random);
+    return draft.world.handheld->keys.size() < 2 ? 0 : SensorPath(*draft.world.handheld).duration();
+  }
+  draft.world.robot = robot;
+  draft.world.robot->path_m = way;
+  return SensorPath(*draft.world.robot).duration();
+}
+
+}  // namespace
+
+bool planWay(FlatDraft& draft, Random& random) {
+  constexpr double kLongest_s = 235;
+  const RobotPathSpec robot = drawRobot(random);
+  const double clearance = robot.radius_m + kMargin_m;
+  const FloorGrid grid = floorGridOf(draft);
+  const Room& first = draft.world.rooms[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(draft.world.rooms.size()) - 1))];
+  Waypoints reachable;
+  for (double x = first.min_m.x() + 0.3; x < first.max_m.x(); x += 0.2)
+    for (double y = first.min_m.y() + 0.3; y < first.max_m.y(); y += 0.2)
+      if (Waypoints now = grid.reachable({x, y}, clearance); now.size() > reachable.size()) reachable = std::move(now);
+  const auto order = roomOrder(draft, reachable, random);
+  if (order.size() < draft.world.rooms.size()) return false;
+  const Random tail = random;
+  // Fewer places and no second visits where the way would take too long.
+  const bool small = draft.world.rooms.size() <= 2;
+  for (int places = small ? 7 : 4; places >= 2; --places) {
+    Waypoints goals;
+    for (const std::size_t i : order) {
+      const bool corridor = draft.uses[i] == RoomUse::kCorridor;
+      const Eigen::Vector2d from = goals.empty() ? first.min_m : goals.back();
+      for (const auto& place : placesToSee(grid, draft.world.rooms[i], reachable, from, corridor ? 2 : places))
+        goals.push_back(place);
+    }
+    const std::size_t once = goals.size();
+    for (std::size_t i = 0; i < once; i += small ? 1 : 2) goals.push_back(goals[i]);
+    for (const std::size_t count : {goals.size(), once + 1}) {
+      const Waypoints way = wayPast(Waypoints(goals.begin(), goals.begin() + static_cast<std::ptrdiff_t>(std::min(count, goals.size()))), grid, clearance);
+      if (way.size() < 4) return false;
+      const double seconds = adopt(draft, way, robot, tail);
+      if (seconds > 20 && seconds < kLongest_s && worldIsSound(draft.world)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace roomgraph
