@@ -48,6 +48,15 @@ TEST(ProposalError, TopAndBest) {
   EXPECT_NEAR(figures.nees_mean, 0.2 * 0.2 / 0.04, 1e-9);
 }
 
+TEST(ProposalError, TheBestMayStandAnywhereInTheList) {
+  ProposalCase c = caseAt(3);
+  c.proposals = {at(3.2, 0, 0.5), at(3, 0.1, 0), at(3.6, 0, 1)};
+  const auto figures = evaluateProposals({c}).at("sofa");
+  EXPECT_NEAR(figures.center_best_m.median, 0.1, 1e-9);
+  EXPECT_NEAR(figures.yaw_best_deg.median, 0, 1e-9);
+  EXPECT_NEAR(figures.iou3d_best_median, 1.9 / 2.1, 1e-9);
+}
+
 TEST(ProposalError, YawIsTakenModuloSymmetry) {
   ProposalCase c = caseAt(3);
   c.rule.symmetry = 2;

@@ -67,6 +67,45 @@ TEST(DepthMask, TheDetectorsMaskIsHonoured) {
   for (const auto& p : all.points) EXPECT_LT(p.u, detection.box.center().x() + 1);
 }
 
+// Points on an upright patch 4 m away, one for each pixel of the columns [from, to) and 50 rows from `bottom` (m) on.
+void addPatch(int from, int to, double bottom, DepthMask& all) {
+  for (int u = from; u < to; ++u)
+    for (int v = 0; v < 50; ++v) {
+      const double metres_per_px = 4 / 262.5;
+      all.points.push_back({static_cast<double>(u), static_cast<double>(v),
+                            {4, (50 - u) * metres_per_px, bottom + (49 - v) * metres_per_px}});
+    }
+  all.valid_ratio = 1;
+}
+
+TEST(DepthMask, WhatStandsInTheMiddleOfTheBoxIsTheObject) {
+  DepthMask all;
+  addPatch(0, 24, 0.15, all);  // larger, but beside it
+  addPatch(45, 65, 0.15, all);
+  const DepthMask mask = explanations(all, {0, 0, 100, 50}, *database().find("swivel_chair"), 262.5, 1).at(0);
+  EXPECT_EQ(mask.points.size(), 20u * 50);
+  for (const auto& p : mask.points) EXPECT_GE(p.u, 45);
+}
+
+// The seat hides the foot of the back rest, so that their points do not touch.
+TEST(DepthMask, ABackRestBehindTheSeatBelongsToASofa) {
+  const auto sizeWith = [](double behind) {
+    DepthMask all;
+    addPatch(0, 100, 0.15, all);
+    DepthMask back;
+    addPatch(20, 80, 0.15, back);
+    for (MaskPoint p : back.points) {
+      p.in_ground.x() += behind;
+      if (p.in_ground.z() > 0.5) all.points.push_back(p);
+    }
+    return std::pair{explanations(all, {0, 0, 100, 50}, *database().find("sofa"), 262.5, 1).at(0).points.size(),
+                     all.points.size()};
+  };
+  const auto near = sizeWith(0.6), far = sizeWith(1.1);
+  EXPECT_EQ(near.first, near.second);
+  EXPECT_EQ(far.first, 100u * 50) << "farther behind than a sofa is deep";
+}
+
 TEST(DepthMask, NothingToSample) {
   Seen seen = chairBeforeWall(false);
   Detection detection;

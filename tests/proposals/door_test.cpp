@@ -149,6 +149,31 @@ TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   EXPECT_LT(std::pow(found[0].y - 1.03, 2), 9 * c(1, 1));
 }
 
+// A door in a wall straight ahead: what the box's sides are worth along the wall, by sampling them.
+TEST(DoorOnPlane, DeviationAlongTheWallEqualsSampling) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> gauss;
+  BoxEvidence e;
+  e.model = database().find("door");
+  e.camera = {640, 480, 525, 525, 319.5, 239.5, {}};
+  e.ground = {{0, -1, 0}, 1};
+  e.camera_from_ground = cameraFromGround(e.ground);
+  VerticalPlane wall = planeThrough({5, -1}, {5, 1});
+  wall.sigma_m = 0.001;
+  wall.inlier_share = 1;
+  const double half = 525 * 0.45 / 5, px = sideSigma(2 * half);
+  double squares = 0, claimed = 0;
+  constexpr int kRuns = 4000;
+  for (int i = 0; i < kRuns; ++i) {
+    e.box = {319.5 - half + px * gauss(random), 100, 319.5 + half + px * gauss(random), 345};
+    const auto placed = doorOnPlane(wall, e);
+    ASSERT_TRUE(placed && placed->covariance);
+    squares += placed->y * placed->y / kRuns;
+    claimed += (*placed->covariance)(1, 1) / kRuns;
+  }
+  EXPECT_NEAR(claimed, squares, 0.1 * squares);
+}
+
 TEST(DoorOnPlane, CovarianceOfAConstructionIsKeptAndGrowsWithMisfit) {
   BoxEvidence evidence;
   evidence.model = database().find("door");

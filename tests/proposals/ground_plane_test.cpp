@@ -102,6 +102,33 @@ TEST(GroundPlane, FailuresHaveReasons) {
   EXPECT_FALSE(findGround(none, std::nullopt));
 }
 
+// Expected or not, what is seen must be a floor: upright enough, far enough below, and wide enough to fix its tilt.
+TEST(GroundPlane, WhatIsNoFloorIsRefused) {
+  const auto seen = [](double height, double pitch, double roll) {
+    Scene scene;
+    scene.lookAhead(height, pitch, roll);
+    return scene.render();
+  };
+  const Frame turned = seen(1.2, 0.5, 0.6);  // by 0.76 rad against the upward direction of the image
+  EXPECT_FALSE(findGround(turned, std::nullopt, {.max_tilt = 0.7}));
+  EXPECT_TRUE(findGround(turned, std::nullopt, {.max_tilt = 0.85}));
+  const Frame low = seen(0.5, 0.3, 0);
+  EXPECT_FALSE(findGround(low, std::nullopt, {.min_camera_height_m = 0.6})) << "it may be a table";
+  EXPECT_TRUE(findGround(low, std::nullopt, {.min_camera_height_m = 0.4}));
+  Scene strip;
+  strip.floor = false;
+  strip.lookAhead(0.8, 0.3);
+  const Plane truth = groundInCamera(strip.world_from_camera);
+  const auto reasonWith = [&](double width) {
+    strip.solids.clear();
+    strip.addBox(2.5, 0, 0, width, 4, -0.1, 0, 1);
+    const auto found = findGround(strip.render(), truth, {.min_points = 20});
+    return found ? "" : found.reason();
+  };
+  EXPECT_EQ(reasonWith(1), "");
+  EXPECT_EQ(reasonWith(0.25), "the visible floor is too narrow");
+}
+
 TEST(GroundPlane, AWallIsNoFloor) {
   Scene scene;
   scene.floor = false;

@@ -79,6 +79,21 @@ TEST_F(StageTest, EveryDetectionHasProposalsInOrder) {
   EXPECT_NEAR(chair.translation().z(), 0, 0.02);
 }
 
+// A post hides the left two thirds of a chair. It is the larger part of what is seen in the box, but no chair fits it.
+TEST_F(StageTest, TheObjectBehindAnOccluderIsFound) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  scene.addCylinder(3, 0, 0.31, 0.95, 1);
+  cv::Mat labels;
+  scene.render(&labels);
+  const Detection whole = test::detectionOf(1, labels, "swivel_chair");
+  scene.addBox(1.6, 0.06, 0, 0.22, 0.1, 0, 1.2, 2);
+  const FrameProposals out = proposalsOf(scene.render(), {whole}, expected_);
+  ASSERT_FALSE(out.proposals.empty());
+  const Pose3 chair = scene.world_from_camera * out.proposals.front().camera_from_object;
+  EXPECT_LT((chair.translation().head<2>() - Eigen::Vector2d(3, 0)).norm(), 0.25);
+}
+
 TEST_F(StageTest, SameInputSameOutput) {
   const FrameProposals a = proposalsOf(frame_, detections_, expected_);
   const FrameProposals b = proposalsOf(frame_, detections_, expected_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped recordings through the whole program: objects, associations and trajectory against the simulator's truth.
+// The shipped recordings through the whole program: objects, trajectory and map against the simulator's truth.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -71,6 +71,11 @@ TEST_F(TruthTest, TinyRoom) {
     EXPECT_NEAR(landmark.at("z"), 0, 0.02) << "they stand on the floor";
     EXPECT_NE(landmark.at("class"), "person");
   }
+  const json map = evaluated({"map", (truth / "map_truth.yaml").string(), (out / "map.yaml").string()});
+  EXPECT_GT(map.at("f1"), 0.99) << "of occupied cells, to one cell";
+  EXPECT_GT(map.at("free_agreement"), 0.976);
+  EXPECT_LT(map.at("unknown_share"), 0.11);
+  EXPECT_LT(map.at("wall_distance_mean_m"), 0.04);
 }
 
 // Only images and depth; the true boxes, which the recording does not hold, stand for a detector's.

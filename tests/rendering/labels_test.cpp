@@ -34,6 +34,13 @@ TEST(Labels, KeepOffEachOtherAndObjects) {
   }
 }
 
+// Two objects so near each other that the same place is free of objects for both labels.
+TEST(Labels, OfNeighboursKeepOffEachOther) {
+  std::vector<Label> labels{labelAt(200, 200), labelAt(215, 200)};
+  placeLabels(labels, {0, 0, 400, 400});
+  EXPECT_EQ(intersection(labels[0].place, labels[1].place).area(), 0);
+}
+
 TEST(Labels, StayInsideThePicture) {
   std::vector<Label> labels{labelAt(25, 375), labelAt(375, 25)};
   const Box2 area{0, 0, 400, 400};

@@ -2,13 +2,16 @@
 // Floor grid and polygons of the generator of flats against closed forms.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <numbers>
+
 #include "flat_grid.h"
 #include "roomgraph/geometry/shape.h"
 
 namespace roomgraph {
 namespace {
 
-Furniture block(double x, double y, double yaw, double w, double d) {
+Furniture blockAt(double x, double y, double yaw, double w, double d) {
   Furniture out;
   out.model = "block";
   out.at_m = {x, y, 0};
@@ -22,12 +25,14 @@ TEST(FlatParts, PolygonsTouchWhereTheirIntersectionHasAnArea) {
   int touching = 0;
   for (int i = 0; i < 500; ++i) {
     const auto draw = [&] {
-      return floorPolygon(block(random.uniform(0, 2), random.uniform(0, 2), random.uniform(-3, 3), random.uniform(0.2, 1), random.uniform(0.2, 1)));
+      return floorPolygon(blockAt(random.uniform(0, 2), random.uniform(0, 2), random.uniform(-3, 3), random.uniform(0.2, 1), random.uniform(0.2, 1)));
     };
     const Polygon a = draw(), b = draw();
     const auto shared = intersectConvex(a, b);
     const double area = shared.size() < 3 ? 0 : polygonArea(shared);
-    if (std::abs(area) > 1e-9 || shared.empty()) EXPECT_EQ(touch(a, b), area > 1e-9);
+    if (std::abs(area) > 1e-9 || shared.empty()) {
+      EXPECT_EQ(touch(a, b), area > 1e-9);
+    }
     touching += touch(a, b);
   }
   EXPECT_GT(touching, 50);
@@ -62,9 +67,9 @@ TEST(FlatParts, WaysGoAroundAndKeepTheirClearance) {
   EXPECT_GT(length, 4.3);
   EXPECT_LT(length, 6.5);
   EXPECT_TRUE(grid.way({1, 0.5}, {3.5, 0.5}, 0.55).empty()) << "only 1 m is left above the box";
-  // Left of the box, above it and right of it: less than the free floor, more than one side.
+  // Left of the box, right of it, above it, and what the quarter circles around its corners leave.
   const double reached = static_cast<double>(grid.reachable({1, 1}, 0.3).size()) * 0.05 * 0.05;
-  EXPECT_NEAR(reached, 1.4 * 2.4 + 1.3 * 2.4 + 1.0 * 0.4 - 2 * 0.03, 0.5);
+  EXPECT_NEAR(reached, 1.4 * 2.4 + 1.0 * 2.4 + 1.0 * 0.4 + 2 * 0.09 * (1 - std::numbers::pi / 4), 0.2);
   EXPECT_TRUE(grid.reachable({2.2, 1}, 0.3).empty());
 }
 
@@ -86,7 +91,7 @@ TEST(FlatParts, LeavesOfOpenDoorsStandInTheRoom) {
   EXPECT_NEAR(box.max().y(), 4, 0.12);
   EXPECT_NEAR(box.min().y(), 4 - 0.874, 0.05);
   EXPECT_LT(box.sizes().x(), 0.3);
-  EXPECT_NEAR(polygonArea(*leaf), 0.18 * 0.874, 1e-9);
+  EXPECT_NEAR(polygonArea(*leaf), 0.14 * 0.874, 1e-9);
 }
 
 TEST(FlatParts, DrawsAreUniformOrSkewed) {

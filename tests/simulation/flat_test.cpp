@@ -9,7 +9,7 @@
 
 #include "errors_of.h"
 #include "floor_plan.h"
-#include "models.h"
+#include "person_model.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/geometry/degree.h"
 #include "roomgraph/geometry/shape.h"
@@ -151,9 +151,12 @@ TEST(Flat, TheWayIsFreeAndLeadsThroughEveryRoom) {
       for (const auto& room : world.rooms) {
         if (PlanBox(room.min_m, room.max_m).contains(at)) visited.insert(room.name);
         for (const auto& doorway : room.doorways) {
-          if (doorwayHole(world, room, doorway).contains(at)) EXPECT_NE(doorway.door, DoorState::kClosed) << seed;
-          if (doorway.door == DoorState::kOpen || doorway.door == DoorState::kHalfOpen)
+          if (doorwayHole(world, room, doorway).contains(at)) {
+            EXPECT_NE(doorway.door, DoorState::kClosed) << seed;
+          }
+          if (doorway.door == DoorState::kOpen || doorway.door == DoorState::kHalfOpen) {
             EXPECT_GT(distanceToLeaf(room, doorway, at), radius) << seed << ": leaf of " << doorway.place << " at " << t << " s";
+          }
         }
       }
     }

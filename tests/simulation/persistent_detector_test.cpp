@@ -12,7 +12,7 @@
 namespace roomgraph {
 namespace {
 
-DetectionsSpec exact() {
+DetectionsSpec flawless() {
   DetectionsSpec out;
   out.persistent = true;
   out.detect_probability = 1;
@@ -77,7 +77,7 @@ TEST(SlowError, ForgetsWithItsTimeConstant) {
 
 TEST(PersistentDetector, WithoutErrorsTheBoxIsExact) {
   const Seen seen("sofa");
-  PersistentDetector detector(seen.scene, seen.world.camera->model, exact(), 1);
+  PersistentDetector detector(seen.scene, seen.world.camera->model, flawless(), 1);
   int couches = 0;
   for (int i = 0; i < 50; ++i)
     for (const auto& item : detector.detect(seen.image, seen.from(0), 0.1 * i, i).items) {
@@ -94,7 +94,7 @@ TEST(PersistentDetector, AStoolIsAChairFromSomeViewsOnly) {
   int taken = 0, steady = 0;
   constexpr int kSeeds = 400, kFrames = 20;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    PersistentDetector detector(seen.scene, seen.world.camera->model, exact(), seed);
+    PersistentDetector detector(seen.scene, seen.world.camera->model, flawless(), seed);
     int now = 0;
     for (int i = 0; i < kFrames; ++i) {
       const auto out = detector.detect(seen.image, seen.from(0.7), 0.1 * i, i);
@@ -120,7 +120,7 @@ TEST(PersistentDetector, WhatMisleadsScoresLowerThanWhatIsRight) {
       static const std::map<std::string, Seen> all{
           {"swivel_chair", Seen("swivel_chair")}, {"stool", Seen("stool")}, {"armchair", Seen("armchair")}};
       const Seen& seen = all.at(model);
-      PersistentDetector detector(seen.scene, seen.world.camera->model, exact(), seed);
+      PersistentDetector detector(seen.scene, seen.world.camera->model, flawless(), seed);
       for (const auto& item : detector.detect(seen.image, seen.from(1), 0, 0).items) {
         const bool own = model == "swivel_chair" && item.label == "chair";
         (own ? right : wrong) += item.score;
@@ -133,7 +133,7 @@ TEST(PersistentDetector, WhatMisleadsScoresLowerThanWhatIsRight) {
 
 TEST(PersistentDetector, JitterHasItsSizeAndIsCorrelated) {
   const Seen seen("sofa");
-  DetectionsSpec spec = exact();
+  DetectionsSpec spec = flawless();
   spec.jitter = 0.03;
   spec.mislead = 0;
   double squares = 0, steps = 0;
@@ -154,7 +154,7 @@ TEST(PersistentDetector, JitterHasItsSizeAndIsCorrelated) {
 
 TEST(PersistentDetector, DuplicatesHoldAPartOfTheObject) {
   const Seen seen("sofa");
-  DetectionsSpec spec = exact();
+  DetectionsSpec spec = flawless();
   spec.duplicates = 0.3;
   spec.mislead = 0;
   int doubled = 0;
@@ -174,7 +174,7 @@ TEST(PersistentDetector, DuplicatesHoldAPartOfTheObject) {
 TEST(PersistentDetector, PhantomsStayWhereTheyWere) {
   Seen seen("block");
   seen.image.views.clear();
-  DetectionsSpec spec = exact();
+  DetectionsSpec spec = flawless();
   spec.false_positives = 5;
   PersistentDetector detector(seen.scene, seen.world.camera->model, spec, 3);
   const Pose3 camera = seen.scene.worldFromCamera(0);

@@ -32,6 +32,19 @@ TEST(SensorPath, KeepsTheLimits) {
   }
 }
 
+TEST(SensorPath, TurnsNoFasterWhereItGoesBackTheSameWay) {
+  RobotPathSpec spec;
+  spec.path_m = {{0, 0}, {1, 0}, {2, 0}, {1, 0}, {0.5, 0.5}, {0, 0}};
+  const SensorPath path(spec);
+  double turned = 0;
+  for (double t = 0; t + 0.05 <= path.duration(); t += 0.05) {
+    const double angle = rotationAngle(path.at(t).inverse() * path.at(t + 0.05));
+    EXPECT_LT(angle / 0.05, spec.max_turn_rad_s * 1.3) << t;
+    turned += angle;
+  }
+  EXPECT_GT(turned, 1.5 * std::numbers::pi) << "180 degrees at (2, 0), then 45 and 90";
+}
+
 TEST(SensorPath, PassesNearItsPointsFromTheFirstToTheLast) {
   const RobotPathSpec spec = lShape();
   const SensorPath path(spec);

@@ -47,8 +47,8 @@ struct World {
 
 TEST(BundleAdjustment, BringsKeyframesAndPointsBack) {
   World world;
-  world.map.keyframe(1).odom_from_camera = world.truth[1] * expSE3(Vector6d::Constant(0.01));
-  world.map.keyframe(2).odom_from_camera = world.truth[2] * expSE3(Vector6d::Constant(-0.015));
+  world.map.keyframe(1).odom_from_camera = world.truth[1] * poseFromYpr(0.01, 0.01, 0.01, 0.01, 0.01, 0.01);
+  world.map.keyframe(2).odom_from_camera = world.truth[2] * poseFromYpr(-0.015, -0.015, -0.015, -0.015, -0.015, -0.015);
   for (auto& point : world.map.points) point.position += Eigen::Vector3d(0.005, 0.01, -0.02);
   TrackingParameters parameters;
   parameters.ba_iterations = 20;

@@ -12,7 +12,7 @@ namespace {
 /// Points in front of a camera with known pose, seen with pixel noise; every third one wrong when asked for.
 struct Scene {
   PoseProblem problem;
-  Pose3 camera_from_world = expSE3((Vector6d() << 0.2, -0.1, 0.3, 0.1, -0.2, 0.15).finished());
+  Pose3 camera_from_world = poseFromYpr(0.2, -0.1, 0.3, 0.15, -0.2, 0.1);
 
   Scene(unsigned seed, double noise_px, bool with_outliers) {
     std::mt19937 random(seed);
@@ -47,7 +47,7 @@ TEST(PoseSolver, RecoversTheExactPose) {
 
 TEST(PoseSolver, ShrugsOffWrongPixelsAndDepths) {
   const Scene scene(2, 0.5, true);
-  const Pose3 start = expSE3(Vector6d::Constant(0.02)) * scene.camera_from_world;
+  const Pose3 start = poseFromYpr(0.02, 0.02, 0.02, 0.02, 0.02, 0.02) * scene.camera_from_world;
   const auto solution = refinePose(scene.problem, start);
   EXPECT_LT(translationError(solution.camera_from_world, scene.camera_from_world), 0.01);
   for (std::size_t i = 0; i < solution.inlier.size(); i += 3) EXPECT_FALSE(solution.inlier[i]) << i;

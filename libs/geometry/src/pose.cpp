@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exponential and logarithm of SE(3) with left Jacobian, planar poses, interpolation.
+// Planar poses, exponential and logarithm of SO(3), interpolation.
 #include "roomgraph/geometry/pose.h"
 
 #include <mrpt/math/wrap2pi.h>
 
-#include <Eigen/LU>
 #include <numbers>
 
 namespace roomgraph {
-namespace {
-
-// Left Jacobian V of SO(3): exp(rho, w) = (exp(w), V(w) rho). MRPT's Lie::SE<3>::exp leaves V out
-// (pseudo-exponential).
-Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w) {
-  const double angle = w.norm(), square = angle * angle;
-  Eigen::Matrix3d cross;
-  cross << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  // For smaller angles the closed forms lose digits, and two terms of their series are exact.
-  const bool small = angle < 1e-3;
-  const double a = small ? 1.0 / 2 - square / 24 : (1 - std::cos(angle)) / square;
-  const double b = small ? 1.0 / 6 - square / 120 : (angle - std::sin(angle)) / (square * angle);
-  return Eigen::Matrix3d::Identity() + a * cross + b * cross * cross;
-}
-
-}  // namespace
 
 Pose2 Pose2::operator*(const Pose2& other) const {
   const Eigen::Vector2d p = *this * Eigen::Vector2d(other.x, other.y);
@@ -88,20 +71,6 @@ Eigen::Matrix3d expSO3(const Eigen::Vector3d& rotation_vector) {
         .normalized()
         .toRotationMatrix();
   return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
-}
-
-Vector6d logSE3(const Pose3& pose) {
-  Vector6d out;
-  out.tail<3>() = logSO3(pose.linear());
-  out.head<3>() = leftJacobian(out.tail<3>()).partialPivLu().solve(pose.translation());
-  return out;
-}
-
-Pose3 expSE3(const Vector6d& tangent) {
-  Pose3 pose = Pose3::Identity();
-  pose.linear() = expSO3(tangent.tail<3>());
-  pose.translation() = leftJacobian(tangent.tail<3>()) * tangent.head<3>();
-  return pose;
 }
 
 double rotationAngle(const Pose3& pose) {

@@ -47,11 +47,11 @@ StepReport SemanticSlam::step(const Frame& frame) {
   ++counts_.frames;
   if (isMounted(frame)) estimator_.setPlanar();
 
-  const FrameDetections detections = detect(frame);                       // sec. 1.1
+  FrameDetections detections = detect(frame);                             // sec. 1.1
   const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
   const TrackingResult tracked = track(frame, people);                    // sec. 4, factor 1
   localize(frame.t);                                                      // sec. 4, M-step
-  const FrameProposals proposals = propose(frame, detections.boxes);      // sec. 1.2 to 1.D
+  FrameProposals proposals = propose(frame, detections.boxes);            // sec. 1.2 to 1.D
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
@@ -71,9 +71,9 @@ StepReport SemanticSlam::step(const Frame& frame) {
           .world_from_robot = estimator_.poses().at(frame.t),
           .note = tracked.tracked || !setup_->stages.rgbd_odometry ? "" : "not tracked: " + tracked.reason,
           .frame = frame.id,
-          .detections = detections,
-          .proposals = proposals,
-          .decisions = decisions,
+          .detections = std::move(detections),
+          .proposals = std::move(proposals),
+          .decisions = std::move(decisions),
           .image = &frame};
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Screen-space ambient occlusion from a depth image.
-#include <tbb/parallel_for.h>
-
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "color_renderer.h"
+#include "parallel.h"
 
 namespace roomgraph {
 namespace {
@@ -66,7 +65,7 @@ cv::Mat ambientLight(const cv::Mat& depth, const PinholeCamera& camera) {
                             camera.cy / 2, {}};
   const Points points{half, half_camera};
   cv::Mat light(half.size(), CV_32F, cv::Scalar(1));
-  tbb::parallel_for(1, half.rows - 1, [&](int v) {
+  parallelFor(1, half.rows - 1, [&](int v) {
     for (int u = 1; u < half.cols - 1; ++u)
       if (half.at<float>(v, u) > 0)
         light.at<float>(v, u) = static_cast<float>(std::max(0.15, 1 - kStrength * occlusionAt(points, u, v)));

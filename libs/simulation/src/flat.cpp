@@ -42,7 +42,7 @@ bool drawFlat(FlatDraft& draft, int rooms, Random random) {
   addWalkers(draft, people - sitting - standing, random);
   drawSensors(draft, random);
   if (!draft.options.meshes.empty()) useMeshes(draft, random);
-  return true;
+  return isSound(draft.world);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "models.h"
+#include "roomgraph/core/errors.h"
+#include "world_check.h"
 
 namespace roomgraph {
 namespace {
@@ -65,7 +67,7 @@ bool touch(const Polygon& a, const Polygon& b) {
 std::optional<Polygon> leafPolygon(const Room& room, const Doorway& doorway) {
   if (doorway.door != DoorState::kOpen && doorway.door != DoorState::kHalfOpen) return std::nullopt;
   // As doorMesh() builds it: hinged at the left post, its handle near the other end.
-  constexpr double kFrame = 0.063, kHandle = 0.07, kLeaf = 0.04;
+  constexpr double kFrame = 0.063, kHandle = 0.05, kLeaf = 0.04;
   const double angle = doorway.door == DoorState::kOpen ? 1.5 : 0.8, length = doorway.width_m - 2 * kFrame;
   const Pose2 hinge = planarPart(wallFrame(room, doorway.side, doorway.at_m)) *
                       Pose2{0, doorway.width_m / 2 - kFrame, angle};
@@ -94,6 +96,15 @@ int objectsThatCount(const World& world) {
     out += static_cast<int>(std::count_if(room.doorways.begin(), room.doorways.end(),
                                           [](const Doorway& doorway) { return doorway.door != DoorState::kNone; }));
   return out;
+}
+
+bool isSound(const World& world) {
+  try {
+    checkWorld(world);
+    return true;
+  } catch (const ConfigError&) {
+    return false;
+  }
 }
 
 int objectsThatMislead(const World& world) {

@@ -47,6 +47,8 @@ PlanBox doorwayZone(const World& world, const Room& room, const Doorway& doorway
 bool passable(const Doorway& doorway);
 /// Swivel chairs, sofas and doors.
 int objectsThatCount(const World& world);
+/// Does checkWorld() accept it?
+bool isSound(const World& world);
 /// Furniture that is none of these but may be taken for them.
 int objectsThatMislead(const World& world);
 

@@ -38,7 +38,7 @@ Site siteOf(const FlatDraft& draft, const Room& room) {
       if (inside.sizes().minCoeff() < 0.3) continue;  // it is another wall's
       site.kept_free.push_back(boxPolygon(inside));
       const Pose2 frame = planarPart(wallFrame(other, doorway.side, doorway.at_m));
-      const double before = own ? swing - 0.05 : -draft.world.wall_thickness_m - 0.7;
+      const double before = own ? swing + 0.15 : -draft.world.wall_thickness_m - 0.85;  // past an open leaf
       if (passable(doorway)) site.doors.push_back(frame * Eigen::Vector2d(before, 0));
       if (const auto leaf = leafPolygon(other, doorway); own && leaf) site.taken.push_back(*leaf);
     }
@@ -154,8 +154,14 @@ void furnishFlat(FlatDraft& draft, Random& random) {
   const auto any_site = [&]() -> Site& {
     return sites[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(sites.size()) - 1))];
   };
-  for (int attempt = 0; attempt < 20 && objectsThatCount(draft.world) < 8; ++attempt)
-    place(draft, any_site(), standsAlone(drawFurniture("swivel_chair", random)), random);
+  const int rooms = static_cast<int>(sites.size()), wanted = drawInt(random, 8, std::min(24, 9 + 3 * rooms));
+  for (int attempt = 0; attempt < 30 && objectsThatCount(draft.world) < wanted; ++attempt) {
+    const double u = random.uniform();
+    place(draft, any_site(), u < 0.2   ? sofaGroup(random)
+                             : u < 0.4 ? chairRow(random)
+                             : u < 0.6 ? deskGroup(random)
+                                       : standsAlone(drawFurniture("swivel_chair", random)), random);
+  }
   for (int attempt = 0; attempt < 60 && objectsThatMislead(draft.world) < objectsThatCount(draft.world); ++attempt)
     place(draft, any_site(), atWall(drawFurniture(pick(random, small), random), random.uniform(0.03, 0.2)), random);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distance transform, flood fill and Dijkstra's algorithm on the floor of a flat.
+// Distance transform, flood fill and A* on the floor of a flat.
 #include "flat_grid.h"
 
 #include <cmath>
@@ -96,26 +96,29 @@ std::vector<Eigen::Vector2d> FloorGrid::way(const Eigen::Vector2d& from, const E
   if (!inGrid(start) || !inGrid(goal)) return {};
   cv::Mat cost(clearance_.size(), CV_64F, cv::Scalar(std::numeric_limits<double>::infinity()));
   cv::Mat before(clearance_.size(), CV_32S, cv::Scalar(-1));
-  using Entry = std::pair<double, int>;  // cost, cell's number: ties are always broken alike
+  using Entry = std::pair<double, int>;  // least possible cost of the whole way, cell's number: ties are always broken alike
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   const auto number = [&](const cv::Point& cell) { return cell.y * clearance_.cols + cell.x; };
+  const auto to_goal = [&](const cv::Point& cell) { return std::hypot(cell.x - goal.x, cell.y - goal.y); };
+  cv::Mat closed(clearance_.size(), CV_8U, cv::Scalar(0));
   cost.at<double>(start) = 0;
-  open.push({0, number(start)});
+  open.push({to_goal(start), number(start)});
   while (!open.empty()) {
-    const auto [so_far, index] = open.top();
+    const int index = open.top().second;
     open.pop();
     const cv::Point cell(index % clearance_.cols, index / clearance_.cols);
     if (cell == goal) break;
-    if (so_far > cost.at<double>(cell)) continue;
+    if (closed.at<uchar>(cell)) continue;
+    closed.at<uchar>(cell) = 1;
     for (const auto& [step, length] : kSteps) {
       const cv::Point next = cell + step;
       if (!inGrid(next) || clearance_.at<float>(next) < clearance) continue;
       const double narrow = std::max(0.0, 1 - (clearance_.at<float>(next) - clearance) / kComfort_m);
-      const double total = so_far + length * (1 + kNarrow * narrow);
+      const double total = cost.at<double>(cell) + length * (1 + kNarrow * narrow);
       if (total >= cost.at<double>(next)) continue;
       cost.at<double>(next) = total;
       before.at<int>(next) = index;
-      open.push({total, number(next)});
+      open.push({total + to_goal(next), number(next)});
     }
   }
   if (!(cost.at<double>(goal) < std::numeric_limits<double>::infinity())) return {};
@@ -137,6 +140,9 @@ FloorGrid floorGridOf(const FlatDraft& draft) {
       square.model = "block";
       obstacles.push_back(floorPolygon(square));
     }
+  for (const auto& room : draft.world.rooms)
+    for (const auto& doorway : room.doorways)
+      if (!passable(doorway)) obstacles.push_back(boxPolygon(doorwayHole(draft.world, room, doorway)));
   return FloorGrid(freeAreas(draft.world), obstacles);
 }
 

@@ -5,14 +5,12 @@
 #include <numbers>
 
 #include "flat_grid.h"
-#include "roomgraph/core/errors.h"
 #include "sensor_path.h"
-#include "world_check.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kMargin_m = 0.06;  ///< beyond the robot's radius: the driven curve rounds the planned corners
+constexpr double kMargin_m = 0.05;  ///< beyond the robot's radius: the driven curve rounds the planned corners
 using Waypoints = std::vector<Eigen::Vector2d>;
 
 /// Places of a room to go to: far from each other and with space around, then in the order of their direction from the
@@ -59,29 +57,38 @@ void smooth(Waypoints& way, const FloorGrid& grid, double clearance) {
     }
 }
 
-/// The way past all goals in their order; empty when one cannot be reached.
-Waypoints wayPast(const Waypoints& goals, const FloorGrid& grid, double clearance) {
-  Waypoints out{goals.front()};
-  for (std::size_t i = 1; i < goals.size(); ++i) {
-    const Waypoints leg = grid.way(out.back(), goals[i], clearance);
-    if (leg.empty()) return {};
-    out.insert(out.end(), leg.begin() + 1, leg.end());
+/// The ways from every goal to the next, and from the last to the first; empty when one cannot be reached.
+std::vector<Waypoints> legsBetween(const Waypoints& goals, const FloorGrid& grid, double clearance) {
+  std::vector<Waypoints> out;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    out.push_back(grid.way(goals[i], goals[(i + 1) % goals.size()], clearance));
+    if (out.back().empty()) return {};
   }
-  smooth(out, grid, clearance);
-  Waypoints thin{out.front()};
-  for (const auto& point : out)
-    if ((point - thin.back()).norm() >= 0.3) thin.emplace_back(inSteps(point.x(), 0.001), inSteps(point.y(), 0.001));
-  thin.front() = {inSteps(thin.front().x(), 0.001), inSteps(thin.front().y(), 0.001)};
-  return thin;
+  return out;
 }
 
-/// Rooms by their neighbours, from the start on: each is left by the way that led to it.
+/// The first `count` legs, again from the first on after the last, smoothed, as points some decimetres apart.
+Waypoints joined(const std::vector<Waypoints>& legs, std::size_t count, const FloorGrid& grid, double clearance) {
+  Waypoints way{legs.front().front()}, out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Waypoints& leg = legs[i % legs.size()];
+    way.insert(way.end(), leg.begin() + 1, leg.end());
+  }
+  smooth(way, grid, clearance);
+  for (const auto& point : way)
+    if (out.empty() || (point - out.back()).norm() >= 0.3) out.emplace_back(inSteps(point.x(), 0.001), inSteps(point.y(), 0.001));
+  return out;
+}
+
+/// The rooms of which a fair part can be reached, in any order.
 std::vector<std::size_t> roomOrder(const FlatDraft& draft, const Waypoints& reachable, Random& random) {
+  constexpr double kCell_m2 = 0.05 * 0.05, kFairShare = 0.08;
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < draft.world.rooms.size(); ++i) {
     const PlanBox area(draft.world.rooms[i].min_m, draft.world.rooms[i].max_m);
-    const bool seen = std::any_of(reachable.begin(), reachable.end(), [&](const auto& cell) { return area.contains(cell); });
-    if (seen) out.push_back(i);
+    const auto inside =
+        std::count_if(reachable.begin(), reachable.end(), [&](const auto& cell) { return area.contains(cell); });
+    if (static_cast<double>(inside) * kCell_m2 > kFairShare * area.volume()) out.push_back(i);
   }
   for (std::size_t i = out.size(); i > 1; --i)
     std::swap(out[i - 1], out[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(i) - 1))]);
@@ -121,15 +128,6 @@ HandheldSpec handheldAlong(const Waypoints& way, const FlatDraft& draft, Random&
   return out;
 }
 
-bool worldIsSound(const World& world) {
-  try {
-    checkWorld(world);
-    return true;
-  } catch (const ConfigError&) {
-    return false;
-  }
-}
-
 /// Seconds that the way takes; the draft then holds it.
 double adopt(FlatDraft& draft, const Waypoints& way, const RobotPathSpec& robot, Random random) {
   if (draft.options.handheld) {
@@ -141,39 +139,48 @@ double adopt(FlatDraft& draft, const Waypoints& way, const RobotPathSpec& robot,
   return SensorPath(*draft.world.robot).duration();
 }
 
+/// Places to see in every room, room after room.
+Waypoints goalsOf(const FlatDraft& draft, const FloorGrid& grid, const Waypoints& reachable, const std::vector<std::size_t>& order,
+                  int places) {
+  Waypoints out;
+  for (const std::size_t i : order) {
+    const Eigen::Vector2d from = out.empty() ? draft.world.rooms[i].min_m : out.back();
+    for (const auto& place : placesToSee(grid, draft.world.rooms[i], reachable, from, draft.uses[i] == RoomUse::kCorridor ? 2 : places))
+      out.push_back(place);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool planWay(FlatDraft& draft, Random& random) {
-  constexpr double kLongest_s = 235;
+  constexpr double kShortest_s = 90, kLongest_s = 235;
   const RobotPathSpec robot = drawRobot(random);
   const double clearance = robot.radius_m + kMargin_m;
   const FloorGrid grid = floorGridOf(draft);
   const Room& first = draft.world.rooms[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(draft.world.rooms.size()) - 1))];
-  Waypoints reachable;
-  for (double x = first.min_m.x() + 0.3; x < first.max_m.x(); x += 0.2)
-    for (double y = first.min_m.y() + 0.3; y < first.max_m.y(); y += 0.2)
-      if (Waypoints now = grid.reachable({x, y}, clearance); now.size() > reachable.size()) reachable = std::move(now);
+  Eigen::Vector2d start = first.min_m;
+  for (double x = first.min_m.x() + 0.1; x < first.max_m.x(); x += 0.1)
+    for (double y = first.min_m.y() + 0.1; y < first.max_m.y(); y += 0.1)
+      if (grid.clearance({x, y}) > grid.clearance(start)) start = {x, y};
+  const Waypoints reachable = grid.reachable(start, clearance);
   const auto order = roomOrder(draft, reachable, random);
   if (order.size() < draft.world.rooms.size()) return false;
   const Random tail = random;
-  // Fewer places and no second visits where the way would take too long.
-  const bool small = draft.world.rooms.size() <= 2;
-  for (int places = small ? 7 : 4; places >= 2; --places) {
-    Waypoints goals;
-    for (const std::size_t i : order) {
-      const bool corridor = draft.uses[i] == RoomUse::kCorridor;
-      const Eigen::Vector2d from = goals.empty() ? first.min_m : goals.back();
-      for (const auto& place : placesToSee(grid, draft.world.rooms[i], reachable, from, corridor ? 2 : places))
-        goals.push_back(place);
-    }
-    const std::size_t once = goals.size();
-    for (std::size_t i = 0; i < once; i += small ? 1 : 2) goals.push_back(goals[i]);
-    for (const std::size_t count : {goals.size(), once + 1}) {
-      const Waypoints way = wayPast(Waypoints(goals.begin(), goals.begin() + static_cast<std::ptrdiff_t>(std::min(count, goals.size()))), grid, clearance);
-      if (way.size() < 4) return false;
-      const double seconds = adopt(draft, way, robot, tail);
-      if (seconds > 20 && seconds < kLongest_s && worldIsSound(draft.world)) return true;
-    }
+  // Half of the rooms are seen again; more where that is short, none but the first place where it is too long.
+  for (int places = draft.world.rooms.size() <= 2 ? 7 : 4; places >= 2; --places) {
+    const Waypoints once = goalsOf(draft, grid, reachable, order, places);
+    const auto legs = legsBetween(once, grid, clearance);
+    if (legs.size() < 2) return false;
+    const auto seconds_of = [&](double rounds) {
+      const auto count = static_cast<std::size_t>(std::ceil(rounds * static_cast<double>(legs.size())));
+      return adopt(draft, joined(legs, count, grid, clearance), robot, tail);
+    };
+    double seconds = seconds_of(1.5);
+    if (seconds > kLongest_s) seconds = seconds_of(1);
+    for (const double rounds : {2.5, 3.5})
+      if (seconds < kShortest_s) seconds = seconds_of(rounds);
+    if (seconds > 20 && seconds < kLongest_s && isSound(draft.world)) return true;
   }
   return false;
 }

@@ -98,15 +98,15 @@ bool connect(World& world, std::size_t a, std::size_t b, Random& random) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     Doorway doorway;
     doorway.side = wall.side;
-    doorway.width_m = inSteps(random.uniform(0.84, 1.04));
+    doorway.width_m = inSteps(random.uniform(0.88, 1.06));
     doorway.height_m = doorHeight(random);
     doorway.color = doorColor(random);
     const double low = wall.low + doorway.width_m / 2 + margin, high = wall.high - doorway.width_m / 2 - margin;
     if (low > high) return false;
     doorway.at_m = inSteps(random.uniform(low, high));
     const double state = random.uniform();
-    doorway.door = state < 0.25 ? DoorState::kNone : state < 0.5 ? DoorState::kHalfOpen : DoorState::kOpen;
-    if (doorway.door == DoorState::kHalfOpen) doorway.width_m = std::max(doorway.width_m, 0.96);
+    doorway.door = state < 0.25 ? DoorState::kNone : state < 0.42 ? DoorState::kHalfOpen : DoorState::kOpen;
+    if (doorway.door == DoorState::kHalfOpen) doorway.width_m = std::max(doorway.width_m, 1.04);
     if (!holeIsAlone(world, doorwayHole(world, world.rooms[a], doorway))) continue;
     world.rooms[a].doorways.push_back(doorway);
     return true;
@@ -120,7 +120,7 @@ void addClosedDoor(World& world, Random& random) {
     Room& room = world.rooms[static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(world.rooms.size()) - 1))];
     Doorway doorway;
     doorway.side = static_cast<Side>(drawInt(random, 0, 3));
-    doorway.width_m = drawSkewed(random, 0.7, 0.95, 1.2);
+    doorway.width_m = drawSkewed(random, 0.7, 0.9, 1.4);
     doorway.height_m = doorHeight(random);
     doorway.color = doorColor(random);
     doorway.door = DoorState::kClosed;

@@ -2,11 +2,11 @@
 // Depth-buffered scan conversion of triangles, and silhouettes beyond the image border.
 #include "id_raster.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "parallel.h"
 
 namespace roomgraph {
 namespace {
@@ -167,7 +167,7 @@ void measureViews(const std::vector<ScreenTriangle>& triangles, std::size_t obje
     if (triangle.object >= 0 && seen[static_cast<std::size_t>(triangle.object)].px > 0)
       own[static_cast<std::size_t>(triangle.object)].push_back(&triangle);
   std::vector<ObjectView> views(objects);
-  tbb::parallel_for(std::size_t{0}, objects, [&](std::size_t i) {
+  parallelFor(std::size_t{0}, objects, [&](std::size_t i) {
     if (seen[i].px > 0) views[i] = viewOf(static_cast<int>(i), seen[i], own[i], image.depth.size());
   });
   for (const auto& view : views)
@@ -183,7 +183,7 @@ IdImage rasterize(const Scene& scene, const std::vector<Pose3>& world_from_part,
   IdImage out;
   out.object = cv::Mat(camera.height, camera.width, CV_16S, cv::Scalar(-1));
   constexpr int kBand = 60;  // rows; each band belongs to one thread
-  tbb::parallel_for(0, (camera.height + kBand - 1) / kBand, [&](int band) {
+  parallelFor(0, (camera.height + kBand - 1) / kBand, [&](int band) {
     const cv::Rect area(0, band * kBand, camera.width, std::min(kBand, camera.height - band * kBand));
     for (const auto& triangle : triangles) {
       scan(triangle, area, [&](int u, int v, double inverse_depth) {

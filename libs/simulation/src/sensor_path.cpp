@@ -77,6 +77,15 @@ std::vector<Vector> evenAndSmooth(const std::vector<Vector>& curve, int metric, 
   return even;
 }
 
+/// Length between two of the curve's points at steps of kStep_m. Where the curve turns back, smoothing has moved them nearly into
+/// one place: there, their true distance, or the robot would turn faster than it may.
+double span(const std::vector<Vector>& curve, std::size_t from, std::size_t to) {
+  double length = 0;
+  for (std::size_t i = from; i < to; ++i) length += (curve[i + 1] - curve[i]).norm();
+  const double even = static_cast<double>(to - from) * kStep_m;
+  return length < 0.8 * even ? std::max(length, 1e-6) : even;
+}
+
 std::vector<double> speeds(const std::vector<double>& lengths, const std::vector<double>& limits,
                            double acceleration) {
   std::vector<double> v = limits;
@@ -123,7 +132,7 @@ SensorPath::SensorPath(const RobotPathSpec& spec) {
     lengths.push_back(std::max(1e-6, (curve[i + 1] - curve[i]).norm()));
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, curve.size() - 1);
-    const double curvature = std::abs(wrapAngle(yaw[b] - yaw[a])) / (static_cast<double>(b - a) * kStep_m);
+    const double curvature = std::abs(wrapAngle(yaw[b] - yaw[a])) / span(curve, a, b);
     limits.push_back(std::min(spec.max_speed_m_s, spec.max_turn_rad_s / std::max(1e-6, curvature)));
   }
   states_ = timed(poses, lengths, speeds(lengths, limits, spec.acceleration_m_s2), step_s_);

@@ -5,9 +5,9 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <tbb/task_group.h>
 
 #include "color_renderer.h"
+#include "parallel.h"
 #include "persistent_detector.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/observations/detection_comment.h"
@@ -147,7 +147,7 @@ void Simulation::frame(double t) {
   const Pose3 world_from_camera = scene_.worldFromCamera(t);
   const IdImage exact = rasterize(scene_, parts, world_from_camera, spec.model);
   cv::Mat depth, light;
-  tbb::task_group beside;
+  TaskBeside beside;
   beside.run([&] {
     depth = measureDepth(exact.depth, spec, random(kDepthStream, index));
     light = ambientLight(exact.depth, spec.model) * world_.light;

@@ -35,9 +35,6 @@ Pose3 poseFromYpr(double x, double y, double z, double yaw, double pitch, double
 Pose3 toPose3(const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D toMrpt(const Pose3& pose);
 
-/// Tangent of SE(3), (translation, rotation) order, at the identity: pose = exp(log(pose)).
-Vector6d logSE3(const Pose3& pose);
-Pose3 expSE3(const Vector6d& tangent);
 /// Rotation vector of a rotation matrix, radians.
 Eigen::Vector3d logSO3(const Eigen::Matrix3d& rotation);
 Eigen::Matrix3d expSO3(const Eigen::Vector3d& rotation_vector);

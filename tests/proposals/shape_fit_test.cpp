@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fit and quality of placed shapes: closed forms, and what single kinds of evidence decide.
+#include "roomgraph/proposals/shape_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cuboid_generator.h"
+#include "cylinder_generator.h"
+#include "scene.h"
+
+namespace roomgraph {
+namespace {
+
+using std::numbers::pi;
+using test::Scene;
+
+BoxEvidence fitEvidence(const Scene& scene, const ObjectModel& model, bool with_depth) {
+  cv::Mat labels;
+  Frame frame = scene.render(&labels);
+  const Detection detection = test::detectionOf(1, labels, model.class_name);
+  if (!with_depth) frame.depth = cv::Mat();
+  return gatherEvidence(frame, detection, model, groundInCamera(scene.world_from_camera));
+}
+
+TEST(Quality, FallsWithTheDistanceOfPointsOutside) {
+  Scene scene = test::sceneAhead();
+  scene.addCylinder(2.5, 0, 0.31, 0.95, 1);
+  BoxEvidence e = fitEvidence(scene, *test::database().find("swivel_chair"), true);
+  PlacedShape chair = usualShape(e);
+  chair.x = 2.5;
+  const auto with = [&](std::vector<double> ranges) {  // of points straight ahead, half a metre above the ground
+    e.mask.points.clear();
+    for (const double range : ranges) e.mask.points.push_back({0, 0, {range, 0, 0.5}});
+    judge(chair, e);
+    return chair.quality / chair.box_iou;
+  };
+  const double front = 2.5 - chair.shape.radius();
+  EXPECT_NEAR(with({2.5, front}), 1, 1e-9) << "inside and on the surface";
+  EXPECT_NEAR(with({front - 0.1, front - 0.1}), std::exp(-0.1 / 0.15), 1e-9);
+  EXPECT_NEAR(with({front - 0.1, 2.5}), std::exp(-0.05 / 0.15), 1e-9);
+  EXPECT_NEAR(with({front - 2}), std::exp(-0.3 / 0.15), 1e-9) << "levels off";
+}
+
+// Neither the box's sides nor the direction of the start count: only the points can turn the cuboid.
+TEST(Fit, PointsAloneTurnACuboid) {
+  const ObjectDatabase database = ObjectDatabase::fromText(
+      "[crate]\nlabels = crate\nwidth_m = 1.2\ndepth_m = 0.8\nheight_m = 0.6\nwidth_sigma_m = 0.02\n"
+      "depth_sigma_m = 0.02\nheight_sigma_m = 0.02\n");
+  FitWeights weights;
+  weights.box_side_px = 1e4;
+  weights.yaw_sigma_rad = 1e3;
+  weights.all_points = 400;
+  for (const double turn : {0.4, -0.6}) {
+    Scene scene = test::sceneAhead();
+    scene.addBox(2.4, 0.1, pi + turn, 1.2, 0.8, 0, 0.6, 1);
+    const BoxEvidence e = fitEvidence(scene, *database.find("crate"), true);
+    for (const double wrong : {-0.2, 0.2}) {
+      PlacedShape start = usualShape(e);
+      start.x = 2.4;
+      start.y = 0.1;
+      start.yaw = pi + turn + wrong;
+      EXPECT_LT(std::abs(wrapAngle(fitShape(start, e, weights).yaw - pi - turn)), 0.06) << turn << " " << wrong;
+    }
+  }
+}
+
+// Only the lower part of a tall cabinet is in the image: a side of the box at the border is reached or passed.
+TEST(Fit, AModelMayReachBeyondTheBorderOfTheImage) {
+  const ObjectDatabase database = ObjectDatabase::fromText(
+      "[post]\nlabels = post\nshape = cylinder\nwidth_m = 0.4\ndepth_m = 0.4\nheight_m = 2\nheight_sigma_m = 0.5\n");
+  Scene scene;
+  scene.lookAhead(0.9, 0.25);
+  scene.addCylinder(2.5, 0, 0.2, 2, 1);
+  const BoxEvidence e = fitEvidence(scene, *database.find("post"), true);
+  ASSERT_TRUE(e.cut.top && !e.cut.bottom);
+  const auto found = test::hypotheses<CylinderGenerator>(e);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].shape.height, 2, 0.1) << "nothing speaks against the usual height";
+}
+
+// The leg was seen; the box is wider on one side than the chair.
+TEST(Fit, TheLegHoldsTheAxis) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  scene.addCylinder(2.5, 0.3, 0.31, 0.95, 1);
+  BoxEvidence e = fitEvidence(scene, *test::database().find("swivel_chair"), false);
+  const double leg = e.camera.project((scene.world_from_camera.inverse() * Eigen::Vector3d(2.5, 0.3, 0))).x();
+  e.box.u_max += 0.3 * e.box.width();
+  e.segments = {{{leg, e.box.v_max - 40}, {leg, e.box.v_max - 8}}};
+  const auto columnOf = [&](const PlacedShape& p) {
+    return e.camera.project(cameraFromObject(p, e).translation()).x();
+  };
+  GeneratorLimits all;
+  all.max_count = 10;
+  int from_leg = 0;
+  for (const PlacedShape& p : CylinderGenerator().generate(e, all)) {
+    if (p.source != "leg line") continue;
+    ++from_leg;
+    PlacedShape free = p;
+    free.leg_column.reset();
+    EXPECT_LT(std::abs(columnOf(p) - leg), std::abs(columnOf(fitShape(free, e)) - leg) - 1);
+  }
+  EXPECT_GT(from_leg, 0);
+}
+
+// Only the foot end of a bed is seen, at the height of the camera: the rest lies behind it.
+TEST(Cuboid, WhatIsNotSeenLiesBehindWhatIs) {
+  const ObjectDatabase database = ObjectDatabase::fromText(
+      "[bed]\nlabels = bed\nwidth_m = 1.6\ndepth_m = 2\nheight_m = 0.5\nwidth_sigma_m = 0.1\ndepth_sigma_m = 0.1\n");
+  Scene scene;
+  scene.lookAhead(0.45, 0);
+  scene.addBox(3.6, 0.1, pi, 1.6, 2, 0, 0.5, 1);
+  const auto found = test::hypotheses<CuboidGenerator>(fitEvidence(scene, *database.find("bed"), true));
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(std::hypot(found[0].x - 3.6, found[0].y - 0.1), 0.2);
+  EXPECT_NEAR(found[0].shape.width, 1.6, 0.1);
+  EXPECT_NEAR(found[0].shape.depth, 2, 0.1);
+}
+
+}  // namespace
+}  // namespace roomgraph
