@@ -110,8 +110,8 @@ TEST(GroundPlane, WhatIsNoFloorIsRefused) {
     return scene.render();
   };
   const Frame turned = seen(1.2, 0.5, 0.6);  // by 0.76 rad against the upward direction of the image
-  EXPECT_FALSE(findGround(turned, std::nullopt, {.max_tilt = 0.7}));
-  EXPECT_TRUE(findGround(turned, std::nullopt, {.max_tilt = 0.85}));
+  EXPECT_FALSE(findGround(turned, std::nullopt, {.max_tilt_rad = 0.7}));
+  EXPECT_TRUE(findGround(turned, std::nullopt, {.max_tilt_rad = 0.85}));
   const Frame low = seen(0.5, 0.3, 0);
   EXPECT_FALSE(findGround(low, std::nullopt, {.min_camera_height_m = 0.6})) << "it may be a table";
   EXPECT_TRUE(findGround(low, std::nullopt, {.min_camera_height_m = 0.4}));

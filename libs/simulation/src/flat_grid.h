@@ -17,7 +17,8 @@ class FloorGrid {
   double clearance(const Eigen::Vector2d& at) const;
   /// Centres of all cells with at least this clearance that can be reached from `from`; empty when it has less.
   std::vector<Eigen::Vector2d> reachable(const Eigen::Vector2d& from, double clearance) const;
-  /// Cheapest way from cell to cell (A*, Hart et al. 1968) that prefers clearance, its ends as given; empty: there is none.
+  /// Way from cell to cell that prefers clearance, at most 1.4 times as dear as the cheapest (weighted A*, Pohl 1970), its ends
+  /// as given; empty: there is none.
   std::vector<Eigen::Vector2d> way(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double clearance) const;
 
  private:

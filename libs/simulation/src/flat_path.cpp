@@ -76,7 +76,7 @@ Waypoints joined(const std::vector<Waypoints>& legs, std::size_t count, const Fl
   }
   smooth(way, grid, clearance);
   for (const auto& point : way)
-    if (out.empty() || (point - out.back()).norm() >= 0.3) out.emplace_back(inSteps(point.x(), 0.001), inSteps(point.y(), 0.001));
+    if (out.empty() || (point - out.back()).norm() >= 0.2) out.emplace_back(inSteps(point.x(), 0.001), inSteps(point.y(), 0.001));
   return out;
 }
 
@@ -109,10 +109,11 @@ HandheldSpec handheldAlong(const Waypoints& way, const FlatDraft& draft, Random&
   HandheldSpec out;
   out.speed_m_s = inSteps(random.uniform(0.3, 0.5));
   const double height = random.uniform(1.4, 1.6), phase = random.uniform(0, 2 * std::numbers::pi);
-  for (std::size_t i = 0; i < way.size(); i += 2) {
-    const Eigen::Vector2d at = way[i], ahead = way[std::min(i + 4, way.size() - 1)];
+  for (std::size_t i = 0; i < way.size(); i += 3) {
+    // Where the way turns back, the point ahead may be this one.
+    const Eigen::Vector2d at = way[i], ahead = way[std::min(i + 6, way.size() - 1)];
+    if ((ahead - at).norm() < 0.1) continue;
     Eigen::Vector2d look = ahead + (ahead - at).normalized();
-    if ((ahead - at).norm() < 0.1) break;
     for (const auto& room : draft.world.rooms) {
       const Eigen::Vector2d middle = (room.min_m + room.max_m) / 2;
       if (!PlanBox(room.min_m, room.max_m).contains(at) || (middle - at).norm() < 1.2) continue;
@@ -137,6 +138,16 @@ double adopt(FlatDraft& draft, const Waypoints& way, const RobotPathSpec& robot,
   draft.world.robot = robot;
   draft.world.robot->path_m = way;
   return SensorPath(*draft.world.robot).duration();
+}
+
+/// Does the curve that is driven keep clear of everything, of door leaves and people too?
+bool keepsClear(const FlatDraft& draft, const FloorGrid& grid) {
+  constexpr double kTolerance_m = 0.005;  // clearances are rounded down
+  const SensorPath path = draft.world.robot ? SensorPath(*draft.world.robot) : SensorPath(*draft.world.handheld);
+  const double radius = draft.world.robot ? draft.world.robot->radius_m : 0.1;
+  for (double t = 0; t < path.duration(); t += 0.1)
+    if (grid.clearance(path.at(t).translation().head<2>()) < radius - kTolerance_m) return false;
+  return true;
 }
 
 /// Places to see in every room, room after room.
@@ -180,7 +191,7 @@ bool planWay(FlatDraft& draft, Random& random) {
     if (seconds > kLongest_s) seconds = seconds_of(1);
     for (const double rounds : {2.5, 3.5})
       if (seconds < kShortest_s) seconds = seconds_of(rounds);
-    if (seconds > 20 && seconds < kLongest_s && isSound(draft.world)) return true;
+    if (seconds > 20 && seconds < kLongest_s && keepsClear(draft, grid) && isSound(draft.world)) return true;
   }
   return false;
 }

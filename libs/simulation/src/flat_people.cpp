@@ -84,15 +84,14 @@ bool standOne(FlatDraft& draft, const FloorGrid& grid, Random& random) {
   return true;
 }
 
-/// The least distance between a walking person and the sensor, m.
-double nearestOnTheWay(const Person& person, const SensorPath& path) {
+/// Does a walking person come nearer than this to the sensor?
+bool meets(const Person& person, const SensorPath& path, double distance_m) {
   const PersonWalk walk(person);
-  double out = 1e9;
   for (double t = 0; t <= path.duration(); t += 0.1) {
     const Pose2 at = walk.at(t).pose;
-    out = std::min(out, (path.at(t).translation().head<2>() - Eigen::Vector2d(at.x, at.y)).norm());
+    if ((path.at(t).translation().head<2>() - Eigen::Vector2d(at.x, at.y)).norm() < distance_m) return true;
   }
-  return out;
+  return false;
 }
 
 /// Every third of a metre of a way, and its end.
@@ -112,21 +111,21 @@ void seatPeople(FlatDraft& draft, int sitting, int standing, Random& random) {
 }
 
 void addWalkers(FlatDraft& draft, int count, Random& random) {
-  constexpr double kRoom_m = 0.25, kApart_m = 0.75;
+  constexpr double kRoom_m = 0.25, kApart_m = 0.5;
   const FloorGrid grid = floorGridOf(draft);
   const SensorPath path = draft.world.robot ? SensorPath(*draft.world.robot) : SensorPath(*draft.world.handheld);
   const auto cells = grid.reachable(path.at(0).translation().head<2>(), kRoom_m);
   if (cells.empty()) return;
-  for (int attempt = 0; attempt < 30 && count > 0; ++attempt) {
+  for (int attempt = 0; attempt < 150 && count > 0; ++attempt) {
     const Eigen::Vector2d from = pick(random, cells), to = pick(random, cells);
-    if ((to - from).norm() < 2) continue;
+    if ((to - from).norm() < 1 || (to - from).norm() > 5) continue;
     const auto way = grid.way(from, to, kRoom_m);
     if (way.empty()) continue;
     Person person = drawPerson(random);
     person.path_m = thinned(way);
     person.speed_m_s = inSteps(random.uniform(0.4, 1.1));
     person.start_s = inSteps(random.uniform(0, 20), 0.1);
-    if (nearestOnTheWay(person, path) < kApart_m) continue;
+    if (meets(person, path, kApart_m)) continue;
     draft.world.people.push_back(person);
     --count;
   }

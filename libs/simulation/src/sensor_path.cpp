@@ -83,7 +83,7 @@ double span(const std::vector<Vector>& curve, std::size_t from, std::size_t to) 
   double length = 0;
   for (std::size_t i = from; i < to; ++i) length += (curve[i + 1] - curve[i]).norm();
   const double even = static_cast<double>(to - from) * kStep_m;
-  return length < 0.8 * even ? std::max(length, 1e-6) : even;
+  return length < 0.8 * even ? std::max(length / 2, 1e-6) : even;
 }
 
 std::vector<double> speeds(const std::vector<double>& lengths, const std::vector<double>& limits,
