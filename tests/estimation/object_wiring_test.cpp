@@ -44,7 +44,7 @@ class SofaSeenFromFourPlaces : public ::testing::Test {
     decision.seen.world_from_object = sofa_.worldFromObject();
     decision.seen.camera = camera_;
     auto& measurement = decision.seen.measurement;
-    measurement.proposal.covariance = 0.01 * Eigen::Matrix4d::Identity();
+    measurement.proposal.covariance = decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
     measurement.proposal.class_name = measurement.proposal.model = "sofa";
     measurement.proposal.shape = sofa_.shape;
     measurement.proposal.camera_from_object = camera_from_object;
@@ -194,17 +194,23 @@ TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
   EXPECT_GT(chiSquared(false), 1e4);
 }
 
-// A robot that looks along world y: the error ahead of it is the one along y.
+// A robot that heads along world y, and a camera on it that looks to its left: the error along the line of
+// sight is one to the robot's side. The pose's own uncertainty, in the covariance in world, is not the
+// sighting's.
 TEST(SightingCovariance, IsInTheRobotsFrame) {
   Landmark landmark;
   landmark.id = LandmarkId{1};
   const KeyPose node{NodeId{0}, 0, poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)};
   ObjectDecision decision;
-  decision.seen.covariance = Eigen::Vector4d(0.01, 0.09, 0.0004, 0.2).asDiagonal();
-  decision.seen.covariance(0, 1) = decision.seen.covariance(1, 0) = 0.02;
-  const auto factor = sightingOf(decision, landmark, node, Pose3::Identity());
-  EXPECT_NEAR(factor.covariance(0, 0), 0.09, 1e-12);
-  EXPECT_NEAR(factor.covariance(1, 1), 0.01, 1e-12);
+  decision.seen.covariance = 7 * Eigen::Matrix4d::Identity();
+  auto& covariance = decision.seen.measurement.proposal.covariance;
+  covariance = Eigen::Vector4d(0.09, 0.01, 0.0004, 0.2).asDiagonal();
+  covariance(0, 1) = covariance(1, 0) = 0.02;
+  Pose3 robot_from_camera = poseFromYpr(0.1, 0, 1, M_PI / 2, 0, 0);
+  robot_from_camera.linear() = robot_from_camera.linear() * bodyFromOptical();
+  const auto factor = sightingOf(decision, landmark, node, robot_from_camera);
+  EXPECT_NEAR(factor.covariance(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(factor.covariance(1, 1), 0.09, 1e-12);
   EXPECT_NEAR(factor.covariance(0, 1), -0.02, 1e-12);
   EXPECT_NEAR(factor.covariance(3, 3), 0.2, 1e-12);
 }
