@@ -80,8 +80,12 @@ TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
   EXPECT_EQ(factors.shared_errors.size(), factors.views.size());
   ASSERT_EQ(factors.boxes.size(), 4u) << "one of each key pose";
   ASSERT_EQ(factors.sizes.size(), factors.views.size());
+  const ObjectModel& usual = *shippedObjects().find("sofa");
   for (const auto& size : factors.sizes) {
     EXPECT_EQ(size.landmark, sofa_.id);
+    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.y(), usual.width_sigma_m / usual.depth_sigma_m, 1e-9);
+    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.z(), usual.width_sigma_m / usual.height_sigma_m, 1e-9);
+    EXPECT_GT(size.sigma_m.x(), usual.width_sigma_m) << "no sighting is certain";
     EXPECT_TRUE(size.size_m.isApprox(Eigen::Vector3d(sofa_.shape.width, sofa_.shape.depth, sofa_.shape.height)));
   }
   std::vector<std::int64_t> points;
