@@ -70,7 +70,7 @@ TEST(LandmarkEvidence, ATurnedLandmarkKeepsTheVotesOfItsSightings) {
   const LandmarkId id = map.update(sightingAt(0, 0), belongsTo({}));
   for (int i = 0; i < 2; ++i) map.update(sightingAt(0, 0), belongsTo(id));
   const Landmark before = *map.find(id);
-  map.correct(id, before.position, M_PI, before.covariance);
+  map.correct(id, before.position, M_PI, before.shape, before.covariance);
   map.update(sightingAt(0, 0), belongsTo(id));
   EXPECT_NEAR(std::abs(map.find(id)->yaw), 0, 1e-6);
 }

@@ -219,9 +219,11 @@ TEST(LandmarkMap, OverlappingLandmarksOfOneClassBecomeOne) {
 TEST(LandmarkMap, CorrectionSetsWhatTheGraphFound) {
   LandmarkMap map;
   const LandmarkId id = born(map, sightingAt(0, 0));
-  map.correct(id, {1, 2, 3}, 0.4, 0.5 * Eigen::Matrix4d::Identity());
+  map.correct(id, {1, 2, 3}, 0.4, {ShapeKind::kCuboid, 1.5, 0.8, 0.7}, 0.5 * Eigen::Matrix4d::Identity());
   EXPECT_EQ(map.find(id)->position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(map.find(id)->yaw, 0.4);
+  EXPECT_EQ(map.find(id)->shape.width, 1.5);
+  EXPECT_EQ(map.find(id)->shape.height, 0.7);
   EXPECT_EQ(map.find(id)->covariance(2, 2), 0.5);
 }
 

@@ -91,6 +91,24 @@ Specimen sightingByHand() {
   return s;
 }
 
+Specimen viewAtMeasurement(Random& random) {
+  const Eigen::Vector3d p = random.vector(3);
+  const std::vector<double> object{p.x(), p.y(), p.z(), random.uniform(-3, 3)};
+  LandmarkViewFactor f;
+  f.has_yaw = random.index(2) == 0;
+  f.covariance = randomCovariance<4>(random);
+  return {sharedCost(f), {{object}, {object}}};
+}
+
+// The view stands 0.2 m east and 0.1 m south of the landmark and is turned by 3 - (-3) rad, which is 6 - 2 pi;
+// sigmas 0.1 m and 0.1 rad.
+Specimen viewByHand() {
+  LandmarkViewFactor f;
+  f.has_yaw = true;
+  f.covariance = Eigen::Matrix4d::Identity() * 0.01;
+  return {sharedCost(f), {{{1.2, 1.9, 0, 3}}, {{1, 2, 0, -3}}}, {2, -1, 0, (6 - 2 * M_PI) / 0.1}};
+}
+
 Specimen onFloorAtMeasurement(Random& random) {
   return {sharedCost(LandmarkGroundFactor{{}, 0.02}),
           {{{random.uniform(-3, 3), random.uniform(-3, 3), 0, random.uniform(-3, 3)}}}};
@@ -141,6 +159,10 @@ struct SpecimenOf<GroundFactor> : Known<groundAtMeasurement, groundByHand> {
 template <>
 struct SpecimenOf<LandmarkFactor> : Known<sightingAtMeasurement, sightingByHand> {
   static constexpr auto kName = "LandmarkFactor";
+};
+template <>
+struct SpecimenOf<LandmarkViewFactor> : Known<viewAtMeasurement, viewByHand> {
+  static constexpr auto kName = "LandmarkViewFactor";
 };
 template <>
 struct SpecimenOf<LandmarkGroundFactor> : Known<onFloorAtMeasurement, onFloorByHand> {

@@ -107,8 +107,13 @@ TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
     landmark.position = place + Eigen::Vector3d(0.4 * id, 0, 0);
     scenario.objects.landmarks.push_back(landmark);
   }
+  const LandmarkId view{100};
+  scenario.objects.factors.views[view] = {place, 0, {}};
+  LandmarkViewFactor shared{view, LandmarkId{1}};
+  shared.covariance = 1e-4 * Eigen::Matrix4d::Identity();
+  scenario.objects.factors.shared_errors = {shared};
   for (int i : {3, 7}) {
-    LandmarkFactor sighting{NodeId{i}, LandmarkId{1}};
+    LandmarkFactor sighting{NodeId{i}, view};
     sighting.position_in_robot = truthAt(i).inverse() * place;
     sighting.covariance = 1e-4 * Eigen::Matrix4d::Identity();
     scenario.objects.factors.sightings.push_back(sighting);
@@ -116,7 +121,7 @@ TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
   const KeyPoses poses = scenario.start();
   FactorGraph graph =
       buildGraph(poses, scenario.motion, scenario.measurements, scenario.objects, scenario.options);
-  EXPECT_EQ(graph.landmarks(), 1u);
+  EXPECT_EQ(graph.landmarks(), 2u) << "the landmark and its view";
   EXPECT_TRUE(graph.hasLandmark(LandmarkId{1}));
   ASSERT_TRUE(graph.optimize().usable);
   EXPECT_LT((graph.landmark(LandmarkId{1}).position - place).norm(), 0.1);

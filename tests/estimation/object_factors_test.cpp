@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Object factors: residual-free sightings, means, visits and sides; split of landmarks by time.
+// Object factors: residual-free sightings, means, visits and views; split of landmarks by time.
 #include "roomgraph/estimation/object_factors.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "random_poses.h"
 #include "roomgraph/estimation/object_loop_closer.h"
@@ -91,8 +93,8 @@ std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
     ObjectDecision decision;
     decision.landmark = LandmarkId{4};
     decision.association.probability = 0.8;
-    decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
     auto& measurement = decision.seen.measurement;
+    measurement.proposal.covariance = 0.01 * Eigen::Matrix4d::Identity();
     measurement.confidence = measurement.proposal.score = 1;
     measurement.proposal.class_name = "swivel_chair";
     measurement.proposal.camera_from_object =
@@ -102,27 +104,56 @@ std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
   return frames;
 }
 
-TEST(ObjectFactors, AVisitOfASideCountsOnceAndTheNextOneMeasuresTheSameSide) {
+// The variance of .01 m^2 is divided between what both visits to the front share and what each has for itself.
+TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
-  const BackendOptions options;
+  BackendOptions options;
+  options.landmark_repeating_share = 0.7;
   const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);
-  ASSERT_EQ(factors.sightings.size(), poses.nodes().size());
-  for (const auto& sighting : factors.sightings)
-    EXPECT_NEAR(sighting.weight, 0.8 * options.landmark_information_share, 1e-12);
-  ASSERT_EQ(factors.sides.size(), 1u) << "what was seen from behind was not seen again";
-  ASSERT_EQ(factors.visits.size(), 2u);
-  std::vector<std::int64_t> nodes;
-  for (const auto& sighting : factors.visits) {
-    const Pose3& pose = poses.node(sighting.node).world_from_robot;
-    EXPECT_LT((pose * sighting.position_in_robot - kChair - 0.1 * Eigen::Vector3d::UnitX()).norm(), 1e-9);
-    EXPECT_EQ(sighting.landmark, factors.sides.begin()->first);
-    EXPECT_NEAR(sighting.weight, 0.8, 1e-12);
-    EXPECT_TRUE(sighting.covariance.isApprox(0.01 * Eigen::Matrix4d::Identity(), 1e-9));
-    nodes.push_back(sighting.node.value);
+  ASSERT_EQ(factors.views.size(), 2u) << "from the front, and from behind";
+  ASSERT_EQ(factors.shared_errors.size(), 2u);
+  for (const auto& shared : factors.shared_errors) {
+    EXPECT_EQ(shared.landmark, LandmarkId{4});
+    EXPECT_TRUE(factors.views.contains(shared.view));
+    EXPECT_NEAR(shared.weight, 0.8, 1e-12);
+    EXPECT_TRUE(shared.covariance.isApprox(0.007 * Eigen::Matrix4d::Identity(), 1e-9));
   }
-  EXPECT_EQ(nodes, (std::vector<std::int64_t>{1, 5})) << "the middle of both visits";
+  std::map<LandmarkId, std::vector<std::int64_t>> nodes;
+  for (const auto& sighting : factors.sightings) {
+    nodes[sighting.landmark].push_back(sighting.node.value);
+    const Pose3& pose = poses.node(sighting.node).world_from_robot;
+    const double error = sighting.node.value == 3 ? -0.1 : 0.1;
+    EXPECT_LT((pose * sighting.position_in_robot - kChair - error * Eigen::Vector3d::UnitX()).norm(), 1e-9);
+    EXPECT_NEAR(sighting.weight, 0.8, 1e-12);
+    EXPECT_TRUE(sighting.covariance.isApprox(0.003 * Eigen::Matrix4d::Identity(), 1e-9));
+  }
+  std::set<std::vector<std::int64_t>> by_view;
+  for (const auto& [view, seen_from] : nodes) by_view.insert(seen_from);
+  EXPECT_EQ(by_view, (std::set<std::vector<std::int64_t>>{{1, 5}, {3}})) << "the middle of each visit";
+}
+
+// Two directions whose errors cancel: the landmark is in the middle, and its variance is that of two independent
+// errors, however often each was looked at.
+TEST(ObjectFactors, ViewsAreAveragedNotSightings) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  BackendOptions options;
+  options.landmark_repeating_share = 0.999;
+  options.landmark_robust_width = 0;
+  const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);
+  FactorGraph graph;
+  for (const auto& node : poses.nodes()) graph.addPose(node.id, node.world_from_robot, true);
+  graph.addLandmark(LandmarkId{4}, {kChair + Eigen::Vector3d(0.3, 0, 0), 0, {}});
+  for (const auto& [id, view] : factors.views) graph.addLandmark(id, view);
+  for (const auto& factor : factors.shared_errors) graph.add(factor);
+  for (const auto& factor : factors.sightings) graph.add(factor);
+  ASSERT_TRUE(graph.optimize().usable);
+  EXPECT_LT((graph.landmark(LandmarkId{4}).position - kChair).norm(), 1e-4);
+  const double variance = graph.landmarkCovariances().value().at(LandmarkId{4})(0, 0);
+  EXPECT_NEAR(variance, 0.01 / 0.8 / 2, 1e-4);
 }
 
 TEST(ObjectFactors, StandingStillIsOneVisit) {
@@ -131,17 +162,19 @@ TEST(ObjectFactors, StandingStillIsOneVisit) {
   KeyPoses poses(motion);
   for (int i = 0; i < 4; ++i) poses.add(5 * i, Pose3::Identity());
   const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, BackendOptions{});
-  EXPECT_EQ(factors.sightings.size(), 4u);
-  EXPECT_TRUE(factors.sides.empty());
+  EXPECT_EQ(factors.views.size(), 1u);
+  EXPECT_EQ(factors.sightings.size(), 1u);
 }
 
-TEST(ObjectFactors, VisitsThatWeighNothingMakeNoSide) {
+TEST(ObjectFactors, SightingsThatWeighNothingMakeNoView) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
   auto frames = framesOf(poses);
   for (auto& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0;
-  EXPECT_TRUE(objectFactors(frames, poses, {chair()}, {}, BackendOptions{}).sides.empty());
+  const ObjectFactors factors = objectFactors(frames, poses, {chair()}, {}, BackendOptions{});
+  EXPECT_TRUE(factors.views.empty());
+  EXPECT_TRUE(factors.sightings.empty());
 }
 
 Landmark trusted(std::int64_t id) {

@@ -42,9 +42,9 @@ class SofaSeenFromFourPlaces : public ::testing::Test {
     decision.landmark = sofa_.id;
     decision.association.probability = 0.8;
     decision.seen.world_from_object = sofa_.worldFromObject();
-    decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
     decision.seen.camera = camera_;
     auto& measurement = decision.seen.measurement;
+    measurement.proposal.covariance = decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
     measurement.proposal.class_name = measurement.proposal.model = "sofa";
     measurement.proposal.shape = sofa_.shape;
     measurement.proposal.camera_from_object = camera_from_object;
@@ -76,14 +76,18 @@ class SofaSeenFromFourPlaces : public ::testing::Test {
 
 TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
   const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
-  EXPECT_EQ(factors.sightings.size(), 4u);
+  EXPECT_EQ(factors.sightings.size(), factors.views.size()) << "no direction twice";
+  EXPECT_EQ(factors.shared_errors.size(), factors.views.size());
   ASSERT_EQ(factors.boxes.size(), 4u) << "one of each key pose";
-  ASSERT_EQ(factors.sizes.size(), 1u);
+  ASSERT_EQ(factors.sizes.size(), factors.views.size());
   const ObjectModel& usual = *shippedObjects().find("sofa");
-  EXPECT_EQ(factors.sizes[0].landmark, sofa_.id);
-  EXPECT_EQ(factors.sizes[0].size_m, Eigen::Vector3d(usual.width_m, usual.depth_m, usual.height_m));
-  EXPECT_EQ(factors.sizes[0].sigma_m,
-            Eigen::Vector3d(usual.width_sigma_m, usual.depth_sigma_m, usual.height_sigma_m));
+  for (const auto& size : factors.sizes) {
+    EXPECT_EQ(size.landmark, sofa_.id);
+    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.y(), usual.width_sigma_m / usual.depth_sigma_m, 1e-9);
+    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.z(), usual.width_sigma_m / usual.height_sigma_m, 1e-9);
+    EXPECT_GT(size.sigma_m.x(), usual.width_sigma_m) << "no sighting is certain";
+    EXPECT_TRUE(size.size_m.isApprox(Eigen::Vector3d(sofa_.shape.width, sofa_.shape.depth, sofa_.shape.height)));
+  }
   std::vector<std::int64_t> points;
   for (const auto& [id, place] : factors.points) {
     points.push_back(id.value);
@@ -91,11 +95,11 @@ TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
     EXPECT_LT((place - truth).norm(), 1e-9);
   }
   EXPECT_EQ(points, (std::vector<std::int64_t>{1, 2})) << "point 0 was seen from two key poses, 3 is not on it";
-  EXPECT_EQ(factors.views.size(), 8u);
+  EXPECT_EQ(factors.point_views.size(), 8u);
   ASSERT_EQ(factors.insides.size(), 2u);
   const double share = options_.landmark_information_share, weight = 0.8 * 0.5 * 0.9;
   for (const auto& box : factors.boxes) EXPECT_NEAR(box.weight, weight * share, 1e-12);
-  for (const auto& sighting : factors.sightings) EXPECT_NEAR(sighting.weight, weight * share, 1e-12);
+  for (const auto& sighting : factors.sightings) EXPECT_NEAR(sighting.weight, weight, 1e-12);
   for (const auto& inside : factors.insides) EXPECT_EQ(inside.weight, share);
 }
 
@@ -104,12 +108,14 @@ TEST_F(SofaSeenFromFourPlaces, LeavesNoErrorWhereEverythingIsTrue) {
   FactorGraph graph;
   for (const auto& node : poses_.nodes()) graph.addPose(node.id, node.world_from_robot);
   graph.addLandmark(sofa_.id, {sofa_.position, sofa_.yaw, sofa_.shape});
+  for (const auto& [id, view] : factors.views) graph.addLandmark(id, view);
   for (const auto& [id, place] : factors.points) graph.addPoint(id, place);
   const auto add = [&](const auto& list) {
     for (const auto& factor : list) graph.add(factor);
   };
-  add(factors.sightings), add(factors.boxes), add(factors.sizes), add(factors.views), add(factors.insides);
-  EXPECT_EQ(graph.factors(), 4u + 4u + 1u + 8u + 2u);
+  add(factors.sightings), add(factors.shared_errors), add(factors.boxes), add(factors.sizes);
+  add(factors.point_views), add(factors.insides);
+  EXPECT_EQ(graph.factors(), 3 * factors.views.size() + 4u + 8u + 2u);
   EXPECT_LT(graph.chiSquared(), 1e-12);
 }
 
@@ -117,9 +123,9 @@ TEST_F(SofaSeenFromFourPlaces, AllOfThemReachTheGraph) {
   const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
   const FactorGraph without = buildGraph(poses_, motion_, {}, {}, options_);
   const FactorGraph with = buildGraph(poses_, motion_, {}, {{sofa_}, factors}, options_);
-  EXPECT_EQ(with.factors() - without.factors(), 4u + 4u + 1u + 8u + 2u + factors.visits.size() + 1u)
+  EXPECT_EQ(with.factors() - without.factors(), 3 * factors.views.size() + 4u + 8u + 2u + 1u)
       << "and the one that stands it on the floor";
-  EXPECT_EQ(with.landmarks(), 1 + factors.sides.size());
+  EXPECT_EQ(with.landmarks(), 1 + factors.views.size());
 }
 
 TEST_F(SofaSeenFromFourPlaces, TheBestBoxOfAKeyPoseCounts) {
@@ -140,7 +146,7 @@ TEST_F(SofaSeenFromFourPlaces, OptionsBoundWhatIsMade) {
   options_.object_boxes = false;
   const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
   EXPECT_TRUE(factors.boxes.empty());
-  EXPECT_TRUE(factors.sizes.empty());
+  EXPECT_FALSE(factors.sizes.empty()) << "they are measured by shapes, not by boxes";
 }
 
 TEST_F(SofaSeenFromFourPlaces, AnotherLabelSaysNothingOfThePlace) {
@@ -192,17 +198,23 @@ TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
   EXPECT_GT(chiSquared(false), 1e4);
 }
 
-// A robot that looks along world y: the error ahead of it is the one along y.
+// A robot that heads along world y, and a camera on it that looks to its left: the error along the line of
+// sight is one to the robot's side. The pose's own uncertainty, in the covariance in world, is not the
+// sighting's.
 TEST(SightingCovariance, IsInTheRobotsFrame) {
   Landmark landmark;
   landmark.id = LandmarkId{1};
   const KeyPose node{NodeId{0}, 0, poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)};
   ObjectDecision decision;
-  decision.seen.covariance = Eigen::Vector4d(0.01, 0.09, 0.0004, 0.2).asDiagonal();
-  decision.seen.covariance(0, 1) = decision.seen.covariance(1, 0) = 0.02;
-  const auto factor = sightingOf(decision, landmark, node, Pose3::Identity());
-  EXPECT_NEAR(factor.covariance(0, 0), 0.09, 1e-12);
-  EXPECT_NEAR(factor.covariance(1, 1), 0.01, 1e-12);
+  decision.seen.covariance = 7 * Eigen::Matrix4d::Identity();
+  auto& covariance = decision.seen.measurement.proposal.covariance;
+  covariance = Eigen::Vector4d(0.09, 0.01, 0.0004, 0.2).asDiagonal();
+  covariance(0, 1) = covariance(1, 0) = 0.02;
+  Pose3 robot_from_camera = poseFromYpr(0.1, 0, 1, M_PI / 2, 0, 0);
+  robot_from_camera.linear() = robot_from_camera.linear() * bodyFromOptical();
+  const auto factor = sightingOf(decision, landmark, node, robot_from_camera);
+  EXPECT_NEAR(factor.covariance(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(factor.covariance(1, 1), 0.09, 1e-12);
   EXPECT_NEAR(factor.covariance(0, 1), -0.02, 1e-12);
   EXPECT_NEAR(factor.covariance(3, 3), 0.2, 1e-12);
 }

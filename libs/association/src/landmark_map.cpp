@@ -132,7 +132,7 @@ void LandmarkMap::supported(LandmarkId id, int rays) {
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
-                          const Eigen::Matrix4d& covariance) {
+                          const ObjectShape& shape, const Eigen::Matrix4d& covariance) {
   Landmark* landmark = get(id);
   if (!landmark) return;
   LandmarkRecord& record = records_[id];
@@ -140,6 +140,7 @@ void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double
   if (opposite(yaw, landmark->yaw)) std::swap(record.front, record.back);
   landmark->position = position;
   landmark->yaw = yaw;
+  landmark->shape = shape;
   landmark->covariance = covariance;
 }
 
@@ -260,8 +261,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   for (const auto& estimate : result.landmarks) {
     Landmark& landmark = *get(estimate.id);
     if (landmark.class_name == estimate.class_name) {
-      correct(landmark.id, estimate.position, estimate.yaw, estimate.covariance);
-      landmark.shape = estimate.shape;
+      correct(landmark.id, estimate.position, estimate.yaw, estimate.shape, estimate.covariance);
     }
   }
 }

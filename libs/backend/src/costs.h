@@ -16,6 +16,7 @@ ceres::CostFunction* costOf(const BetweenFactor& factor);
 ceres::CostFunction* costOf(const PlanarFactor& factor);
 ceres::CostFunction* costOf(const GroundFactor& factor);
 ceres::CostFunction* costOf(const LandmarkFactor& factor);
+ceres::CostFunction* costOf(const LandmarkViewFactor& factor);
 ceres::CostFunction* costOf(const LandmarkGroundFactor& factor);
 
 ceres::CostFunction* costOf(const LandmarkSizeFactor& factor);

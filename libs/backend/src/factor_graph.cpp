@@ -136,6 +136,9 @@ Blocks blocksOf(Impl& graph, const LandmarkFactor& f) {
   blocks.push_back(graph.at(f.landmark).value.data());
   return blocks;
 }
+Blocks blocksOf(Impl& graph, const LandmarkViewFactor& f) {
+  return {graph.at(f.view).value.data(), graph.at(f.landmark).value.data()};
+}
 Blocks blocksOf(Impl& graph, const LandmarkGroundFactor& f) {
   return {graph.at(f.landmark).value.data()};
 }
@@ -178,6 +181,11 @@ template <class OneFactor>
 void release(Impl&, const OneFactor&) {}
 void release(Impl& graph, const LandmarkFactor& f) {
   if (f.has_yaw) graph.freeYaw(f.landmark);
+}
+void release(Impl& graph, const LandmarkViewFactor& f) {
+  if (!f.has_yaw) return;
+  graph.freeYaw(f.view);
+  graph.freeYaw(f.landmark);
 }
 void release(Impl& graph, const LandmarkBoxFactor& f) {
   if (graph.at(f.landmark).kind != ShapeKind::kCylinder) graph.freeYaw(f.landmark);

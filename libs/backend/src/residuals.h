@@ -91,17 +91,20 @@ struct GroundResidual {
   double offset, sigma_normal, sigma_offset;
 };
 
+/// Square root of the information of (x, y, z, yaw). Without a measured yaw its row and column are zero.
+inline Eigen::Matrix4d placeWhitening(Eigen::Matrix4d covariance, bool has_yaw) {
+  if (has_yaw) return sqrtInformation<4>(covariance);
+  covariance.row(3).setZero();
+  covariance.col(3).setZero();
+  covariance(3, 3) = 1;
+  Eigen::Matrix4d whitening = sqrtInformation<4>(covariance);
+  whitening.row(3).setZero();
+  return whitening;
+}
+
 struct LandmarkResidual {
-  explicit LandmarkResidual(const LandmarkFactor& f) : factor(f) {
-    // Without a measured yaw its row has no weight.
-    if (!f.has_yaw) {
-      factor.covariance.row(3).setZero();
-      factor.covariance.col(3).setZero();
-      factor.covariance(3, 3) = 1;
-    }
-    whitening = sqrtInformation<4>(factor.covariance);
-    if (!f.has_yaw) whitening.row(3).setZero();
-  }
+  explicit LandmarkResidual(const LandmarkFactor& f)
+      : factor(f), whitening(placeWhitening(f.covariance, f.has_yaw)) {}
 
   template <class T>
   bool operator()(const T* t, const T* q, const T* landmark, T* out) const {
@@ -119,6 +122,22 @@ struct LandmarkResidual {
   }
 
   LandmarkFactor factor;
+  Eigen::Matrix4d whitening;
+};
+
+struct LandmarkViewResidual {
+  explicit LandmarkViewResidual(const LandmarkViewFactor& f) : whitening(placeWhitening(f.covariance, f.has_yaw)) {}
+
+  template <class T>
+  bool operator()(const T* view, const T* landmark, T* out) const {
+    Eigen::Matrix<T, 4, 1> error;
+    for (int i = 0; i < 3; ++i) error[i] = view[i] - landmark[i];
+    error[3] = angleDifference(view[3], landmark[3]);
+    Eigen::Map<Eigen::Matrix<T, 4, 1>> whitened(out);
+    whitened = whitening.cast<T>() * error;
+    return true;
+  }
+
   Eigen::Matrix4d whitening;
 };
 

@@ -61,19 +61,19 @@ std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const Ke
 void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
   const ObjectFactors& objects = in_graph.factors;
   std::set<LandmarkId> seen;
-  for (const auto& sighting : objects.sightings) seen.insert(sighting.landmark);
+  for (const auto& shared : objects.shared_errors) seen.insert(shared.landmark);
   for (const auto& landmark : in_graph.landmarks) {
     if (!seen.contains(landmark.id)) continue;
     graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
     graph.add(LandmarkGroundFactor{landmark.id, 0.02});
   }
-  for (const auto& [id, side] : objects.sides) graph.addLandmark(id, side);
+  for (const auto& [id, view] : objects.views) graph.addLandmark(id, view);
   for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
   for (const auto& factor : objects.sightings) graph.add(factor);
-  for (const auto& factor : objects.visits) graph.add(factor);
+  for (const auto& factor : objects.shared_errors) graph.add(factor);
   for (const auto& factor : objects.sizes) graph.add(factor);
   for (const auto& factor : objects.boxes) graph.add(factor);
-  for (const auto& factor : objects.views) graph.add(factor);
+  for (const auto& factor : objects.point_views) graph.add(factor);
   for (const auto& factor : objects.insides) graph.add(factor);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "measurement_in_world.h"
+#include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
@@ -21,7 +23,10 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landma
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
   if (std::abs(wrapAngle(node_yaw + factor.yaw_in_robot - landmark.yaw)) > std::numbers::pi / 2)
     factor.yaw_in_robot = wrapAngle(factor.yaw_in_robot + std::numbers::pi);
-  factor.covariance = rotateCovariance(decision.seen.covariance, node.world_from_robot.linear().transpose());
+  // Without the uncertainty of the pose, which is the graph's own.
+  const Eigen::Matrix4d in_world =
+      measurementInWorld(measurement, decision.seen.camera, node.world_from_robot * node_from_camera, 0).covariance;
+  factor.covariance = rotateCovariance(in_world, node.world_from_robot.linear().transpose());
   factor.weight = decision.association.probability * measurement.confidence * measurement.proposal.score;
   return factor;
 }
@@ -57,9 +62,34 @@ struct PointView {
   Eigen::Vector3d in_world;
 };
 
+// Mean size of the shapes that were fitted to the object from one direction. The usual size of its class had
+// its say when they were fitted, so its deviation is how far such a mean is off at most, whatever their
+// number.
+struct MeanSize {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double weight = 0, largest = 0;
+
+  void add(const ObjectShape& shape, double w) {
+    sum += w * Eigen::Vector3d(shape.width, shape.depth, shape.height);
+    weight += w;
+    largest = std::max(largest, w);
+  }
+  void add(const MeanSize& other) {
+    sum += other.sum;
+    weight += other.weight;
+    largest = std::max(largest, other.largest);
+  }
+  LandmarkSizeFactor factor(LandmarkId id, const ObjectModel& model) const {
+    return {
+        id, sum / weight,
+        Eigen::Vector3d(model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m) / std::sqrt(largest)};
+  }
+};
+
 // Measurements of one landmark.
 struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
+  std::map<NodeId, MeanSize> sizes;
   std::map<NodeId, LandmarkBoxFactor> boxes;  // the best of each key pose
   std::map<PointId, std::map<NodeId, PointView>> points;
 };
@@ -71,6 +101,7 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
+  out.sizes[node.id].add(measurement.proposal.shape, sighting.weight * visibleFraction(measurement));
   LandmarkBoxFactor& best = out.boxes[node.id];
   if (!best.landmark.valid() || sighting.weight > best.weight)
     best = {.node = node.id,
@@ -99,16 +130,10 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   }
 }
 
-LandmarkSizeFactor sizeFactor(const Landmark& landmark, const ObjectModel& model) {
-  return {landmark.id,
-          {model.width_m, model.depth_m, model.height_m},
-          {model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m}};
-}
-
-// Landmarks of the graph that stand for sides; the map's own never get that far.
-constexpr std::int64_t kFirstSide = 1'000'000'000;
-constexpr double kVisitPause_s = 3;    // a side not seen for so long begins a new visit
-constexpr double kLeastWeight = 1e-9;  // a visit without weight would leave its side undetermined
+// Landmarks of the graph that stand for views; the map's own never get that far.
+constexpr std::int64_t kFirstView = 1'000'000'000;
+constexpr double kLeastWeight = 1e-9;  // a view without weight would leave its place undetermined
+constexpr double kVisitPause_s = 3;    // an object not seen for so long begins a new visit
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
@@ -125,40 +150,60 @@ LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
   return in_world;
 }
 
-using Visit = std::vector<LandmarkFactor>;  // sightings of one side in a row, placed in world
+using Visit = std::vector<LandmarkFactor>;  // sightings from one direction in a row, placed in world
 
-std::map<int, std::vector<Visit>> visitsBySide(const Gathered& seen, const KeyPoses& poses, double side_rad) {
-  std::map<int, std::vector<Visit>> sides;
+// What was seen from one direction.
+struct View {
+  std::vector<Visit> visits;
+  MeanSize size;
+};
+
+std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double angle_rad) {
+  std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
     const KeyPose& node = poses.node(id);
     const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
-    const Eigen::Vector3d view = sighting.position_in_robot - node.world_from_robot.translation();
-    auto& visits = sides[static_cast<int>(std::floor(std::atan2(view.y(), view.x()) / side_rad))];
-    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the side.
-    const bool gone = visits.empty() || (id.value - visits.back().back().node.value > 1 &&
-                                         node.t - poses.node(visits.back().back().node).t > kVisitPause_s);
-    if (gone) visits.emplace_back();
-    visits.back().push_back(sighting);
+    if (sighting.weight < kLeastWeight) continue;
+    const Eigen::Vector3d ray = sighting.position_in_robot - node.world_from_robot.translation();
+    View& view = views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))];
+    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the object.
+    const bool gone =
+        view.visits.empty() || (id.value - view.visits.back().back().node.value > 1 &&
+                                node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);
+    if (gone) view.visits.emplace_back();
+    view.visits.back().push_back(sighting);
+    view.size.add(seen.sizes.at(id));
   }
-  return sides;
+  return views;
 }
 
-void addRevisits(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
-                 const BackendOptions& options, ObjectFactors& out) {
-  for (const auto& [direction, visits] : visitsBySide(seen, poses, options.landmark_side_rad)) {
-    std::vector<LandmarkFactor> sightings;
-    for (const Visit& visit : visits) {
-      sightings.push_back(seenFrom(meanSighting(visit), poses.node(visit[visit.size() / 2].node)));
-      if (sightings.back().weight < kLeastWeight) sightings.pop_back();
-    }
-    if (sightings.size() < 2) continue;
-    const LandmarkId side{kFirstSide + static_cast<std::int64_t>(out.sides.size())};
-    out.sides[side] = {landmark.position, landmark.yaw, landmark.shape};
-    for (LandmarkFactor& sighting : sightings) {
-      sighting.landmark = side;
+// `visits`: mean sightings in world.
+LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const BackendOptions& options) {
+  const LandmarkFactor mean = meanSighting(visits);
+  return {.landmark = mean.landmark,
+          .has_yaw = mean.has_yaw,
+          .covariance = options.landmark_repeating_share * mean.covariance,
+          .weight = mean.weight,
+          .robust_width = options.landmark_robust_width};
+}
+
+void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
+              const BackendOptions& options, ObjectFactors& out) {
+  for (const auto& [direction, view] : viewsByDirection(seen, poses, options.landmark_side_rad)) {
+    std::vector<LandmarkFactor> visits;
+    const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
+    for (const Visit& visit : view.visits) {
+      visits.push_back(meanSighting(visit));
+      LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
+      sighting.landmark = id;
+      sighting.covariance *= 1 - options.landmark_repeating_share;
       sighting.robust_width = options.landmark_robust_width;
-      out.visits.push_back(sighting);
+      out.sightings.push_back(sighting);
     }
+    out.views[id] = {landmark.position, landmark.yaw, landmark.shape};
+    out.shared_errors.push_back(sharedError(visits, options));
+    out.shared_errors.back().view = id;
+    if (usual && view.size.weight > kLeastWeight) out.sizes.push_back(view.size.factor(landmark.id, *usual));
   }
 }
 
@@ -171,7 +216,7 @@ void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOpti
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& [node, view] : views) {
       middle += view.in_world / static_cast<double>(views.size());
-      out.views.push_back(view.factor);
+      out.point_views.push_back(view.factor);
     }
     out.points[id] = middle;
     out.insides.push_back(
@@ -202,16 +247,9 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
   ObjectFactors out;
   for (const auto& [id, seen] : gathered) {
     const Landmark& landmark = *known.at(id);
-    for (const auto& [node, group] : seen.sightings) {
-      LandmarkFactor mean = meanSighting(group);
-      mean.weight *= options.landmark_information_share;
-      mean.robust_width = options.landmark_robust_width;
-      out.sightings.push_back(mean);
-    }
-    addRevisits(seen, landmark, poses, options, out);
     const ObjectModel* usual = database.find(landmark.class_name);
-    if (options.object_boxes && usual) {
-      out.sizes.push_back(sizeFactor(landmark, *usual));
+    addViews(seen, landmark, usual, poses, options, out);
+    if (options.object_boxes) {
       for (auto [node, box] : seen.boxes) {
         box.weight *= options.landmark_information_share;
         out.boxes.push_back(box);

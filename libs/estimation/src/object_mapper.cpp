@@ -162,7 +162,8 @@ ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const Backe
 void ObjectMapper::apply(const LandmarkEstimates& estimates) {
   for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks()))
     if (const auto found = estimates.find(landmark.id); found != estimates.end())
-      landmarks_.correct(landmark.id, found->second.position, found->second.yaw, landmark.covariance);
+      landmarks_.correct(landmark.id, found->second.position, found->second.yaw, found->second.shape,
+                         landmark.covariance);
 }
 
 void ObjectMapper::respan() {

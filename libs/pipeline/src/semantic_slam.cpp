@@ -275,6 +275,7 @@ void SemanticSlam::refine() {
   optimizeAll();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
+  optimizeAll();  // the map is the optimum: the last re-association set places of its own
 }
 
 SlamResult SemanticSlam::collect() {

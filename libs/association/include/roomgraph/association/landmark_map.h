@@ -39,7 +39,8 @@ class LandmarkMap {
   void supported(LandmarkId id, int rays);
 
   /// Sets place (m, world), yaw (rad) and covariance of (x, y, z, yaw) after an optimisation of the graph.
-  void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const Eigen::Matrix4d& covariance);
+  void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const ObjectShape& shape,
+               const Eigen::Matrix4d& covariance);
 
   /// Transforms a landmark, with the positions in its record, into another frame.
   void move(LandmarkId id, const Pose3& new_from_old);

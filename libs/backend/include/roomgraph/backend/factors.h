@@ -63,6 +63,16 @@ struct LandmarkFactor {
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
+/// A landmark as it seems from one direction against the landmark itself: the error that all sightings from there share
+/// has mean zero and this covariance.
+struct LandmarkViewFactor {
+  LandmarkId view, landmark;
+  bool has_yaw = false;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in world
+  double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
+  double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
+};
+
 /// The object rests on the floor: z = 0.
 struct LandmarkGroundFactor {
   LandmarkId landmark;
@@ -138,8 +148,8 @@ struct MarginalPrior {
 
 /// Every kind of measurement in a graph. A new kind is added here; the tests do not compile until it has specimens
 /// (tests/backend/residual_specimens.h).
-using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkGroundFactor,
-                            LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor, PointLandmarkFactor,
-                            MarginalPrior>;
+using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkViewFactor,
+                            LandmarkGroundFactor, LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor,
+                            PointLandmarkFactor, MarginalPrior>;
 
 }  // namespace roomgraph

@@ -17,13 +17,13 @@ namespace roomgraph {
 
 /// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
-  std::vector<LandmarkFactor> sightings;
-  std::map<LandmarkId, LandmarkEstimate> sides;  ///< landmarks as measured from one side
-  std::vector<LandmarkFactor> visits;            ///< sightings of sides
+  std::map<LandmarkId, LandmarkEstimate> views;  ///< landmarks as they seem from one direction
+  std::vector<LandmarkViewFactor> shared_errors;  ///< of views against their landmarks
+  std::vector<LandmarkFactor> sightings;         ///< of views
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, at the measured depth
-  std::vector<CameraPointFactor> views;
+  std::vector<CameraPointFactor> point_views;
   std::vector<PointLandmarkFactor> insides;
 };
 
@@ -34,16 +34,21 @@ struct ObjectsInGraph {
 };
 
 /// Builds the factors of all landmarks:
-/// * One mean sighting and one box per key pose and landmark. Errors of sightings from nearby poses are correlated, so
-///   only a share of their information counts (BackendOptions::landmark_information_share).
-/// * Sides: the error of one direction of view repeats when the robot comes back. What was seen from one direction in
-///   two visits or more is therefore also a landmark of its own, not tied to the landmark it belongs to, which connects
-///   the visits. The sightings of one visit are averaged to one, at the key pose in the middle of the visit.
-/// * Points that were seen on a landmark from several key poses, and the usual size of the landmark's class.
+/// * Views: errors of sightings from one direction repeat, from frame to frame and when the robot comes back.
+/// The landmark
+///   as it seems from one direction is therefore a landmark of its own, and differs from the true one by an
+///   error that all its sightings share (BackendOptions::landmark_repeating_share of their variance). The
+///   sightings of one visit are averaged to one, which has the rest of the variance for itself, at the key
+///   pose in the middle of the visit.
+/// * The mean size that was measured from each direction.
+/// * One box per key pose and landmark, and points that were seen on a landmark from several key poses, with
+/// a share of
+///   their information (BackendOptions::landmark_information_share): their errors repeat, too, without a
+///   model yet.
 ///
-/// Weights are association probability x selection confidence x initialisation score. A measurement of another class
-/// than its landmark's gives no factor. `model` (may be null) lowers the weight of measurements that fit the viewing
-/// ray but not the depth, because their depth failed.
+/// Weights are association probability x selection confidence x initialisation score. A measurement of
+/// another class than its landmark's gives no factor. `model` (may be null) lowers the weight of measurements
+/// that fit the viewing ray but not the depth, because their depth failed.
 ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
