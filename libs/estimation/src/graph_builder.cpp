@@ -3,6 +3,7 @@
 #include "roomgraph/estimation/graph_builder.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace roomgraph {
@@ -60,11 +61,12 @@ std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const Ke
 
 void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
   const ObjectFactors& objects = in_graph.factors;
-  std::set<LandmarkId> seen;
-  for (const auto& shared : objects.shared_errors) seen.insert(shared.landmark);
+  std::map<LandmarkId, double> seen;  // the yaw to start from: near the optimum, where derivatives lead to it
+  for (const auto& shared : objects.shared_errors) seen[shared.landmark] = objects.views.at(shared.view).yaw;
   for (const auto& landmark : in_graph.landmarks) {
-    if (!seen.contains(landmark.id)) continue;
-    graph.addLandmark(landmark.id, {landmark.position, landmark.yaw, landmark.shape});
+    const auto yaw = seen.find(landmark.id);
+    if (yaw == seen.end()) continue;
+    graph.addLandmark(landmark.id, {landmark.position, yaw->second, landmark.shape});
     graph.add(LandmarkGroundFactor{landmark.id, 0.02});
   }
   for (const auto& [id, view] : objects.views) graph.addLandmark(id, view);

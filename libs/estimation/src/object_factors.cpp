@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <optional>
 
 #include "measurement_in_world.h"
 #include "roomgraph/association/landmark_rules.h"
@@ -36,19 +38,28 @@ LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  double sum = 0;
+  double sum = 0, yaw_sum = 0, yaw_weight = 0;
   for (const auto& s : sightings) {
     const double share = std::max(s.weight, 1e-9) / s.covariance.topLeftCorner<2, 2>().trace();
     position += share * s.position_in_robot;
     covariance += share * s.covariance;
     sum += share;
-    if (s.has_yaw) direction += share * Eigen::Vector2d(std::cos(s.yaw_in_robot), std::sin(s.yaw_in_robot));
     mean.weight = std::max(mean.weight, s.weight);
+    if (!s.has_yaw) continue;
+    const double yaw_share = std::max(s.weight, 1e-9) / s.covariance(3, 3);
+    direction += yaw_share * Eigen::Vector2d(std::cos(s.yaw_in_robot), std::sin(s.yaw_in_robot));
+    yaw_sum += yaw_share;
+    yaw_weight += std::max(s.weight, 1e-9);
   }
   mean.position_in_robot = position / sum;
   mean.covariance = covariance / sum;
   mean.has_yaw = direction.norm() > 1e-9;
-  if (mean.has_yaw) mean.yaw_in_robot = std::atan2(direction.y(), direction.x());
+  if (!mean.has_yaw) return mean;
+  mean.yaw_in_robot = std::atan2(direction.y(), direction.x());
+  // Places may be well known where yaws are not, and the other way round.
+  mean.covariance.row(3).setZero();
+  mean.covariance.col(3).setZero();
+  mean.covariance(3, 3) = yaw_weight / yaw_sum;
   return mean;
 }
 
@@ -150,6 +161,33 @@ LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
   return in_world;
 }
 
+// The yaw that most sightings say, by their weights alone: one that took width for depth may claim to be
+// sure. Axes first, by doubled angles in which front and back are one. Nothing when no sighting has a yaw.
+std::optional<double> votedYaw(const Gathered& seen, const KeyPoses& poses) {
+  std::complex<double> doubled = 0, single = 0;
+  for (const auto& [id, group] : seen.sightings) {
+    const double node_yaw = planarPart(poses.node(id).world_from_robot).yaw;
+    for (const LandmarkFactor& s : group) {
+      if (!s.has_yaw) continue;
+      doubled += std::polar(s.weight, 2 * (node_yaw + s.yaw_in_robot));
+      single += std::polar(s.weight, node_yaw + s.yaw_in_robot);
+    }
+  }
+  if (std::abs(doubled) <= 0) return std::nullopt;
+  const double axis = std::arg(doubled) / 2;
+  return std::real(single * std::polar(1.0, -axis)) < 0 ? wrapAngle(axis + std::numbers::pi) : axis;
+}
+
+// Sightings from one key pose; yaws of the other direction are reversed, those across do not measure the yaw.
+std::vector<LandmarkFactor> withYawsNear(double yaw_in_robot, std::vector<LandmarkFactor> sightings) {
+  for (LandmarkFactor& s : sightings) {
+    if (std::abs(wrapAngle(s.yaw_in_robot - yaw_in_robot)) > std::numbers::pi / 2)
+      s.yaw_in_robot = wrapAngle(s.yaw_in_robot + std::numbers::pi);
+    s.has_yaw &= std::abs(wrapAngle(s.yaw_in_robot - yaw_in_robot)) < std::numbers::pi / 4;
+  }
+  return sightings;
+}
+
 using Visit = std::vector<LandmarkFactor>;  // sightings from one direction in a row, placed in world
 
 // What was seen from one direction.
@@ -158,11 +196,14 @@ struct View {
   MeanSize size;
 };
 
-std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double angle_rad) {
+std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double yaw,
+                                     double angle_rad) {
   std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
     const KeyPose& node = poses.node(id);
-    const LandmarkFactor sighting = inWorld(meanSighting(group), node.world_from_robot);
+    const double yaw_in_robot = yaw - planarPart(node.world_from_robot).yaw;
+    const LandmarkFactor sighting =
+        inWorld(meanSighting(withYawsNear(yaw_in_robot, group)), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
     const Eigen::Vector3d ray = sighting.position_in_robot - node.world_from_robot.translation();
     View& view = views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))];
@@ -189,7 +230,8 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
 
 void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
-  for (const auto& [direction, view] : viewsByDirection(seen, poses, options.landmark_side_rad)) {
+  const double yaw = votedYaw(seen, poses).value_or(landmark.yaw);
+  for (const auto& [direction, view] : viewsByDirection(seen, poses, yaw, options.landmark_side_rad)) {
     std::vector<LandmarkFactor> visits;
     const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
     for (const Visit& visit : view.visits) {
@@ -200,7 +242,7 @@ void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
       sighting.robust_width = options.landmark_robust_width;
       out.sightings.push_back(sighting);
     }
-    out.views[id] = {landmark.position, landmark.yaw, landmark.shape};
+    out.views[id] = {landmark.position, yaw, landmark.shape};
     out.shared_errors.push_back(sharedError(visits, options));
     out.shared_errors.back().view = id;
     if (usual && view.size.weight > kLeastWeight) out.sizes.push_back(view.size.factor(landmark.id, *usual));

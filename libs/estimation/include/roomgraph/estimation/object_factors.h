@@ -17,7 +17,8 @@ namespace roomgraph {
 
 /// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
-  std::map<LandmarkId, LandmarkEstimate> views;  ///< landmarks as they seem from one direction
+  std::map<LandmarkId, LandmarkEstimate>
+      views;  ///< landmarks as they seem from one direction, with the yaw of most sightings
   std::vector<LandmarkViewFactor> shared_errors;  ///< of views against their landmarks
   std::vector<LandmarkFactor> sightings;         ///< of views
   std::vector<LandmarkBoxFactor> boxes;
