@@ -26,7 +26,7 @@ Pose3 flat(Random& random, double reach, double angle) {
   return toPose3(pose);
 }
 
-// Poses, movements and sightings in the plane, with covariances that couple x, y and yaw.
+// Poses, movements, sightings and views in the plane, with covariances that couple x, y and yaw.
 FactorGraph flatGraph(unsigned seed) {
   Random random(seed);
   FactorGraph graph;
@@ -58,6 +58,19 @@ FactorGraph flatGraph(unsigned seed) {
     f.robust_width = 0;
     graph.add(f);
   }
+  for (const int id : {4, 5}) {
+    const Pose2 view{object.x + random.uniform(-0.2, 0.2), object.y + random.uniform(-0.2, 0.2),
+                     object.yaw + 0.1};
+    graph.addLandmark(LandmarkId{id}, {{view.x, view.y, 0}, view.yaw, {ShapeKind::kCuboid, 1, 2, 3}});
+    LandmarkViewFactor f{LandmarkId{id}, LandmarkId{3}, id == 4};
+    const Eigen::Matrix3d covariance = someCovariance(random);
+    const int rows[] = {0, 1, 3};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) f.covariance(rows[r], rows[c]) = covariance(r, c);
+    f.weight = random.uniform(0.2, 1);
+    f.robust_width = 0;
+    graph.add(f);
+  }
   return graph;
 }
 
@@ -65,7 +78,7 @@ TEST(PlanarProjection, HasTheErrorOfTheSpatialGraph) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const FactorGraph graph = flatGraph(seed);
     const PlanarGraph planar = graph.planar();
-    EXPECT_EQ(planar.poses.size(), 9u);
+    EXPECT_EQ(planar.poses.size(), 11u);
     EXPECT_EQ(planar.edges.size(), graph.factors());
     EXPECT_EQ(planar.fixed, std::set<NodeId>{NodeId{0}});
     // The token information of a yaw that was not measured adds next to nothing (1e-3 of yaw squared).
@@ -92,6 +105,17 @@ TEST(PlanarProjection, FileKeepsLandmarksAndTimes) {
   saveG2o(loaded, folder.file("b.g2o"), content.times);
   EXPECT_THAT(folder.read("b.g2o"), HasSubstr("# STAMP 4 1700000001.123456\n"));
   EXPECT_THAT(folder.read("b.g2o"), HasSubstr("# LANDMARK 18 3 cuboid 1 2 3\n"));
+}
+
+TEST(G2oFile, OfASpatialGraphHasItsErrorAndItsViews) {
+  const TemporaryFolder folder;
+  const FactorGraph graph = flatGraph(3);
+  graph.saveG2o(folder.file("a.g2o"));
+  const auto content = loadG2o(folder.file("a.g2o"));
+  const auto& loaded = std::get<FactorGraph>(content.graph);
+  EXPECT_EQ(loaded.factors(), graph.factors());
+  EXPECT_EQ(loaded.landmarks(), 3u);
+  EXPECT_NEAR(loaded.chiSquared(), graph.chiSquared(), 1e-6 * graph.chiSquared());
 }
 
 TEST(G2oTimes, OfASpatialGraphComeBack) {

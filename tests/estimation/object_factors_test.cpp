@@ -31,11 +31,9 @@ TEST(Sighting, AgreesWithThePosesItWasMadeFrom) {
     decision.seen.measurement.proposal.score = 0.5;
     decision.seen.measurement.confidence = 0.8;
     decision.association.probability = 0.9;
-    Landmark seen = landmark;
-    if (i % 2) seen.yaw += M_PI;  // taken for its back
     decision.seen.measurement.proposal.camera_from_object =
-        (node.world_from_robot * node_from_camera).inverse() * seen.worldFromObject();
-    const LandmarkFactor factor = sightingOf(decision, landmark, node, node_from_camera);
+        (node.world_from_robot * node_from_camera).inverse() * landmark.worldFromObject();
+    const LandmarkFactor factor = sightingOf(decision, landmark.id, node, node_from_camera);
     EXPECT_EQ(factor.node.value, 7);
     EXPECT_EQ(factor.landmark.value, 3);
     EXPECT_LT((node.world_from_robot * factor.position_in_robot - landmark.position).norm(), 1e-9);
@@ -184,7 +182,7 @@ TEST(ObjectFactors, TheYawIsThatOfMostSightingsNotOfTheSurest) {
     proposal.covariance(3, 3) = wrong ? 0.001 : 0.1;
   }
   Landmark landmark = chair();
-  landmark.yaw = 1.9;  // within a quarter turn, so that front and back stay as they are
+  landmark.yaw = 2.0;
   landmark.has_yaw = true;
   const BackendOptions options;
   const ObjectFactors factors = objectFactors(frames, poses, {landmark}, {}, options);

@@ -202,8 +202,6 @@ TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
 // sight is one to the robot's side. The pose's own uncertainty, in the covariance in world, is not the
 // sighting's.
 TEST(SightingCovariance, IsInTheRobotsFrame) {
-  Landmark landmark;
-  landmark.id = LandmarkId{1};
   const KeyPose node{NodeId{0}, 0, poseFromYpr(1, 1, 0, M_PI / 2, 0, 0)};
   ObjectDecision decision;
   decision.seen.covariance = 7 * Eigen::Matrix4d::Identity();
@@ -212,7 +210,7 @@ TEST(SightingCovariance, IsInTheRobotsFrame) {
   covariance(0, 1) = covariance(1, 0) = 0.02;
   Pose3 robot_from_camera = poseFromYpr(0.1, 0, 1, M_PI / 2, 0, 0);
   robot_from_camera.linear() = robot_from_camera.linear() * bodyFromOptical();
-  const auto factor = sightingOf(decision, landmark, node, robot_from_camera);
+  const auto factor = sightingOf(decision, LandmarkId{1}, node, robot_from_camera);
   EXPECT_NEAR(factor.covariance(0, 0), 0.01, 1e-12);
   EXPECT_NEAR(factor.covariance(1, 1), 0.09, 1e-12);
   EXPECT_NEAR(factor.covariance(0, 1), -0.02, 1e-12);

@@ -4,7 +4,9 @@
 
 #include "drive.h"
 #include "fake_stages.h"
+#include "roomgraph/backend/g2o_file.h"
 #include "roomgraph/core/errors.h"
+#include "temporary_folder.h"
 
 namespace roomgraph::test {
 namespace {
@@ -84,6 +86,16 @@ TEST_F(ObjectStagesTest, TheMapIsTheOptimumOfTheGraph) {
     EXPECT_EQ(landmark.shape.height, optimum.shape.height);
     EXPECT_EQ(landmark.covariance, covariances->at(landmark.id));
   }
+  const TemporaryFolder folder;
+  slam.graph().saveG2o(folder.file("graph.g2o"));
+  const auto content = loadG2o(folder.file("graph.g2o"));
+  const auto& saved = std::get<FactorGraph>(content.graph);
+  for (const auto& landmark : result.map.landmarks) {
+    EXPECT_LT((saved.landmark(landmark.id).position - landmark.position).norm(), 1e-12);
+    EXPECT_NEAR(saved.landmark(landmark.id).yaw, landmark.yaw, 1e-9);
+    EXPECT_EQ(saved.landmark(landmark.id).shape.width, landmark.shape.width);
+  }
+  EXPECT_TRUE(saved.landmarkCovariances()) << "every landmark is tied to the poses, through its views";
 }
 
 TEST_F(ObjectStagesTest, SightingsReachTheSinks) {

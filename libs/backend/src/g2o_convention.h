@@ -31,6 +31,14 @@ inline Matrix6d covarianceOfG2o(const Pose3& measured, const Matrix6d& informati
   return d * information.inverse() * d.transpose();
 }
 
+/// Covariance of (x, y, z, yaw) from world into the frame of something that is turned by `yaw`, and back with
+/// -yaw.
+inline Eigen::Matrix4d turnedBy(const Eigen::Matrix4d& covariance, double yaw) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-yaw).toRotationMatrix();
+  return turn * covariance * turn.transpose();
+}
+
 /// Position and yaw of a landmark in the robot's frame as the transform of an edge.
 inline Pose3 measuredTransform(const LandmarkFactor& f) {
   const auto& p = f.position_in_robot;

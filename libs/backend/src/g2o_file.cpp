@@ -51,9 +51,8 @@ void writeLandmark(std::ostream& out, NodeId vertex, LandmarkId id, const Object
 
 // A landmark's measurement observes x, y, z and perhaps yaw; the rest gets a small weight, as readers demand a
 // positive definite matrix.
-Matrix6d informationOf(const LandmarkFactor& factor) {
-  Eigen::Matrix4d covariance = factor.covariance;
-  if (!factor.has_yaw) {
+Matrix6d informationOf(const Pose3& measured, Eigen::Matrix4d covariance, bool has_yaw) {
+  if (!has_yaw) {
     covariance.row(3).setZero();
     covariance.col(3).setZero();
     covariance(3, 3) = 1;
@@ -61,10 +60,10 @@ Matrix6d informationOf(const LandmarkFactor& factor) {
   Matrix6d wide = Matrix6d::Identity();
   constexpr std::array<int, 4> kRows{0, 1, 2, 5};
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) wide(kRows[i], kRows[j]) = covariance(i, j) / factor.weight;
-  Matrix6d information = g2oInformation(measuredTransform(factor), wide);
+    for (int j = 0; j < 4; ++j) wide(kRows[i], kRows[j]) = covariance(i, j);
+  Matrix6d information = g2oInformation(measured, wide);
   for (int i : {3, 4}) information(i, i) = kTokenInformation;
-  if (!factor.has_yaw) information(5, 5) = kTokenInformation;
+  if (!has_yaw) information(5, 5) = kTokenInformation;
   return information;
 }
 
@@ -100,8 +99,17 @@ void FactorGraph::saveG2o(const std::filesystem::path& file, const NodeTimes& ti
     if (sighting && sighting->weight > kLeastWeight) {
       out << "EDGE_SE3:QUAT " << sighting->node << ' ' << impl_->vertexOf(sighting->landmark);
       writeTransform(out, measuredTransform(*sighting));
-      writeUpper<6>(out, informationOf(*sighting));
+      writeUpper<6>(out, informationOf(measuredTransform(*sighting), sighting->covariance / sighting->weight,
+                                       sighting->has_yaw));
     }
+  }
+  for (const auto& entry : impl_->factors) {
+    const auto* view = std::get_if<LandmarkViewFactor>(&entry.factor);
+    if (!view || view->weight <= kLeastWeight) continue;
+    out << "EDGE_SE3:QUAT " << impl_->vertexOf(view->landmark) << ' ' << impl_->vertexOf(view->view);
+    writeTransform(out, Pose3::Identity());
+    const Eigen::Matrix4d covariance = turnedBy(view->covariance, landmark(view->landmark).yaw);
+    writeUpper<6>(out, informationOf(Pose3::Identity(), covariance / view->weight, view->has_yaw));
   }
   writeFileAtomically(file, out.str());
 }

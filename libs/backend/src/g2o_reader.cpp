@@ -209,7 +209,7 @@ std::set<NodeId> checked(const FileContent& content, const std::filesystem::path
   for (const auto& edge : content.edges) {
     known(edge.line, edge.a, "edge to");
     known(edge.line, edge.b, "edge to");
-    if (content.landmarks.contains(edge.a))
+    if (content.landmarks.contains(edge.a) && !content.landmarks.contains(edge.b))
       throw InputError(file.string() + ":" + std::to_string(edge.line) + ": edge starts at landmark vertex " +
                        std::to_string(edge.a.value));
   }
@@ -240,15 +240,32 @@ PlanarGraph planarGraph(const FileContent& content, const std::set<NodeId>& fixe
   return graph;
 }
 
-LandmarkFactor sightingOf(const Edge& edge, LandmarkId landmark) {
-  LandmarkFactor factor{edge.a, landmark};
-  factor.has_yaw = edge.information(5, 5) != kTokenInformation;
-  factor.position_in_robot = edge.a_from_b.translation();
-  factor.yaw_in_robot = factor.has_yaw ? planarPart(edge.a_from_b).yaw : 0;
+bool measuresYaw(const Edge& edge) {
+  return edge.information(5, 5) != kTokenInformation;
+}
+
+Eigen::Matrix4d placeCovariance(const Edge& edge) {
   const Matrix6d wide = covarianceOfG2o(edge.a_from_b, edge.information);
   constexpr int kRows[] = {0, 1, 2, 5};
+  Eigen::Matrix4d covariance;
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) factor.covariance(i, j) = wide(kRows[i], kRows[j]);
+    for (int j = 0; j < 4; ++j) covariance(i, j) = wide(kRows[i], kRows[j]);
+  return covariance;
+}
+
+LandmarkFactor sightingOf(const Edge& edge, LandmarkId landmark) {
+  LandmarkFactor factor{edge.a, landmark};
+  factor.has_yaw = measuresYaw(edge);
+  factor.position_in_robot = edge.a_from_b.translation();
+  factor.yaw_in_robot = factor.has_yaw ? planarPart(edge.a_from_b).yaw : 0;
+  factor.covariance = placeCovariance(edge);
+  factor.robust_width = 0;
+  return factor;
+}
+
+// From a landmark to how it seems from one direction.
+LandmarkViewFactor viewOf(const Edge& edge, LandmarkId landmark, LandmarkId view, double yaw) {
+  LandmarkViewFactor factor{view, landmark, measuresYaw(edge), turnedBy(placeCovariance(edge), -yaw)};
   factor.robust_width = 0;
   return factor;
 }
@@ -265,8 +282,12 @@ FactorGraph spatialGraph(const FileContent& content, const std::set<NodeId>& fix
     }
   }
   for (const auto& edge : content.edges) {
-    if (const auto landmark = content.landmarks.find(edge.b); landmark != content.landmarks.end())
-      graph.add(sightingOf(edge, landmark->second.id));
+    const auto from = content.landmarks.find(edge.a), seen = content.landmarks.find(edge.b);
+    if (from != content.landmarks.end())
+      graph.add(
+          viewOf(edge, from->second.id, seen->second.id, planarPart(content.vertices.at(edge.a).pose).yaw));
+    else if (seen != content.landmarks.end())
+      graph.add(sightingOf(edge, seen->second.id));
     else
       graph.add(
           BetweenFactor{edge.a, edge.b, edge.a_from_b, covarianceOfG2o(edge.a_from_b, edge.information)});

@@ -24,21 +24,25 @@ PlanarEdge edgeOf(const BetweenFactor& movement) {
   return edge;
 }
 
-PlanarEdge edgeOf(const LandmarkFactor& sighting, NodeId vertex) {
-  const double yaw = sighting.has_yaw ? sighting.yaw_in_robot : 0;
-  PlanarEdge edge{
-      sighting.node, vertex, {sighting.position_in_robot.x(), sighting.position_in_robot.y(), yaw}};
+// Of a covariance of (x, y, z, yaw), without height.
+Eigen::Matrix3d planarInformation(const Eigen::Matrix4d& of_place, bool has_yaw) {
   Eigen::Matrix3d covariance;
   constexpr int kRows[] = {0, 1, 3};
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) covariance(i, j) = sighting.covariance(kRows[i], kRows[j]) / sighting.weight;
+    for (int j = 0; j < 3; ++j) covariance(i, j) = of_place(kRows[i], kRows[j]);
+  if (has_yaw) return covariance.inverse();
   Eigen::Matrix3d information = Eigen::Vector3d(0, 0, kTokenInformation).asDiagonal();
-  if (sighting.has_yaw)
-    information = covariance.inverse();
-  else
-    information.topLeftCorner<2, 2>() = covariance.topLeftCorner<2, 2>().inverse();
-  edge.information = turnedInformation(information, yaw);
-  return edge;
+  information.topLeftCorner<2, 2>() = covariance.topLeftCorner<2, 2>().inverse();
+  return information;
+}
+
+PlanarEdge edgeOf(const LandmarkFactor& sighting, NodeId vertex) {
+  const double yaw = sighting.has_yaw ? sighting.yaw_in_robot : 0;
+  const auto& p = sighting.position_in_robot;
+  return {sighting.node,
+          vertex,
+          {p.x(), p.y(), yaw},
+          turnedInformation(planarInformation(sighting.covariance / sighting.weight, sighting.has_yaw), yaw)};
 }
 
 }  // namespace
@@ -62,6 +66,13 @@ PlanarGraph FactorGraph::planar() const {
     const auto* sighting = std::get_if<LandmarkFactor>(&entry.factor);
     if (sighting && sighting->weight > kLeastWeight)
       out.edges.push_back(edgeOf(*sighting, impl_->vertexOf(sighting->landmark)));
+  }
+  for (const auto& entry : impl_->factors) {
+    const auto* view = std::get_if<LandmarkViewFactor>(&entry.factor);
+    if (!view || view->weight <= kLeastWeight) continue;
+    const Eigen::Matrix4d covariance = turnedBy(view->covariance, landmark(view->landmark).yaw);
+    out.edges.push_back({impl_->vertexOf(view->landmark), impl_->vertexOf(view->view), Pose2{},
+                         planarInformation(covariance / view->weight, view->has_yaw)});
   }
   return out;
 }

@@ -14,17 +14,15 @@
 
 namespace roomgraph {
 
-LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landmark, const KeyPose& node,
+LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, const KeyPose& node,
                           const Pose3& node_from_camera) {
   const auto& measurement = decision.seen.measurement;
   const Pose3 node_from_object = node_from_camera * measurement.proposal.camera_from_object;
-  LandmarkFactor factor{.node = node.id, .landmark = landmark.id};
+  LandmarkFactor factor{.node = node.id, .landmark = landmark};
   factor.position_in_robot = node_from_object.translation();
   factor.has_yaw = measurement.proposal.has_yaw;
   const double node_yaw = planarPart(node.world_from_robot).yaw;
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
-  if (std::abs(wrapAngle(node_yaw + factor.yaw_in_robot - landmark.yaw)) > std::numbers::pi / 2)
-    factor.yaw_in_robot = wrapAngle(factor.yaw_in_robot + std::numbers::pi);
   // Without the uncertainty of the pose, which is the graph's own.
   const Eigen::Matrix4d in_world =
       measurementInWorld(measurement, decision.seen.camera, node.world_from_robot * node_from_camera, 0).covariance;
@@ -108,7 +106,7 @@ struct Gathered {
 void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Landmark& landmark,
             const KeyPose& node, const Pose3& node_from_camera, const BackendOptions& options, double trust,
             Gathered& out) {
-  LandmarkFactor sighting = sightingOf(decision, landmark, node, node_from_camera);
+  LandmarkFactor sighting = sightingOf(decision, landmark.id, node, node_from_camera);
   sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
@@ -231,7 +229,7 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
 void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   const double yaw = votedYaw(seen, poses).value_or(landmark.yaw);
-  for (const auto& [direction, view] : viewsByDirection(seen, poses, yaw, options.landmark_side_rad)) {
+  for (const auto& [direction, view] : viewsByDirection(seen, poses, yaw, options.landmark_view_rad)) {
     std::vector<LandmarkFactor> visits;
     const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
     for (const Visit& visit : view.visits) {

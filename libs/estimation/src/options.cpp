@@ -71,15 +71,14 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
         {.doc = "Standard deviation of the pixel of such a point.", .unit = "px", .min = 0.1, .max = 100});
   v.add("landmark_information_share", o.landmark_information_share,
         {.doc = "Share of the information of a box, and of a point within a landmark, that enters the graph, "
-                "because "
-                "those in a row share their errors.",
+                "because those in a row share their errors.",
          .min = 1e-4,
          .max = 1});
   v.add("landmark_repeating_share", o.landmark_repeating_share,
         {.doc = "Share of a sighting's variance that all sightings of the object from one direction have in common.",
          .min = 0.01,
          .max = 0.99});
-  v.add("landmark_side_rad", o.landmark_side_rad,
+  v.add("landmark_view_rad", o.landmark_view_rad,
         {.doc =
              "Directions of view within this angle count as one view of a landmark, whose sightings share an "
              "error.",

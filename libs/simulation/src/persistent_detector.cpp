@@ -10,7 +10,8 @@ namespace roomgraph {
 namespace {
 
 constexpr std::uint64_t kOwnStream = 101, kFreshStream = 102;
-// Shares of the variance: of the object, of the view, of the moment. Their squares sum to 1.
+// Standard deviations of the parts of an error: of the object, of the view, of the moment. Their squares sum
+// to 1.
 constexpr double kOfObject = 0.6, kOfView = 0.65, kOfMoment = 0.4664;
 // Purposes of an object's errors: labels from 0, the four edges, the second box.
 constexpr int kEdges = 20, kDuplicate = 30;

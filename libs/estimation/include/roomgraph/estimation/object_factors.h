@@ -17,10 +17,10 @@ namespace roomgraph {
 
 /// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
-  std::map<LandmarkId, LandmarkEstimate>
-      views;  ///< landmarks as they seem from one direction, with the yaw of most sightings
+  /// Landmarks as they seem from one direction, with the yaw of most sightings.
+  std::map<LandmarkId, LandmarkEstimate> views;
   std::vector<LandmarkViewFactor> shared_errors;  ///< of views against their landmarks
-  std::vector<LandmarkFactor> sightings;         ///< of views
+  std::vector<LandmarkFactor> sightings;          ///< of views
   std::vector<LandmarkBoxFactor> boxes;
   std::vector<LandmarkSizeFactor> sizes;
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, at the measured depth
@@ -47,6 +47,9 @@ struct ObjectsInGraph {
 ///   their information (BackendOptions::landmark_information_share): their errors repeat, too, without a
 ///   model yet.
 ///
+/// The yaw is that of most sightings; front and back of an object are easily confused, so opposite yaws are
+/// reversed, and those across took width for depth and measure no yaw.
+///
 /// Weights are association probability x selection confidence x initialisation score. A measurement of
 /// another class than its landmark's gives no factor. `model` (may be null) lowers the weight of measurements
 /// that fit the viewing ray but not the depth, because their depth failed.
@@ -54,9 +57,8 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
 
-/// Factor between a key pose and the landmark of a measurement. A yaw that differs from the landmark's by more than a
-/// quarter turn is turned by half a turn: front and back of an object are easily confused, its axis is not.
-LandmarkFactor sightingOf(const ObjectDecision& decision, const Landmark& landmark, const KeyPose& node,
+/// Factor between a key pose and the landmark of a measurement, as it was measured.
+LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, const KeyPose& node,
                           const Pose3& node_from_camera);
 
 /// Weighted mean of sightings of one landmark from one key pose; covariance and weight are those of a single

@@ -27,7 +27,7 @@ struct BackendOptions : Configurable {
   double pose_sigma_m = 0.03;
   double landmark_information_share = 0.01;
   double landmark_repeating_share = 0.5;
-  double landmark_side_rad = 0.26;
+  double landmark_view_rad = 0.26;
   bool object_boxes = true;
   bool planar_graph = false;
   double box_sigma_px = 60, point_sigma_px = 20;
