@@ -4,8 +4,8 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
+#include "json_numbers.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
@@ -13,14 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kPerUnit = 1e4;
+
 double rounded(double value) {
-  return std::round(value * 1e4) / 1e4;
+  return roundedTo(value, kPerUnit);
 }
 
 Json list(const Eigen::VectorXd& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(rounded(value));
-  return out;
+  return numbersJson(values, kPerUnit);
 }
 
 Json list(const cv::Rect& box) {

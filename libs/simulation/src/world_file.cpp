@@ -9,6 +9,7 @@
 #include "sensor_entries.h"
 #include "texture.h"
 #include "world_check.h"
+#include "world_names.h"
 
 namespace roomgraph {
 namespace {
@@ -25,11 +26,7 @@ std::string meshFile(JsonEntry& entry) {
 }
 
 Side side(JsonEntry& entry) {
-  const std::string name = entry.choice("side", std::nullopt, {"north", "east", "south", "west"});
-  return name == "north"   ? Side::kNorth
-         : name == "east"  ? Side::kEast
-         : name == "south" ? Side::kSouth
-                           : Side::kWest;
+  return valueOf(kSideWords, entry.choice("side", std::nullopt, allWords(kSideWords)));
 }
 
 Doorway doorway(JsonEntry& entry, double wall_height) {
@@ -39,11 +36,7 @@ Doorway doorway(JsonEntry& entry, double wall_height) {
   out.at_m = entry.number("at_m", std::nullopt, -kFar, kFar);
   out.width_m = entry.number("width_m", out.width_m, 0.3, 100);
   out.height_m = entry.number("height_m", std::min(out.height_m, wall_height), 0.5, wall_height);
-  const std::string door = entry.choice("door", "none", {"none", "closed", "half_open", "open"});
-  out.door = door == "closed"      ? DoorState::kClosed
-             : door == "half_open" ? DoorState::kHalfOpen
-             : door == "open"      ? DoorState::kOpen
-                                   : DoorState::kNone;
+  out.door = valueOf(kDoorWords, entry.choice("door", "none", allWords(kDoorWords)));
   out.color = entry.color("color", out.color);
   out.mesh_file = meshFile(entry);
   if (!out.mesh_file.empty() && out.door != DoorState::kClosed)

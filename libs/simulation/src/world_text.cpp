@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writer of world files: the counterpart of their parser.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "json_numbers.h"
 #include "roomgraph/geometry/degree.h"
 #include "roomgraph/simulation/world_file.h"
+#include "world_names.h"
 
 namespace roomgraph {
 namespace {
 
 using WorldJson = nlohmann::ordered_json;
 
+constexpr double kPerUnit = 1e6;
+
 double neat(double value) {
-  return std::round(value * 1e6) / 1e6;
+  return roundedTo(value, kPerUnit);
 }
 
-WorldJson numbersJson(const Eigen::VectorXd& values) {
-  WorldJson out = WorldJson::array();
-  for (const double value : values) out.push_back(neat(value));
-  return out;
+WorldJson neat(const Eigen::VectorXd& values) {
+  return numbersJson(values, kPerUnit);
 }
 
 std::string colorText(const std::array<double, 3>& rgb) {
@@ -35,19 +36,8 @@ WorldJson degrees(double radians) {
 
 WorldJson pathJson(const std::vector<Eigen::Vector2d>& points) {
   WorldJson out = WorldJson::array();
-  for (const auto& point : points) out.push_back(numbersJson(point));
+  for (const auto& point : points) out.push_back(neat(point));
   return out;
-}
-
-std::string sideName(Side side) {
-  return side == Side::kNorth ? "north" : side == Side::kEast ? "east" : side == Side::kSouth ? "south" : "west";
-}
-
-std::string doorName(DoorState state) {
-  return state == DoorState::kClosed     ? "closed"
-         : state == DoorState::kHalfOpen ? "half_open"
-         : state == DoorState::kOpen     ? "open"
-                                         : "none";
 }
 
 WorldJson surfaceJson(const Material& material) {
@@ -56,19 +46,19 @@ WorldJson surfaceJson(const Material& material) {
 
 WorldJson roomJson(const Room& room) {
   WorldJson out{{"name", room.name},
-                {"corner_m", numbersJson(room.min_m)},
-                {"size_m", numbersJson(room.max_m - room.min_m)},
+                {"corner_m", neat(room.min_m)},
+                {"size_m", neat(room.max_m - room.min_m)},
                 {"wall", surfaceJson(room.wall)},
                 {"floor", surfaceJson(room.floor)}};
   for (const auto& doorway : room.doorways) {
-    WorldJson item{{"side", sideName(doorway.side)},      {"at_m", neat(doorway.at_m)},
-                   {"width_m", neat(doorway.width_m)},    {"height_m", neat(doorway.height_m)},
-                   {"door", doorName(doorway.door)},      {"color", colorText(doorway.color)}};
+    WorldJson item{{"side", wordOf(kSideWords, doorway.side)}, {"at_m", neat(doorway.at_m)},
+                   {"width_m", neat(doorway.width_m)},         {"height_m", neat(doorway.height_m)},
+                   {"door", wordOf(kDoorWords, doorway.door)}, {"color", colorText(doorway.color)}};
     if (!doorway.mesh_file.empty()) item["mesh"] = doorway.mesh_file;
     out["doorways"].push_back(item);
   }
   for (const auto& poster : room.posters)
-    out["posters"].push_back({{"side", sideName(poster.side)},
+    out["posters"].push_back({{"side", wordOf(kSideWords, poster.side)},
                               {"at_m", neat(poster.at_m)},
                               {"z_m", neat(poster.z_m)},
                               {"width_m", neat(poster.width_m)},
@@ -79,10 +69,10 @@ WorldJson roomJson(const Room& room) {
 
 WorldJson furnitureJson(const Furniture& item) {
   WorldJson out{{"model", item.model},
-                {"at_m", numbersJson(item.at_m.head<2>())},
+                {"at_m", neat(item.at_m.head<2>())},
                 {"z_m", neat(item.at_m.z())},
                 {"yaw_deg", degrees(item.yaw_rad)}};
-  if (item.size_m) out["size_m"] = numbersJson(*item.size_m);
+  if (item.size_m) out["size_m"] = neat(*item.size_m);
   if (item.color) out["color"] = colorText(*item.color);
   if (item.shape != 0) out["shape"] = item.shape;
   if (!item.mesh_file.empty()) out["mesh"] = item.mesh_file;
@@ -117,7 +107,7 @@ WorldJson robotJson(const RobotPathSpec& robot) {
 WorldJson handheldJson(const HandheldSpec& handheld) {
   WorldJson views = WorldJson::array();
   for (const auto& key : handheld.keys)
-    views.push_back({{"at_m", numbersJson(key.at_m)}, {"look_at_m", numbersJson(key.look_at_m)}});
+    views.push_back({{"at_m", neat(key.at_m)}, {"look_at_m", neat(key.look_at_m)}});
   return {{"views", views}, {"closed", handheld.closed}, {"speed_m_s", neat(handheld.speed_m_s)}};
 }
 
@@ -131,17 +121,21 @@ WorldJson cameraJson(const CameraSpec& camera, bool robot) {
                 {"noise", neat(camera.noise_gain)},
                 {"jpeg_quality", camera.jpeg_quality}};
   if (robot) {
-    out["at_m"] = numbersJson(camera.at_m);
+    out["at_m"] = neat(camera.at_m);
     out["pitch_down_deg"] = degrees(camera.pitch_down_rad);
   }
   return out;
 }
 
 WorldJson lidarJson(const LidarSpec& lidar) {
-  return {{"rate_hz", neat(lidar.rate_hz)},      {"beams", lidar.beams},
-          {"at_m", numbersJson(lidar.at_m)},     {"range_min_m", neat(lidar.min_m)},
-          {"range_max_m", neat(lidar.max_m)},    {"sigma_m", neat(lidar.sigma_m)},
-          {"sigma_relative", neat(lidar.sigma_relative)}, {"dropouts", neat(lidar.dropouts)}};
+  return {{"rate_hz", neat(lidar.rate_hz)},
+          {"beams", lidar.beams},
+          {"at_m", neat(lidar.at_m)},
+          {"range_min_m", neat(lidar.min_m)},
+          {"range_max_m", neat(lidar.max_m)},
+          {"sigma_m", neat(lidar.sigma_m)},
+          {"sigma_relative", neat(lidar.sigma_relative)},
+          {"dropouts", neat(lidar.dropouts)}};
 }
 
 WorldJson odometryJson(const OdometrySpec& odometry) {
