@@ -67,6 +67,8 @@ FactorGraph flatGraph(unsigned seed) {
     const int rows[] = {0, 1, 3};
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) f.covariance(rows[r], rows[c]) = covariance(r, c);
+    // Without a yaw the file has the same variance in all directions.
+    if (!f.has_yaw) f.covariance = 0.01 * Eigen::Matrix4d::Identity();
     f.weight = random.uniform(0.2, 1);
     f.robust_width = 0;
     graph.add(f);

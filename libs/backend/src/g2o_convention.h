@@ -39,6 +39,16 @@ inline Eigen::Matrix4d turnedBy(const Eigen::Matrix4d& covariance, double yaw) {
   return turn * covariance * turn.transpose();
 }
 
+/// Covariance of a view's edge, in the frame of its landmark. One without a yaw has a vertex that is free to turn: its
+/// horizontal covariance is made the same in all directions, or the solver would turn it to where errors cost least.
+inline Eigen::Matrix4d edgeCovariance(const LandmarkViewFactor& f, double landmark_yaw) {
+  if (f.has_yaw) return turnedBy(f.covariance, landmark_yaw) / f.weight;
+  Eigen::Matrix4d round = Eigen::Matrix4d::Identity();
+  round.topLeftCorner<2, 2>() *= f.covariance.topLeftCorner<2, 2>().trace() / 2;
+  round(2, 2) = f.covariance(2, 2);
+  return round / f.weight;
+}
+
 /// Position and yaw of a landmark in the robot's frame as the transform of an edge.
 inline Pose3 measuredTransform(const LandmarkFactor& f) {
   const auto& p = f.position_in_robot;

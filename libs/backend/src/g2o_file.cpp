@@ -108,8 +108,8 @@ void FactorGraph::saveG2o(const std::filesystem::path& file, const NodeTimes& ti
     if (!view || view->weight <= kLeastWeight) continue;
     out << "EDGE_SE3:QUAT " << impl_->vertexOf(view->landmark) << ' ' << impl_->vertexOf(view->view);
     writeTransform(out, Pose3::Identity());
-    const Eigen::Matrix4d covariance = turnedBy(view->covariance, landmark(view->landmark).yaw);
-    writeUpper<6>(out, informationOf(Pose3::Identity(), covariance / view->weight, view->has_yaw));
+    const Eigen::Matrix4d covariance = edgeCovariance(*view, landmark(view->landmark).yaw);
+    writeUpper<6>(out, informationOf(Pose3::Identity(), covariance, view->has_yaw));
   }
   writeFileAtomically(file, out.str());
 }

@@ -70,9 +70,9 @@ PlanarGraph FactorGraph::planar() const {
   for (const auto& entry : impl_->factors) {
     const auto* view = std::get_if<LandmarkViewFactor>(&entry.factor);
     if (!view || view->weight <= kLeastWeight) continue;
-    const Eigen::Matrix4d covariance = turnedBy(view->covariance, landmark(view->landmark).yaw);
+    const Eigen::Matrix4d covariance = edgeCovariance(*view, landmark(view->landmark).yaw);
     out.edges.push_back({impl_->vertexOf(view->landmark), impl_->vertexOf(view->view), Pose2{},
-                         planarInformation(covariance / view->weight, view->has_yaw)});
+                         planarInformation(covariance, view->has_yaw)});
   }
   return out;
 }
