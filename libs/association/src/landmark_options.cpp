@@ -32,8 +32,8 @@ void LandmarkOptions::declareParameters(ParameterVisitor& v) {
          .max = 1000});
   v.add("exclusive_overlap", exclusive_overlap,
         {.doc =
-             "Of two landmarks of different classes, one of which covers more than this share of the other's "
-             "footprint, only the one with more evidence is in the map.",
+             "Of two landmarks that overlap by more than this share of the smaller one's footprint, only the one with "
+             "more evidence is in the map.",
          .min = 0,
          .max = 1});
   v.add(
