@@ -19,8 +19,7 @@ export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan_suppressions.txt ${TSAN_OPTION
 test_preset() {
   cmake --preset "$1" >"build/$1.configure.log" 2>&1 || { cat "build/$1.configure.log"; return 1; }
   cmake --build --preset "$1" -j "$jobs" || return 1
-  # Instrumented programs are several times slower.
-  ctest --preset "$1" -j "$jobs" --timeout 1800
+  ctest --preset "$1" -j "$jobs"
 }
 
 tidy() {

@@ -14,6 +14,7 @@ HEAD = f"""#include <cstdlib>
 """
 WRAPPED = {"expression": "(ROOMGRAPH_FAULT(\"%s\") ? (%s) : (%s))",
            "statement": "{ if (ROOMGRAPH_FAULT(\"%s\")) { %s\n} else { %s\n} }"}  # it may end with a comment
+ERROR = re.compile(r"^(?:\S*?/)?((?:libs|apps|plugins|tests)/\S+?):(\d+):\d+: (?:fatal )?error:", re.MULTILINE)
 LIBRARY = re.compile(r"\broomgraph::(\w+)")
 PROGRAM = re.compile(r"\broomgraph_add_test\(\s*(\w+)")
 
@@ -95,6 +96,16 @@ def switched(root, faults):
             text, end = text[:begin] + wrapped + text[begin + len(fault["find"]):], begin
         files[path] = HEAD + text
     return files
+
+
+def blamed(output, files):
+    """Names of the switched faults in whose text, or just after it, the compiler found errors; `files`: see switched()."""
+    names = set()
+    for path, line in ERROR.findall(output):
+        before = "\n".join(files.get(path, "").split("\n")[:int(line)])
+        switches = re.findall(SWITCH + r'\("([^"]+)"\) ?[?)]', before)
+        names.update(switches[-1:])
+    return names
 
 
 # --- which tests see a library ---

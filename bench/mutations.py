@@ -17,6 +17,8 @@ build for all of them. Without `kind` the text is replaced and the library is bu
 which takes half a minute: one file 5.3 s of CPU with -O0, 6.6 with -O3, the unity group of eight that it is in 11.6,
 most of it for headers. The default preset is `release`, because with ccache its libraries are compiled already.
 
+A fault that does not compile behind a switch is found by the lines of the compiler's errors, and built alone as well.
+
 The work happens in copies of the source tree, DIR/1 to DIR/N (default build/mutations), which are kept: the next call
 builds only what changed. The tree itself is never touched. In each copy all test programs are run without a fault
 first, then, fault by fault, the tests of that library, followed by those of everything that links it, until one
@@ -27,6 +29,7 @@ every fault that was built and has no `why` is caught, 1 when one is not, 2 for 
 """
 import argparse
 import fcntl
+import itertools
 import json
 import os
 import pathlib
@@ -39,7 +42,8 @@ import sys
 import threading
 import time
 
-from mutation_list import SWITCH, BadInput, chosen, load_faults, programs_for, switched, test_programs
+from mutation_list import (SWITCH, BadInput, blamed, chosen, load_faults, programs_for, switched,
+                           test_programs)
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LEAST_TIMEOUT_S, SLOWER = 60, 10
@@ -84,6 +88,7 @@ class Copy:
         self.build = folder / "build" / preset
         self.process = None
         self.usual_s = {}
+        self.alone = set()  # names of the faults that are not behind a switch in this copy
 
     def call(self, command, timeout=None, fault=""):
         """(exit code or None after the timeout, output)."""
@@ -107,19 +112,31 @@ class Copy:
         if self.process and self.process.poll() is None:
             os.killpg(self.process.pid, signal.SIGKILL)
 
-    def compile(self, targets):
-        code, output = self.call(["cmake", "--build", str(self.build), "--target", *targets])
+    def compile(self, targets, *options):
+        code, output = self.call(["cmake", "--build", str(self.build), "--target", *targets, *options])
         return code == 0, output
 
-    def prepare(self, programs, changed):
-        """Builds the test programs and runs them without a fault; `changed`: see switched()."""
+    def build_switched(self, programs, faults):
+        """Builds the test programs with all faults behind switches but those that do not compile there."""
+        while True:
+            changed = switched(self.root, [f for f in faults if f["name"] not in self.alone])
+            sync(self.root, self.folder, changed)
+            self.is_switched = bool(changed)
+            code, output = self.call(["cmake", "--preset", self.preset, "-DROOMGRAPH_WERROR=OFF"])
+            built, output = self.compile(programs, "--", "-k", "0") if code == 0 else (False, output)
+            if built:
+                return
+            culprits = blamed(output, changed)
+            if not culprits:
+                raise BadInput(f"the tree does not build without a fault:\n{output[-3000:]}")
+            print(f"not behind a switch, as it does not compile there: {', '.join(sorted(culprits))}", flush=True)
+            self.alone |= culprits
+
+    def prepare(self, programs, faults):
+        """Builds the test programs and runs them without a fault."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        sync(self.root, self.folder, changed)
-        self.is_switched = bool(changed)
-        code, output = self.call(["cmake", "--preset", self.preset, "-DROOMGRAPH_WERROR=OFF"])
-        built, output = self.compile(programs) if code == 0 else (False, output)
-        if not built:
-            raise BadInput(f"the tree does not build without a fault:\n{output[-3000:]}")
+        self.alone = {f["name"] for f in faults if "kind" not in f}
+        self.build_switched(programs, faults)
         for program in programs:
             began = time.monotonic()
             code, output = self.call([str(self.build / "bin" / program)])
@@ -131,11 +148,9 @@ class Copy:
         """The fault's result."""
         began = time.monotonic()
         result = {key: fault[key] for key in ("name", "library", "file", "why") if key in fault}
-        result.update(self.with_switch(fault, programs) if "kind" in fault else self.with_text(fault, programs))
+        is_alone = fault["name"] in self.alone
+        result.update(self.with_text(fault, programs) if is_alone else self.verdict(programs, fault["name"]))
         return {**result, "seconds": round(time.monotonic() - began, 1)}
-
-    def with_switch(self, fault, programs):
-        return self.verdict(programs, fault["name"])
 
     def with_text(self, fault, programs):
         if self.is_switched:
@@ -211,14 +226,28 @@ def line_of(result):
             f"{by[result['verdict']]()}")
 
 
-def work(copy, needed, changed, programs_of, todo, report, problems, ended):
-    """Thread of one copy; puts itself into `ended`."""
+def taken(todo):
+    """What is left in the queue, one by one."""
+    while True:
+        try:
+            yield todo.get_nowait()
+        except queue.Empty:
+            return
+
+
+def work(copy, needed, faults, programs_of, todo, report, problems, ended):
+    """Thread of one copy; puts itself into `ended`. Faults to be built alone come last, as they replace the switches."""
     try:
-        copy.prepare(needed, changed)
-        while not problems:
-            fault = todo.get_nowait()
-            report.add(copy.attempt(fault, programs_of[fault["library"]]))
-    except (queue.Empty, Stopped):
+        copy.prepare(needed, faults)
+        alone = []
+        for fault in itertools.chain(taken(todo), alone):
+            if problems:
+                return
+            if copy.is_switched and todo.qsize() and fault["name"] in copy.alone:
+                alone.append(fault)
+            else:
+                report.add(copy.attempt(fault, programs_of[fault["library"]]))
+    except Stopped:
         pass
     except (BadInput, OSError, subprocess.SubprocessError) as error:
         problems.append(error)
@@ -244,12 +273,12 @@ def run_all(root, faults, options):
     needed = [p for _, p, _ in programs if any(p in names for names in programs_of.values())]
     report, stop, problems = Report(options.output, len(faults)), threading.Event(), []
     todo, ended = queue.Queue(), queue.Queue()
-    for fault in sorted(faults, key=lambda f: ("kind" not in f, f["file"])):  # those to be built alone come last
+    for fault in sorted(faults, key=lambda f: ("kind" not in f, f["file"])):
         todo.put(fault)
-    changed = switched(root, faults)
+    switched(root, faults)  # faults that overlap end here, before anything is built
     working = {Copy(options.build / str(i + 1), root, options.preset, stop) for i in range(options.jobs)}
     for copy in working:
-        shared = (needed, changed, programs_of, todo, report, problems, ended)
+        shared = (needed, faults, programs_of, todo, report, problems, ended)
         threading.Thread(target=work, args=(copy, *shared)).start()
     while working:
         try:

@@ -9,27 +9,10 @@
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
+#include "still_camera.h"
 
 namespace roomgraph::test {
 namespace {
-
-const Motion& standing() {
-  static const MotionNoise noise;
-  static const Motion motion{MotionSource(noise, true), MotionSource(noise, false),
-                             MotionSource(noise, true)};
-  return motion;
-}
-
-// A camera 1 m above the floor that looks along x.
-Frame frameAt(int i, double t) {
-  Frame frame;
-  frame.id = FrameId{i};
-  frame.t = t;
-  frame.camera = {320, 240, 260, 260, 159.5, 119.5, {}};
-  frame.robot_from_camera = poseFromYpr(0, 0, 1, 0, 0, 0);
-  frame.robot_from_camera.linear() = bodyFromOptical();
-  return frame;
-}
 
 ObjectMeasurement chairAt(const Frame& frame, double x, double y) {
   ObjectMeasurement out;

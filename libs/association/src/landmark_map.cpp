@@ -266,11 +266,11 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   }
 }
 
-std::vector<Landmark> LandmarkMap::confirmed() const {
+std::vector<Landmark> LandmarkMap::confirmed(const std::vector<Landmark>& judged,
+                                             double least_existence) const {
   std::vector<Landmark> sure;
-  for (const auto& landmark : landmarks_)
-    if (landmark.existence >= options_.confirm_existence &&
-        landmark.observations >= options_.confirm_observations)
+  for (const auto& landmark : judged)
+    if (landmark.existence >= least_existence && landmark.observations >= options_.confirm_observations)
       sure.push_back(landmark);
   // Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
   // more evidence stays.

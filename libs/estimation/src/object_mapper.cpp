@@ -5,9 +5,11 @@
 #include <functional>
 #include <set>
 
+#include "existence_evidence.h"
 #include "measurement_in_world.h"
 #include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/reassociation.h"
+#include "space_memory.h"
 #include "visibility.h"
 
 namespace roomgraph {
@@ -34,6 +36,16 @@ std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& d
 }
 
 }  // namespace
+
+ObjectMapper::ObjectMapper(std::shared_ptr<Associator> associator, const LandmarkOptions& options,
+                           double pose_sigma_m, const KeyPoses& poses)
+    : associator_(std::move(associator)),
+      landmarks_(options),
+      pose_sigma_m_(pose_sigma_m),
+      poses_(poses),
+      space_(std::make_unique<SpaceMemory>()) {}
+
+ObjectMapper::~ObjectMapper() = default;
 
 std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeasurement>& measurements,
                                                     const Frame& frame,
@@ -69,7 +81,24 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   for (const auto id : missed) landmarks_.miss(id);
 }
 
+void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot) {
+  space_->add(frame, world_from_robot);
+}
+
+std::vector<Candidate> ObjectMapper::candidates(const ObjectDatabase& database,
+                                                const ExistenceModel* model) const {
+  const auto& landmarks = landmarks_.landmarks();
+  const auto evidence = existenceEvidence(landmarks, frames_, poses_, space_->posed(poses_), database);
+  std::vector<Candidate> out;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    out.push_back({landmarks[i], evidence[i]});
+    if (model) out[i].landmark.existence = model->probability(landmarks[i].shape.kind, evidence[i]);
+  }
+  return out;
+}
+
 void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database) {
+  space_->add(scan, world_from_robot);
   if (last_rays_from_) {
     const Pose3 moved = last_rays_from_->inverse() * world_from_robot;
     if (moved.translation().norm() < kRayDistance_m && rotationAngle(moved) < kRayAngle_rad) return;

@@ -64,6 +64,8 @@ void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesy
       json["first_seen"] = seen->second.first;
       json["last_seen"] = seen->second.last;
     }
+    if (const auto why = origin.evidence.find(landmarks[i].id); why != origin.evidence.end())
+      json["evidence"] = why->second;
     text += (i ? ",\n  " : "\n  ") + json.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
   writeFileAtomically(file, text + "\n]}\n");

@@ -96,20 +96,24 @@ std::vector<ConfigSection> allSections() {
   return {
       plain<&O::rgbd>("rgbd", "The RGB-D camera."),
       plain<&O::odometry>("odometry", "Wheel odometry and its noise."),
-      optional<&O::tracking, &S::rgbd_odometry>("tracking", "Motion of the camera from RGB-D images, and its noise."),
+      optional<&O::tracking, &S::rgbd_odometry>("tracking",
+                                                "Motion of the camera from RGB-D images, and its noise."),
       optional<&O::lidar, &S::scan_matcher>("lidar", "Motion of the robot from 2D scans, and its noise."),
-      staged<&O::scan_loop_closing, &S::scan_loop_closer>("scan_loop_closing",
-                                                          "Loop closures found by scans in earlier submaps.",
-                                                          scanLoopCloser),
+      staged<&O::scan_loop_closing, &S::scan_loop_closer>(
+          "scan_loop_closing", "Loop closures found by scans in earlier submaps.", scanLoopCloser),
       staged<&O::detection, &S::detector>("detection", "Detection of objects in images.", detector),
       required<&O::ground, &S::ground_detector>("ground", "Ground plane of a frame."),
-      shapeGenerators("shape_generators",
-                      "Parameters of the shape generators that the key `generator` of `objects.ini` names; the shipped "
-                      "ones have none."),
+      shapeGenerators(
+          "shape_generators",
+          "Parameters of the shape generators that the key `generator` of `objects.ini` names; the shipped "
+          "ones have none."),
       required<&O::proposals, &S::proposal_generator>("proposals", "Lifting of boxes to shapes in 3D."),
       required<&O::selection, &S::proposal_selector>("selection", "Choice of one shape per detection."),
       required<&O::association, &S::associator>("association", "Assignment of measurements to landmarks."),
       plain<&O::landmarks>("landmarks", "Existence, confirmation, merging and splitting of landmarks."),
+      plain<&O::existence>(
+          "existence",
+          "Existence of landmarks at the end of a run, from all that speaks for and against it."),
       plain<&O::object_loops>("object_loop_closing", "Loop closures found by constellations of objects."),
       plain<&O::backend>("backend", "Key poses, factors and optimisation of the factor graph."),
       plain<&O::mapping>("mapping", "The occupancy grid."),

@@ -130,6 +130,16 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   return summary;
 }
 
+LandmarksOrigin originOf(const SlamResult& result, const RunOrigin& origin) {
+  LandmarksOrigin out{result.map.origin, origin.version + " (" + origin.revision + ")", result.seen, {}};
+  for (const auto& [landmark, evidence] : result.candidates) {
+    const auto values = evidence.values();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out.evidence[landmark.id][std::string(ExistenceEvidence::kNames[i])] = values[i];
+  }
+  return out;
+}
+
 void writeTimings(std::ostream& out, const StageTimes& times) {
   out << "timestamp,stage,ms,cpu_ms\n" << std::fixed;
   for (const auto& call : times.calls())
@@ -146,9 +156,9 @@ void writeTum(std::ostream& out, const std::vector<StampedPose>& poses) {
 RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs)
     : files_(folder,
              {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
-              "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "map.pgm", "map.yaml",
-              "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "snapshot.png",
-              "summary.json"},
+              "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "candidates.json", "map.pgm",
+              "map.yaml", "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv",
+              "snapshot.png", "summary.json"},
              inputs),
       live_(files_.pending("live.tum")),
       detections_(files_.pending("detections.jsonl")),
@@ -179,8 +189,11 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("trajectory.tum", robot.str());
   write("trajectory_camera.tum", camera.str());
   write("associations.jsonl", associations.str());
-  saveLandmarksJson(result.map.landmarks, files_.pending("landmarks.json"),
-                    {result.map.origin, origin.version + " (" + origin.revision + ")", result.seen});
+  const LandmarksOrigin where = originOf(result, origin);
+  std::vector<Landmark> candidates;
+  for (const auto& candidate : result.candidates) candidates.push_back(candidate.landmark);
+  saveLandmarksJson(result.map.landmarks, files_.pending("landmarks.json"), where);
+  saveLandmarksJson(candidates, files_.pending("candidates.json"), where);
   if (result.map.occupancy)
     saveOccupancyRos(*result.map.occupancy, files_.pending("map.pgm").replace_extension());
   saveMap(result.map, files_.pending("map.rgmap"));

@@ -19,6 +19,14 @@ bool isMounted(const Frame& frame) {
   return frame.robot_from_camera.translation().z() > 0.1;
 }
 
+std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const LandmarkMap& map,
+                            const ExistenceOptions& options) {
+  if (!options.enabled) return map.confirmed();
+  std::vector<Landmark> judged;
+  for (const auto& candidate : candidates) judged.push_back(candidate.landmark);
+  return map.confirmed(judged, options.least_probability);
+}
+
 }  // namespace
 
 SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
@@ -28,6 +36,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
       estimator_(setup_->options.backend, front_ends_.motion()),
       objects_(setup_->stages.associator, setup_->options.landmarks, setup_->options.backend.pose_sigma_m,
                estimator_.poses()),
+      existence_(setup_->options.existence),
       object_loops_(setup_->options.object_loops),
       mapper_(setup_->options.mapping),
       people_(std::make_unique<PeopleInView>()),
@@ -57,6 +66,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
     mapper_.add(frame, floor);
+    objects_.look(frame, estimator_.poses().at(frame.t));
     if (detections.current()) {
       const auto measurements = select(frame, proposals, tracked.features);      // sec. 3
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
@@ -286,7 +296,9 @@ SlamResult SemanticSlam::collect() {
   result.counts.loop_closures = estimator_.closureCount();
   result.map.planar = estimator_.planar();
   if (poses.empty()) return result;
-  result.map.landmarks = objects_.landmarks().confirmed();
+  const ExistenceOptions& existence = setup_->options.existence;
+  result.candidates = objects_.candidates(setup_->database, existence.enabled ? &existence_ : nullptr);
+  result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
   result.seen = objects_.seenSpans();
   if (const auto covariances = graph().landmarkCovariances())
     for (auto& landmark : result.map.landmarks)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "roomgraph/association/landmark_map.h"
+#include "roomgraph/estimation/existence.h"
 #include "roomgraph/estimation/key_poses.h"
 #include "roomgraph/estimation/object_factors.h"
 #include "roomgraph/estimation/pose_estimator.h"
@@ -16,14 +17,16 @@
 
 namespace roomgraph {
 
+class SpaceMemory;
+
 /// The object part of a run: association (method.md sec. 4, E-step), and the storage of all measurements relative to
 /// the robot, so that they can be decided again when the poses have changed.
 class ObjectMapper {
  public:
   /// `pose_sigma_m`: uncertainty of the current pose when objects are associated. `poses` outlives the mapper.
   ObjectMapper(std::shared_ptr<Associator> associator, const LandmarkOptions& options, double pose_sigma_m,
-               const KeyPoses& poses)
-      : associator_(std::move(associator)), landmarks_(options), pose_sigma_m_(pose_sigma_m), poses_(poses) {}
+               const KeyPoses& poses);
+  ~ObjectMapper();
 
   /// Assigns the measurements of one frame to landmarks and fuses them. `features`: tracked in that frame.
   std::vector<ObjectDecision> associate(const std::vector<ObjectMeasurement>& measurements, const Frame& frame,
@@ -36,6 +39,12 @@ class ObjectMapper {
   /// Updates the existence of the landmarks that a scan crosses, by how much of their classes is solid; scans from one
   /// place count once.
   void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
+
+  /// Remembers what the depth image saw free and filled.
+  void look(const Frame& frame, const Pose3& world_from_robot);
+
+  /// Every landmark with what the whole run says about its existence; without a model that is the filter's.
+  std::vector<Candidate> candidates(const ObjectDatabase& database, const ExistenceModel* model) const;
 
   /// Merges landmarks that are one object, also in the stored measurements; splits those that are two.
   void tidy();
@@ -69,6 +78,7 @@ class ObjectMapper {
   std::vector<ObjectFrame> frames_;
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
+  std::unique_ptr<SpaceMemory> space_;
 };
 
 }  // namespace roomgraph

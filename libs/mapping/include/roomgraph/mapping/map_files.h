@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/observations/seen_span.h"
@@ -20,11 +22,12 @@ CSemanticMap loadMap(const std::filesystem::path& file);
 struct LandmarksOrigin {
   std::string recording, version;  ///< file name; version of the program
   SeenSpans seen;
+  std::map<LandmarkId, std::map<std::string, double>> evidence;  ///< for and against existence, by name
 };
 
 /// landmarks.json of the interface: a header (frame, units, recording, version), then for each landmark id,
 /// class, model, x, y, z, yaw, size_wdh, footprint, covariance, existence, class_posterior, observations,
-/// first_seen and last_seen (where known), `shape` and `has_yaw`.
+/// first_seen, last_seen and evidence (where known), `shape` and `has_yaw`.
 void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesystem::path& file,
                        const LandmarksOrigin& origin = {});
 

@@ -8,6 +8,7 @@
 
 #include "roomgraph/association/landmark_options.h"
 #include "roomgraph/core/parameters.h"
+#include "roomgraph/estimation/existence.h"
 #include "roomgraph/estimation/options.h"
 #include "roomgraph/mapping/occupancy_options.h"
 
@@ -81,6 +82,7 @@ struct Options {
   StageChoice ground{"DepthGroundDetector"};
   StageChoice proposals{"GeometricProposalGenerator"}, selection{"CrfSelector"}, association{"SoftAssociator"};
   LandmarkOptions landmarks;
+  ExistenceOptions existence;
   ObjectLoopOptions object_loops;
   BackendOptions backend;
   OccupancyOptions mapping;

@@ -41,6 +41,7 @@ struct SlamResult {
       world_from_robot;  ///< at every frame and scan (with neither: at every odometry reading)
   std::vector<StampedPose> world_from_camera;  ///< at every frame (optical)
   CSemanticMap map;
+  std::vector<Candidate> candidates;  ///< every landmark, in the map or not
   SeenSpans seen;  ///< landmarks of this recording; those that only the earlier map holds are not in it
   RunCounts counts;
   std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
@@ -108,6 +109,7 @@ class SemanticSlam {
   std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   ObjectMapper objects_;     ///< what was seen of objects
+  ExistenceModel existence_;
   ObjectLoopCloser object_loops_;
   OccupancyMapper mapper_;                ///< scans and depth images, for the grid
   std::unique_ptr<PeopleInView> people_;  ///< in the last frame, for the scans after it

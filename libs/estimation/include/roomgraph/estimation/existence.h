@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a whole run says about the existence of a landmark, and the probability that follows.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "roomgraph/core/parameters.h"
+#include "roomgraph/observations/landmark.h"
+
+namespace roomgraph {
+
+/// Evidence for and against one landmark, of a whole run. Shares are in [0, 1]; means over sightings, and
+/// `turned`, are weighted by the sightings' weights (initialisation score, less for carried boxes).
+struct ExistenceEvidence {
+  double filter = 0;      ///< log odds of the existence filter, clamped to [-4, 4]
+  double sightings = 0;   ///< log(1 + sum of their weights, one for each key pose)
+  double directions = 0;  ///< log(number of directions it was seen from)
+  double score = 0;       ///< mean initialisation score of its sightings
+  double box = 0;         ///< mean IoU of its boxes with the proposals' projections
+  double label = 0;       ///< posterior of its class
+  double scatter = 0;     ///< log of the sightings' mean squared normalised distance from it
+  double turned = 0;      ///< share of the sightings whose yaw is another one, but for front and back
+  double size = 0;        ///< normalised distance of its size from its class's
+  double contested = 0;   ///< share of sightings whose box another landmark, not seen in that frame, covers
+  double crossed = 0;  ///< share of its volume (of solid classes: of the solid part) that depth rays crossed
+  double filled = 0;   ///< share of its volume where they ended
+  double spread = 0;   ///< share of its length or width, the lesser one, along which they ended in it
+  double beside_crossed = 0;  ///< of doors: share of the wall beside and above that depth rays crossed
+  double beside_filled = 0;   ///< of doors: share of it where they ended
+  double beams_crossed = 0;   ///< of solid classes: share of the footprint that lidar beams crossed
+
+  static constexpr std::array<std::string_view, 16> kNames = {
+      "filter",  "sightings",      "directions",    "score",        "box",     "label",
+      "scatter", "turned",         "size",          "contested",    "crossed", "filled",
+      "spread",  "beside_crossed", "beside_filled", "beams_crossed"};
+  /// In the order of kNames.
+  std::array<double, 16> values() const {
+    return {filter, sightings, directions, score,  box,    label,          scatter,       turned,
+            size,   contested, crossed,    filled, spread, beside_crossed, beside_filled, beams_crossed};
+  }
+};
+
+/// A landmark, in the map or not, with what speaks for and against it; its existence is the probability that
+/// follows.
+struct Candidate {
+  Landmark landmark;
+  ExistenceEvidence evidence;
+};
+
+/// [existence]
+struct ExistenceOptions : Configurable {
+  ExistenceOptions();
+  bool enabled = true;
+  double least_probability = 0.5;
+  /// "NAME VALUE" for each kind of shape: weights of the evidence by kNames, and "bias".
+  std::vector<std::string> cylinder, cuboid, planar;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
+/// Probability that a landmark exists, from evidence of the whole run: logistic regression, its log odds are
+/// a weighted sum, with weights for each kind of shape. The shipped weights were fitted by
+/// bench/existence.py.
+class ExistenceModel {
+ public:
+  /// Throws ConfigError naming the key and the entry that is not understood.
+  explicit ExistenceModel(const ExistenceOptions& options);
+  double probability(ShapeKind kind, const ExistenceEvidence& evidence) const;
+
+ private:
+  struct Weights {
+    double bias = 0;
+    std::array<double, ExistenceEvidence::kNames.size()> of_evidence{};
+  };
+  static Weights parse(const std::vector<std::string>& entries, const std::string& key);
+  std::map<ShapeKind, Weights> weights_;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Means over a landmark's sightings, boxes that others explain, and sample points in and around its volume.
+#include "existence_evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "roomgraph/association/landmark_rules.h"
+#include "roomgraph/geometry/projection.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kStep_m = 0.09, kInset_m = 0.07;  // of sample points in a volume
+constexpr double kBesideFrom_m = 0.12, kBesideTo_m = 0.36;
+constexpr double kBesideLow_m = 0.15;  // height of the lowest of them
+constexpr int kSlices = 5;             // of a footprint, along an axis
+constexpr double kSliceFilled = 0.15;  // share of a slice's points from which it counts as filled
+constexpr double kDirection_rad = 0.26;
+constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
+constexpr double kOtherYaw_rad = 0.35;
+constexpr double kLeastScatter = 0.05;
+constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
+
+// --- from sightings ---
+
+struct SightingSums {
+  int count = 0, contested = 0, placed = 0;
+  double weight = 0, score = 0, box = 0, with_yaw = 0, turned = 0;  // weighted by the sightings' weights
+  double scatter = 0;
+  std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
+  std::set<int> directions;
+};
+
+double normalisedDistance2(const Landmark& landmark, const WorldMeasurement& seen) {
+  const Eigen::Vector2d offset = (seen.world_from_object.translation() - landmark.position).head<2>();
+  return offset.dot(seen.covariance.topLeftCorner<2, 2>().inverse() * offset);
+}
+
+// Front and back are easily confused and do not count.
+bool isTurned(double difference_rad) {
+  return std::abs(std::sin(difference_rad)) > std::sin(kOtherYaw_rad);
+}
+
+// Share of the box that the landmark's projection covers.
+double coveredShare(const Box2& box, const Landmark& landmark, const Pose3& camera_from_world,
+                    const PinholeCamera& camera) {
+  const auto projected = projectShape(landmark.shape, camera_from_world * landmark.worldFromObject(), camera);
+  if (!projected || box.area() <= 0) return 0;
+  return intersection(box, projected->visible).area() / box.area();
+}
+
+std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
+                                                   const std::vector<ObjectFrame>& frames,
+                                                   const KeyPoses& poses) {
+  std::map<LandmarkId, const Landmark*> known;
+  for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
+  std::map<LandmarkId, SightingSums> out;
+  for (const auto& frame : frames) {
+    const Pose3 world_from_camera = poses.at(frame.t) * frame.robot_from_camera;
+    const Pose3 camera_from_world = world_from_camera.inverse();
+    std::set<LandmarkId> here;
+    for (const auto& decision : frame.decisions) here.insert(decision.landmark);
+    for (const auto& decision : frame.decisions) {
+      const auto found = known.find(decision.landmark);
+      if (found == known.end()) continue;
+      const Landmark& landmark = *found->second;
+      const ObjectMeasurement& measurement = decision.seen.measurement;
+      SightingSums& sums = out[landmark.id];
+      ++sums.count;
+      const double weight = sightingWeight(measurement);
+      sums.weight += weight;
+      sums.score += weight * measurement.proposal.score;
+      sums.box += weight * measurement.proposal.box_iou;
+      double& at_node = sums.at_nodes[poses.nearest(frame.t).id];
+      at_node = std::max(at_node, weight);
+      const Eigen::Vector3d from = world_from_camera.translation() - landmark.position;
+      sums.directions.insert(static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad)));
+      if (measurement.proposal.class_name == landmark.class_name) {
+        sums.scatter += normalisedDistance2(landmark, decision.seen);
+        ++sums.placed;
+        if (measurement.proposal.has_yaw) {
+          sums.with_yaw += weight;
+          if (isTurned(planarPart(decision.seen.world_from_object).yaw - landmark.yaw)) sums.turned += weight;
+        }
+      }
+      sums.contested += std::any_of(landmarks.begin(), landmarks.end(), [&](const Landmark& other) {
+        return !here.contains(other.id) &&
+               other.observations >= std::max(kEstablished, landmark.observations) &&
+               coveredShare(measurement.detection.box, other, camera_from_world, frame.camera) > kCovered;
+      });
+    }
+  }
+  return out;
+}
+
+void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
+  if (sums.weight <= 0) return;
+  double of_nodes = 0;
+  for (const auto& [node, weight] : sums.at_nodes) of_nodes += weight;
+  evidence.sightings = std::log1p(of_nodes);
+  evidence.directions = std::log(static_cast<double>(sums.directions.size()));
+  evidence.score = sums.score / sums.weight;
+  evidence.box = sums.box / sums.weight;
+  evidence.contested = static_cast<double>(sums.contested) / sums.count;
+  evidence.turned = sums.with_yaw > 0 ? sums.turned / sums.with_yaw : 0;
+  evidence.scatter = std::log(kLeastScatter + (sums.placed ? sums.scatter / sums.placed : 0));
+}
+
+// --- from rays ---
+
+// From -half to half in even steps of at most kStep_m; 0 alone when there is no room.
+std::vector<double> steps(double half_m) {
+  if (half_m <= 0) return {0};
+  const int count = 1 + static_cast<int>(std::ceil(2 * half_m / kStep_m));
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) out.push_back(-half_m + 2 * half_m * i / (count - 1));
+  return out;
+}
+
+// Points of the footprint, object frame: inside by kInset_m.
+std::vector<Eigen::Vector2d> footprintPoints(const ObjectShape& shape) {
+  std::vector<Eigen::Vector2d> out;
+  const double half_depth = shape.depth / 2 - kInset_m, half_width = shape.width / 2 - kInset_m;
+  for (const double x : steps(half_depth))
+    for (const double y : steps(half_width))
+      if (shape.kind != ShapeKind::kCylinder || std::hypot(x, y) <= half_width) out.emplace_back(x, y);
+  return out;
+}
+
+std::vector<Eigen::Vector3d> insidePoints(const ObjectShape& shape) {
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& p : footprintPoints(shape))
+    for (double z = kStep_m; z <= shape.height - kInset_m; z += kStep_m) out.emplace_back(p.x(), p.y(), z);
+  return out;
+}
+
+// In the plane of a planar shape, left, right and above.
+std::vector<Eigen::Vector3d> wallPoints(const ObjectShape& shape) {
+  std::vector<Eigen::Vector3d> out;
+  for (double beside = kBesideFrom_m; beside <= kBesideTo_m; beside += kStep_m) {
+    for (double z = kBesideLow_m; z <= shape.height; z += 2 * kStep_m)
+      for (const double side : {-1.0, 1.0}) out.emplace_back(0, side * (shape.width / 2 + beside), z);
+    for (const double y : steps(shape.width / 2)) out.emplace_back(0, y, shape.height + beside);
+  }
+  return out;
+}
+
+bool mostlyCrossed(const RayCounts& c) {
+  return c.crossed > c.filled;
+}
+
+bool mostlyFilled(const RayCounts& c) {
+  return c.filled > 0 && c.filled >= c.crossed;
+}
+
+double share(const std::vector<RayCounts>& counts, bool (*is)(const RayCounts&)) {
+  if (counts.empty()) return 0;
+  return static_cast<double>(std::count_if(counts.begin(), counts.end(), is)) /
+         static_cast<double>(counts.size());
+}
+
+// Share of the slices across an axis in which enough points are filled.
+double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vector<RayCounts>& counts,
+                    int axis, double extent_m) {
+  std::array<int, kSlices> all{}, filled{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double along = points[i][axis] / std::max(extent_m - 2 * kInset_m, kInset_m) + 0.5;
+    const auto slice =
+        static_cast<std::size_t>(std::clamp(static_cast<int>(along * kSlices), 0, kSlices - 1));
+    ++all[slice];
+    filled[slice] += mostlyFilled(counts[i]);
+  }
+  int used = 0, enough = 0;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    used += all[s] > 0;
+    enough += all[s] > 0 && filled[s] > kSliceFilled * all[s];
+  }
+  return used ? static_cast<double>(enough) / used : 0;
+}
+
+void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
+             const PosedViews& views) {
+  const ObjectShape& shape = landmark.shape;
+  const Pose3 world_from_object = landmark.worldFromObject();
+  const auto inWorld = [&](std::vector<Eigen::Vector3d> points) {
+    for (auto& p : points) p = world_from_object * p;
+    return points;
+  };
+  const auto inside = insidePoints(shape);
+  const auto counts = views.byImages(inWorld(inside));
+  evidence.filled = share(counts, mostlyFilled);
+  evidence.spread =
+      std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
+  std::vector<RayCounts> solid;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (solid_share == 0 || inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
+  evidence.crossed = share(solid, mostlyCrossed);
+  if (shape.kind == ShapeKind::kPlanar) {
+    const auto wall = views.byImages(inWorld(wallPoints(shape)));
+    evidence.beside_crossed = share(wall, mostlyCrossed);
+    evidence.beside_filled = share(wall, mostlyFilled);
+  }
+  if (solid_share == 0) return;
+  std::vector<Eigen::Vector2d> ground;
+  for (const auto& p : footprintPoints(shape))
+    ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
+  const double bottom = landmark.position.z();
+  evidence.beams_crossed =
+      share(views.byScans(ground, bottom, bottom + solid_share * shape.height), mostlyCrossed);
+}
+
+double sizeDistance(const ObjectShape& shape, const ObjectModel& model) {
+  return std::sqrt(std::pow((shape.width - model.width_m) / model.width_sigma_m, 2) +
+                   std::pow((shape.depth - model.depth_m) / model.depth_sigma_m, 2) +
+                   std::pow((shape.height - model.height_m) / model.height_sigma_m, 2));
+}
+
+}  // namespace
+
+std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
+                                                 const std::vector<ObjectFrame>& frames,
+                                                 const KeyPoses& poses, const PosedViews& views,
+                                                 const ObjectDatabase& database) {
+  auto sums = sumsBySightings(landmarks, frames, poses);
+  std::vector<ExistenceEvidence> out;
+  for (const auto& landmark : landmarks) {
+    ExistenceEvidence evidence;
+    evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
+    setSightings(evidence, sums[landmark.id]);
+    if (const auto own = landmark.class_posterior.find(landmark.class_name);
+        own != landmark.class_posterior.end())
+      evidence.label = own->second;
+    const ObjectModel* model = database.find(landmark.class_name);
+    if (model) evidence.size = sizeDistance(landmark.shape, *model);
+    setRays(evidence, landmark, model ? model->solid_share : 0, views);
+    out.push_back(evidence);
+  }
+  return out;
+}
+
+}  // namespace roomgraph

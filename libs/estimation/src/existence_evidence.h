@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Evidence for and against landmarks from their sightings and from the rays through and around them.
+#pragma once
+
+#include "roomgraph/estimation/existence.h"
+#include "roomgraph/estimation/object_decision.h"
+#include "roomgraph/observations/object_database.h"
+#include "space_memory.h"
+
+namespace roomgraph {
+
+/// One for each landmark, in order. `views`: of the same run, with the poses that the landmarks were
+/// estimated with.
+std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
+                                                 const std::vector<ObjectFrame>& frames,
+                                                 const KeyPoses& poses, const PosedViews& views,
+                                                 const ObjectDatabase& database);
+
+}  // namespace roomgraph

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reduction of depth images, and the comparison of points with the depths and ranges measured in their
+// directions.
+#include "space_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr int kColumns = 80;                            // of a reduced depth image
+constexpr double kMoved_m = 0.15, kTurned_rad = 0.1;    // between two views
+constexpr double kNearest_m = 0.4, kFarthest_m = 4.5;   // depths that are compared
+constexpr double kMargin_m = 0.1, kMarginShare = 0.02;  // of range: noise of depth, pose and shape
+constexpr double kMillimetre = 1e-3;
+
+bool sameView(const Pose3& a, const Pose3& b) {
+  const Pose3 moved = a.inverse() * b;
+  return moved.translation().norm() < kMoved_m && rotationAngle(moved) < kTurned_rad;
+}
+
+void count(RayCounts& counts, double measured_m, double range_m) {
+  const double margin = kMargin_m + kMarginShare * range_m;
+  if (measured_m > range_m + margin) {
+    ++counts.crossed;
+  } else if (measured_m >= range_m - margin) {
+    ++counts.filled;
+  } else {
+    ++counts.hidden;
+  }
+}
+
+}  // namespace
+
+void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot) {
+  if (!frame.hasDepth() || !frame.camera.valid()) return;
+  if (!images_.empty() && sameView(last_image_from_, world_from_robot)) return;
+  last_image_from_ = world_from_robot;
+  const double factor = std::min(1.0, static_cast<double>(kColumns) / frame.camera.width);
+  const PinholeCamera camera = frame.camera.scaled(factor);
+  cv::Mat depth_mm(camera.height, camera.width, CV_16UC1);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const double z_m = frame.depthAt((u + 0.5) / factor - 0.5, (v + 0.5) / factor - 0.5);
+      depth_mm.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::min(z_m / kMillimetre, 65535.0));
+    }
+  }
+  images_.push_back({frame.t, frame.robot_from_camera, camera, depth_mm});
+}
+
+void SpaceMemory::add(const Scan& scan, const Pose3& world_from_robot) {
+  if (!scans_.empty() && sameView(last_scan_from_, world_from_robot)) return;
+  last_scan_from_ = world_from_robot;
+  scans_.push_back(scan);
+}
+
+PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
+  PosedViews out;
+  if (poses.empty()) return out;
+  for (const auto& image : images_)
+    out.images_.push_back(
+        {(poses.at(image.t) * image.robot_from_camera).inverse(), &image.camera, &image.depth_mm});
+  for (const auto& scan : scans_) {
+    const Pose3 world_from_lidar = poses.at(scan.t) * scan.robot_from_lidar;
+    out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), &scan});
+  }
+  return out;
+}
+
+std::vector<RayCounts> PosedViews::byImages(const std::vector<Eigen::Vector3d>& points) const {
+  std::vector<RayCounts> out(points.size());
+  for (const auto& image : images_) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d p = image.camera_from_world * points[i];
+      if (p.z() < kNearest_m || p.z() > kFarthest_m) continue;
+      const Eigen::Vector2d pixel = image.camera->project(p);
+      const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+      if (u < 0 || v < 0 || u >= image.depth_mm->cols || v >= image.depth_mm->rows) continue;
+      const auto depth = image.depth_mm->at<std::uint16_t>(v, u);
+      if (depth > 0) count(out[i], depth * kMillimetre, p.z());
+    }
+  }
+  return out;
+}
+
+std::vector<RayCounts> PosedViews::byScans(const std::vector<Eigen::Vector2d>& points, double least_z_m,
+                                           double most_z_m) const {
+  std::vector<RayCounts> out(points.size());
+  for (const auto& [lidar_from_world, z_m, scan] : scans_) {
+    if (z_m < least_z_m || z_m > most_z_m) continue;
+    const auto beams = static_cast<long>(scan->ranges_m.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector2d p = lidar_from_world * points[i];
+      const double range = p.norm();
+      if (range < kNearest_m || range > scan->max_range_m) continue;
+      const double from_first = (std::atan2(p.y(), p.x()) - scan->angle_min_rad) / scan->angle_step_rad;
+      const double turn = std::abs(2 * M_PI / scan->angle_step_rad);
+      const long beam = std::lround(from_first - turn * std::floor(from_first / turn));
+      if (beam < 0 || beam >= beams || !scan->valid[static_cast<std::size_t>(beam)]) continue;
+      count(out[i], scan->ranges_m[static_cast<std::size_t>(beam)], range);
+    }
+  }
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Evidence for existence: means over sightings by hand, rays through volumes, walls beside doors, contested
+// boxes.
+#include "existence_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "still_camera.h"
+
+namespace roomgraph::test {
+namespace {
+
+const ObjectDatabase& database() {
+  static const ObjectDatabase out = ObjectDatabase::fromText(
+      "[chair]\nlabels = chair\nshape = cylinder\nwidth_m = .6\ndepth_m = .6\nheight_m = .9\n"
+      "width_sigma_m = .1\ndepth_sigma_m = .1\nheight_sigma_m = .1\nsymmetry = 0\n"
+      "[sofa]\nlabels = sofa\nshape = cuboid\nwidth_m = 1.8\ndepth_m = .8\nheight_m = .8\nsolid_share = .5\n"
+      "[door]\nlabels = door\nshape = planar\nwidth_m = .9\ndepth_m = .1\nheight_m = 2\nsymmetry = 2\n");
+  return out;
+}
+
+Landmark landmarkOf(int id, const std::string& class_name, double x, double y) {
+  Landmark out;
+  out.id = LandmarkId{id};
+  out.class_name = class_name;
+  out.shape = database().find(class_name)->nominal();
+  out.position = {x, y, 0};
+  out.existence = 0.9;
+  out.class_posterior = {{class_name, 0.75}, {"other", 0.25}};
+  out.observations = 10;
+  return out;
+}
+
+// Seen as its landmark is, in a frame without depth.
+ObjectFrame frameWith(int i, double t, const std::vector<Landmark>& seen) {
+  const Frame frame = frameAt(i, t);
+  ObjectFrame out{frame.id, t, frame.camera, frame.robot_from_camera, {}, {}};
+  for (const auto& landmark : seen) {
+    ObjectDecision decision;
+    decision.landmark = landmark.id;
+    decision.seen.world_from_object = landmark.worldFromObject();
+    auto& measurement = decision.seen.measurement;
+    measurement.proposal.class_name = landmark.class_name;
+    measurement.proposal.score = 0.5;
+    const auto projected = projectShape(
+        landmark.shape, frame.robot_from_camera.inverse() * landmark.worldFromObject(), frame.camera);
+    measurement.detection.box = projected->visible;
+    out.decisions.push_back(decision);
+  }
+  return out;
+}
+
+class Evidence : public ::testing::Test {
+ protected:
+  Evidence() : poses_(standing()) { poses_.add(0, Pose3::Identity()); }
+
+  ExistenceEvidence of(const std::vector<Landmark>& landmarks) const {
+    return existenceEvidence(landmarks, frames_, poses_, memory_.posed(poses_), database()).at(0);
+  }
+
+  KeyPoses poses_;
+  SpaceMemory memory_;
+  std::vector<ObjectFrame> frames_;
+};
+
+TEST_F(Evidence, OfSightingsByHand) {
+  const Landmark chair = landmarkOf(4, "chair", 3, 0);
+  frames_ = {frameWith(0, 0, {chair}), frameWith(1, 0.1, {chair}), frameWith(2, 0.2, {chair})};
+  auto& far = frames_[1].decisions[0].seen;
+  far.world_from_object.translation().x() = 3.4;
+  far.covariance = 0.04 * Eigen::Matrix4d::Identity();
+  far.measurement.proposal.score = 0.8;
+  far.measurement.proposal.box_iou = 0.6;
+  const ExistenceEvidence evidence = of({chair});
+  EXPECT_NEAR(evidence.score, (0.5 * 0.5 + 0.8 * 0.8 + 0.5 * 0.5) / 1.8, 1e-12);
+  EXPECT_NEAR(evidence.box, 0.8 * 0.6 / 1.8, 1e-12);
+  EXPECT_NEAR(evidence.sightings, std::log(1 + 0.8), 1e-12) << "one key pose: the largest weight";
+  EXPECT_NEAR(evidence.directions, 0, 1e-12) << "one direction";
+  EXPECT_NEAR(evidence.scatter, std::log(0.05 + 0.4 * 0.4 / 0.04 / 3), 1e-12);
+  EXPECT_NEAR(evidence.filter, std::log(9.0), 1e-9);
+  EXPECT_NEAR(evidence.label, 0.75, 1e-12);
+  EXPECT_NEAR(evidence.size, 0, 1e-12);
+}
+
+TEST_F(Evidence, SightingsFromOtherKeyPosesAndDirectionsCount) {
+  const Landmark chair = landmarkOf(4, "chair", 3, 0);
+  poses_.add(10, poseFromYpr(3, -3, 0, M_PI / 2, 0, 0));
+  frames_ = {frameWith(0, 0, {chair}), frameWith(1, 10, {chair})};
+  const ExistenceEvidence evidence = of({chair});
+  EXPECT_NEAR(evidence.sightings, std::log(1 + 0.5 + 0.5), 1e-12);
+  EXPECT_NEAR(evidence.directions, std::log(2.0), 1e-12);
+}
+
+TEST_F(Evidence, SizeInStandardDeviations) {
+  Landmark chair = landmarkOf(4, "chair", 3, 0);
+  chair.shape.width += 0.2, chair.shape.depth += 0.1, chair.shape.height -= 0.2;
+  EXPECT_NEAR(of({chair}).size, 3, 1e-9);
+}
+
+TEST_F(Evidence, YawsAcrossAreTurnedAndOppositeOnesAreNot) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  frames_.assign(4, frameWith(0, 0, {sofa}));
+  const double yaws[] = {0.1, M_PI - 0.1, M_PI / 2, -1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& seen = frames_[i].decisions[0].seen;
+    seen.measurement.proposal.has_yaw = true;
+    seen.world_from_object = poseFromYpr(3, 0, 0, yaws[i], 0, 0);
+  }
+  EXPECT_NEAR(of({sofa}).turned, 0.5, 1e-12);
+  frames_[0].decisions[0].seen.measurement.proposal.score = 1;
+  EXPECT_NEAR(of({sofa}).turned, 1 / 2.5, 1e-12) << "weighted by score";
+}
+
+// A chair before another one covers its box; the boxes of the one behind are contested in frames that do not
+// show the first beside it.
+TEST_F(Evidence, BoxesThatAnUnseenLandmarkCoversAreContested) {
+  const Landmark behind = landmarkOf(1, "chair", 3.6, 0);
+  Landmark before = landmarkOf(2, "chair", 3, 0);
+  frames_ = {frameWith(0, 0, {behind, before}), frameWith(1, 0.1, {behind}), frameWith(2, 0.2, {behind}),
+             frameWith(3, 0.3, {behind})};
+  EXPECT_NEAR(of({behind, before}).contested, 0.75, 1e-12);
+  before.observations = 9;
+  EXPECT_NEAR(of({behind, before}).contested, 0, 1e-12) << "by a landmark that was seen less";
+  before = landmarkOf(2, "chair", 3, 1);
+  EXPECT_NEAR(of({behind, before}).contested, 0, 1e-12) << "by a landmark beside it";
+}
+
+TEST_F(Evidence, RaysThroughAndIntoAVolume) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  memory_.add(frameOfDepth(0, 0, 6), Pose3::Identity());
+  ExistenceEvidence evidence = of({sofa});
+  EXPECT_NEAR(evidence.crossed, 1, 1e-12) << "the wall is 2.5 m behind it";
+  EXPECT_NEAR(evidence.filled + evidence.spread, 0, 1e-12);
+  memory_ = {};
+  memory_.add(frameOfDepth(0, 0, 2.6F), Pose3::Identity());
+  evidence = of({sofa});
+  EXPECT_NEAR(evidence.crossed, 0, 1e-12) << "its front is at 2.6 m";
+  EXPECT_GT(evidence.filled, 0.1);
+  EXPECT_LT(evidence.filled, 0.4) << "the first .15 of .66 m, within .1 m and 2 % of 2.6 m";
+  EXPECT_NEAR(evidence.spread, 0.4, 0.21) << "one to three of five slices from front to back";
+}
+
+// Three quarters of the sofa's length are air: a wall close behind what is there.
+TEST_F(Evidence, SpreadIsTheShareOfTheLengthThatIsThere) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  Frame frame = frameOfDepth(0, 0, 6);
+  frame.depth.colRange(160, 320) = 2.9F;  // the right half, y < 0
+  memory_.add(frame, Pose3::Identity());
+  const ExistenceEvidence evidence = of({sofa});
+  EXPECT_NEAR(evidence.spread, 0.4, 0.21);
+  EXPECT_NEAR(evidence.crossed, 0.5, 0.1);
+}
+
+TEST_F(Evidence, ADoorIsInAWall) {
+  const Landmark door = landmarkOf(1, "door", 3, 0);
+  memory_.add(frameOfDepth(0, 0, 3), Pose3::Identity());
+  ExistenceEvidence evidence = of({door});
+  EXPECT_NEAR(evidence.beside_filled, 1, 1e-12);
+  EXPECT_NEAR(evidence.beside_crossed, 0, 1e-12);
+  memory_ = {};
+  memory_.add(frameOfDepth(0, 0, 3.4F), Pose3::Identity());
+  evidence = of({door});
+  EXPECT_NEAR(evidence.beside_crossed, 1, 1e-12) << "the front of a cupboard stands before the wall";
+  EXPECT_NEAR(evidence.beside_filled, 0, 1e-12);
+  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beside_crossed, 0, 1e-12) << "asked of doors only";
+}
+
+TEST_F(Evidence, BeamsThroughWhatIsSolid) {
+  Scan scan;
+  scan.ranges_m.assign(181, 6.F);
+  scan.valid.assign(181, 1);
+  scan.angle_min_rad = -M_PI / 2;
+  scan.angle_step_rad = M_PI / 180;
+  scan.max_range_m = 10;
+  scan.robot_from_lidar.translation().z() = 0.3;
+  memory_.add(scan, Pose3::Identity());
+  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 1, 1e-12);
+  EXPECT_NEAR(of({landmarkOf(1, "chair", 3, 0)}).beams_crossed, 0, 1e-12) << "beams pass between its legs";
+  memory_ = {};
+  scan.robot_from_lidar.translation().z() = 0.5;
+  memory_.add(scan, Pose3::Identity());
+  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0, 1e-12)
+      << "over the solid part, which is .4 m high";
+}
+
+}  // namespace
+}  // namespace roomgraph::test
