@@ -7,14 +7,10 @@
 #include "roomgraph/association/measurement_model.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/estimation/object_factors.h"
+#include "shipped_objects.h"
 
 namespace roomgraph::test {
 namespace {
-
-const ObjectDatabase& shippedObjects() {
-  static const ObjectDatabase database = ObjectDatabase::fromFile(ROOMGRAPH_SOURCE_DIR "/objects.ini");
-  return database;
-}
 
 // Four key poses on an arc round a sofa of the usual size, and everything measured of it without error.
 class SofaSeenFromFourPlaces : public ::testing::Test {
@@ -47,6 +43,7 @@ class SofaSeenFromFourPlaces : public ::testing::Test {
     measurement.proposal.covariance = decision.seen.covariance = 0.01 * Eigen::Matrix4d::Identity();
     measurement.proposal.class_name = measurement.proposal.model = "sofa";
     measurement.proposal.shape = sofa_.shape;
+    measurement.proposal.size_information = {100, 0, 100};
     measurement.proposal.camera_from_object = camera_from_object;
     measurement.proposal.has_yaw = true;
     measurement.proposal.score = score;
@@ -79,14 +76,16 @@ TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
   EXPECT_EQ(factors.sightings.size(), factors.views.size()) << "no direction twice";
   EXPECT_EQ(factors.shared_errors.size(), factors.views.size());
   ASSERT_EQ(factors.boxes.size(), 4u) << "one of each key pose";
-  ASSERT_EQ(factors.sizes.size(), factors.views.size());
+  ASSERT_EQ(factors.sizes.size(), factors.views.size() + 1) << "and the usual size, once";
   const ObjectModel& usual = *shippedObjects().find("sofa");
-  for (const auto& size : factors.sizes) {
-    EXPECT_EQ(size.landmark, sofa_.id);
-    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.y(), usual.width_sigma_m / usual.depth_sigma_m, 1e-9);
-    EXPECT_NEAR(size.sigma_m.x() / size.sigma_m.z(), usual.width_sigma_m / usual.height_sigma_m, 1e-9);
-    EXPECT_GT(size.sigma_m.x(), usual.width_sigma_m) << "no sighting is certain";
-    EXPECT_TRUE(size.size_m.isApprox(Eigen::Vector3d(sofa_.shape.width, sofa_.shape.depth, sofa_.shape.height)));
+  for (const auto& size : factors.sizes) EXPECT_EQ(size.landmark, sofa_.id);
+  EXPECT_EQ(factors.sizes.back().sigma_m.x(), usual.width_sigma_m);
+  EXPECT_EQ(factors.sizes.back().size_m.x(), usual.width_m);
+  for (std::size_t i = 0; i < factors.views.size(); ++i) {
+    // 1 / (.1 m)^2 in each sighting, each with this weight.
+    EXPECT_NEAR(factors.sizes[i].sigma_m.x(), 0.1 / std::sqrt(0.8 * 0.5 * 0.9), 0.01);
+    EXPECT_GT(factors.sizes[i].sigma_m.y(), 100) << "the depth was not seen";
+    EXPECT_NEAR(factors.sizes[i].size_m.z(), sofa_.shape.height, 1e-9);
   }
   std::vector<std::int64_t> points;
   for (const auto& [id, place] : factors.points) {
@@ -115,7 +114,7 @@ TEST_F(SofaSeenFromFourPlaces, LeavesNoErrorWhereEverythingIsTrue) {
   };
   add(factors.sightings), add(factors.shared_errors), add(factors.boxes), add(factors.sizes);
   add(factors.point_views), add(factors.insides);
-  EXPECT_EQ(graph.factors(), 3 * factors.views.size() + 4u + 8u + 2u);
+  EXPECT_EQ(graph.factors(), 3 * factors.views.size() + 1u + 4u + 8u + 2u);
   EXPECT_LT(graph.chiSquared(), 1e-12);
 }
 
@@ -123,7 +122,7 @@ TEST_F(SofaSeenFromFourPlaces, AllOfThemReachTheGraph) {
   const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
   const FactorGraph without = buildGraph(poses_, motion_, {}, {}, options_);
   const FactorGraph with = buildGraph(poses_, motion_, {}, {{sofa_}, factors}, options_);
-  EXPECT_EQ(with.factors() - without.factors(), 3 * factors.views.size() + 4u + 8u + 2u + 1u)
+  EXPECT_EQ(with.factors() - without.factors(), 3 * factors.views.size() + 1u + 4u + 8u + 2u + 1u)
       << "and the one that stands it on the floor";
   EXPECT_EQ(with.landmarks(), 1 + factors.views.size());
 }

@@ -124,6 +124,13 @@ TEST(Interval, DeviationOfTheCentreEqualsSampling) {
   EXPECT_NEAR(std::sqrt(squares / kRuns), claimed, 0.03 * claimed);
 }
 
+// Both ends give the width as their difference, whose variance is the sum; one end alone does not.
+TEST(Interval, WidthInformationIsThatOfTheEndsAlone) {
+  const Interval both = fitInterval({1.0, 1.7, 0.05, 0.2, false, false}, 0.9, 0.1);
+  EXPECT_NEAR(both.width_information, 1 / (0.05 * 0.05 + 0.2 * 0.2), 1e-9);
+  EXPECT_NEAR(fitInterval({1.0, 1.7, 0.05, 0.2, false, true}, 0.9, 0.1).width_information, 0, 1e-9);
+}
+
 TEST(Interval, VagueWhenNoEndIsSeen) {
   const Interval found = fitInterval({0.2, 0.6, 0.05, 0.05, true, true}, 0.9, 0.1);
   EXPECT_NEAR(found.width, 0.9, 1e-9);
@@ -134,8 +141,8 @@ TEST(Interval, VagueWhenNoEndIsSeen) {
 TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   Scene scene;
   scene.lookAhead(1.2, 0);
-  scene.addBox(3.2, 1.03, -std::numbers::pi / 2, 0.9, 0.06, 0, 2.05, 1);
-  scene.addBox(3.2, 1.10, -std::numbers::pi / 2, 8, 0.1, 0, 2.6, 2);  // its wall
+  scene.addBox(3.2, 1.03, -std::numbers::pi / 2, 0.9, 0.12, 0, 2.05, 1);
+  scene.addBox(3.2, 1.03, -std::numbers::pi / 2, 8, 0.1, 0, 2.6, 2);  // its wall
   const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, true));
   ASSERT_FALSE(found.empty());
   EXPECT_LT(lineAngle(found[0].yaw, std::numbers::pi / 2), 0.02);
@@ -166,7 +173,7 @@ TEST(DoorOnPlane, DeviationAlongTheWallEqualsSampling) {
   constexpr int kRuns = 4000;
   for (int i = 0; i < kRuns; ++i) {
     e.box = {319.5 - half + px * gauss(random), 100, 319.5 + half + px * gauss(random), 345};
-    const auto placed = doorOnPlane(wall, e);
+    const auto placed = doorOnPlane(wall, e, e.model->depth_m / 4);
     ASSERT_TRUE(placed && placed->covariance);
     squares += placed->y * placed->y / kRuns;
     claimed += (*placed->covariance)(1, 1) / kRuns;

@@ -90,16 +90,61 @@ TEST(Door, WithoutDepthTheFrameGivesTheDirection) {
   }
 }
 
+// Wall with a gap and posts in it; the leaf stands nearly at a right angle to it, hinged at the left post.
+// The door is where it is when it is closed.
 TEST(Door, OpenLeafInItsFrame) {
   Scene scene = sceneAhead();
-  // Wall with a gap; the leaf stands at a right angle to it, hinged at the gap's left side.
   scene.addBox(3.0, 1.6, 0, 2.0, 0.1, 0, 2.5, 2);
   scene.addBox(3.0, -1.4, 0, 2.0, 0.1, 0, 2.5, 3);
+  for (const double post : {0.57, -0.37}) scene.addBox(3.0, post, 0, 0.06, 0.12, 0, 2.05, 1);
   scene.addBox(2.6, 0.5, std::numbers::pi / 2 - 0.35, 0.9, 0.05, 0, 2.05, 1);
   const auto found = test::hypotheses<DoorGenerator>(shadedEvidence(scene, "door"));
   ASSERT_FALSE(found.empty());
-  EXPECT_LT(std::hypot(found[0].x - 2.6, found[0].y - 0.5), 0.15);
-  EXPECT_LT(std::abs(wrapAngle(2 * (found[0].yaw - std::numbers::pi / 2 + 0.35))) / 2, 0.1);
+  EXPECT_EQ(found[0].source, "wall");
+  EXPECT_LT(std::hypot(found[0].x - 3.0, found[0].y - 0.1), 0.15);
+  EXPECT_LT(std::abs(std::sin(found[0].yaw)), 0.03) << "as the wall";
+}
+
+// The front of a cupboard, .4 m before the wall it stands at, is not in that wall.
+TEST(Door, TheFrontOfACupboardIsNotInTheWallBehindIt) {
+  Scene scene = sceneAhead();
+  scene.addBox(3.0, 0, 0, 6.0, 0.1, 0, 2.5, 2);
+  scene.addBox(2.75, 0, 0, 0.9, 0.4, 0, 2.0, 1);
+  const auto found = test::hypotheses<DoorGenerator>(shadedEvidence(scene, "door"));
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].source, "depth plane");
+  EXPECT_NEAR(found[0].x, 2.55, 0.06);
+}
+
+// At the end of a corridor most of what is seen beside the door are the walls along it.
+TEST(Door, WallsThatComeTowardsTheCameraAreNotTheDoors) {
+  Scene scene = sceneAhead();
+  scene.addBox(3.0, 0, 0, 1.3, 0.1, 0, 2.5, 2);
+  for (const double side : {-0.7, 0.7}) scene.addBox(1.5, side, 0, 0.1, 3.0, 0, 2.5, 3);
+  scene.addBox(2.96, 0, 0, 0.9, 0.06, 0, 2.05, 1);
+  const auto found = test::hypotheses<DoorGenerator>(shadedEvidence(scene, "door"));
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].x, 2.95, 0.06);
+  EXPECT_LT(std::abs(std::sin(found[0].yaw)), 0.03);
+}
+
+// A leaf set back from the wall's face by the wall's thickness: the box shows the frame's edges on the face.
+TEST(Door, WidthIsMeasuredOnTheFaceOfTheWall) {
+  for (const double y : {0.0, 0.8}) {
+    Scene scene = sceneAhead();
+    for (const double side : {-1.0, 1.0}) {
+      scene.addBox(3.0, y + side * 1.4, 0, 2.0, 0.16, 0, 2.5, 2);  // leaves a gap of .8 m
+      scene.addBox(3.0, y + side * 0.37, 0, 0.06, 0.16, 0, 2.05, 1);
+    }
+    scene.addBox(3.06, y, 0, 0.7, 0.04, 0, 2.05, 1);
+    const auto found = test::hypotheses<DoorGenerator>(shadedEvidence(scene, "door"));
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].source, "wall");
+    EXPECT_NEAR(found[0].x, 2.92 + 0.03, 0.02) << "half of the usual depth behind the face";
+    EXPECT_NEAR(found[0].y, y, 0.03);
+    const double usual = 0.9, sigma = 0.1, prior = 1 / (sigma * sigma), seen = found[0].size_information[0];
+    EXPECT_NEAR(((seen + prior) * found[0].shape.width - prior * usual) / seen, 0.8, 0.03) << y;
+  }
 }
 
 TEST(Symmetry, OfAQuarterTurn) {

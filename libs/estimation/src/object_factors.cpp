@@ -11,6 +11,7 @@
 #include "measurement_in_world.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
+#include "size_mean.h"
 
 namespace roomgraph {
 
@@ -71,34 +72,17 @@ struct PointView {
   Eigen::Vector3d in_world;
 };
 
-// Mean size of the shapes that were fitted to the object from one direction. The usual size of its class had
-// its say when they were fitted, so its deviation is how far such a mean is off at most, whatever their
-// number.
-struct MeanSize {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double weight = 0, largest = 0;
-
-  void add(const ObjectShape& shape, double w) {
-    sum += w * Eigen::Vector3d(shape.width, shape.depth, shape.height);
-    weight += w;
-    largest = std::max(largest, w);
-  }
-  void add(const MeanSize& other) {
-    sum += other.sum;
-    weight += other.weight;
-    largest = std::max(largest, other.largest);
-  }
-  LandmarkSizeFactor factor(LandmarkId id, const ObjectModel& model) const {
-    return {
-        id, sum / weight,
-        Eigen::Vector3d(model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m) / std::sqrt(largest)};
-  }
+// A proposal that measures the size, if its yaw is the landmark's; else width and depth may have changed
+// places.
+struct SizeSeen {
+  const Proposal* proposal;
+  double yaw_in_robot, weight;
 };
 
 // Measurements of one landmark.
 struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
-  std::map<NodeId, MeanSize> sizes;
+  std::map<NodeId, std::vector<SizeSeen>> sizes;
   std::map<NodeId, LandmarkBoxFactor> boxes;  // the best of each key pose
   std::map<PointId, std::map<NodeId, PointView>> points;
 };
@@ -110,7 +94,8 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
-  out.sizes[node.id].add(measurement.proposal.shape, sighting.weight * visibleFraction(measurement));
+  out.sizes[node.id].push_back(
+      {&measurement.proposal, sighting.yaw_in_robot, sighting.weight * visibleFraction(measurement)});
   LandmarkBoxFactor& best = out.boxes[node.id];
   if (!best.landmark.valid() || sighting.weight > best.weight)
     best = {.node = node.id,
@@ -176,12 +161,16 @@ std::optional<double> votedYaw(const Gathered& seen, const KeyPoses& poses) {
   return std::real(single * std::polar(1.0, -axis)) < 0 ? wrapAngle(axis + std::numbers::pi) : axis;
 }
 
+bool isAcross(double difference_rad) {
+  return std::abs(std::sin(difference_rad)) > std::numbers::sqrt2 / 2;
+}
+
 // Sightings from one key pose; yaws of the other direction are reversed, those across do not measure the yaw.
 std::vector<LandmarkFactor> withYawsNear(double yaw_in_robot, std::vector<LandmarkFactor> sightings) {
   for (LandmarkFactor& s : sightings) {
     if (std::abs(wrapAngle(s.yaw_in_robot - yaw_in_robot)) > std::numbers::pi / 2)
       s.yaw_in_robot = wrapAngle(s.yaw_in_robot + std::numbers::pi);
-    s.has_yaw &= std::abs(wrapAngle(s.yaw_in_robot - yaw_in_robot)) < std::numbers::pi / 4;
+    s.has_yaw &= !isAcross(s.yaw_in_robot - yaw_in_robot);
   }
   return sightings;
 }
@@ -191,11 +180,11 @@ using Visit = std::vector<LandmarkFactor>;  // sightings from one direction in a
 // What was seen from one direction.
 struct View {
   std::vector<Visit> visits;
-  MeanSize size;
+  SizeMean size;
 };
 
-std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses, double yaw,
-                                     double angle_rad) {
+std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* usual, const KeyPoses& poses,
+                                     double yaw, double angle_rad) {
   std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
     const KeyPose& node = poses.node(id);
@@ -211,7 +200,9 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const KeyPoses& poses
                                 node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);
     if (gone) view.visits.emplace_back();
     view.visits.back().push_back(sighting);
-    view.size.add(seen.sizes.at(id));
+    if (!usual) continue;
+    for (const auto& [proposal, seen_yaw, weight] : seen.sizes.at(id))
+      if (!proposal->has_yaw || !isAcross(seen_yaw - yaw_in_robot)) view.size.add(*proposal, *usual, weight);
   }
   return views;
 }
@@ -229,7 +220,7 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
 void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   const double yaw = votedYaw(seen, poses).value_or(landmark.yaw);
-  for (const auto& [direction, view] : viewsByDirection(seen, poses, yaw, options.landmark_view_rad)) {
+  for (const auto& [direction, view] : viewsByDirection(seen, usual, poses, yaw, options.landmark_view_rad)) {
     std::vector<LandmarkFactor> visits;
     const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
     for (const Visit& visit : view.visits) {
@@ -243,8 +234,9 @@ void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
     out.views[id] = {landmark.position, yaw, landmark.shape};
     out.shared_errors.push_back(sharedError(visits, options));
     out.shared_errors.back().view = id;
-    if (usual && view.size.weight > kLeastWeight) out.sizes.push_back(view.size.factor(landmark.id, *usual));
+    if (!view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
   }
+  if (usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
 }
 
 void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOptions& options,

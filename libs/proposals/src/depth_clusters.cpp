@@ -17,6 +17,9 @@ namespace roomgraph {
 namespace {
 
 constexpr double kShrink = 0.02;          // of the box's size, per side: its rim is background
+constexpr double kAround = 0.45,
+                 kGap =
+                     0.06;  // of the box's size: how far beside it is looked, and what is left out at its rim
 constexpr double kVoxel = 0.05;           // m
 constexpr double kLinkDistance = 0.09;    // m, between voxels of one object
 constexpr double kLinkPerSpacing = 2;     // added to it, on the distance of neighbouring samples …
@@ -175,20 +178,20 @@ void takeInParts(DepthMask& main, const std::vector<DepthMask>& others, std::siz
   }
 }
 
-}  // namespace
+// Pixels from one sample to the next, for at most about so many of them.
+int strideOver(const Box2& box, int max_points) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(box.area() / max_points))));
+}
 
-DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
-                    int max_points) {
+template <class Wanted>
+DepthMask samplePixels(const Frame& frame, const Box2& box, int stride, const Pose3& ground_from_camera,
+                       const Wanted& wanted) {
   DepthMask out;
-  const Box2 box = clipped(detection.box, frame.depth.cols, frame.depth.rows);
   if (!frame.hasDepth() || box.empty()) return out;
-  const int stride = std::max(1, static_cast<int>(std::ceil(std::sqrt(box.area() / max_points))));
-  const int u_end = static_cast<int>(box.u_max - kShrink * box.width());
-  const int v_end = static_cast<int>(box.v_max - kShrink * box.height());
   int tried = 0;
-  for (int v = static_cast<int>(box.v_min + kShrink * box.height()); v < v_end; v += stride)
-    for (int u = static_cast<int>(box.u_min + kShrink * box.width()); u < u_end; u += stride) {
-      if (maskedOut(detection, u, v)) continue;
+  for (int v = static_cast<int>(box.v_min); v < static_cast<int>(box.v_max); v += stride)
+    for (int u = static_cast<int>(box.u_min); u < static_cast<int>(box.u_max); u += stride) {
+      if (!wanted(u, v)) continue;
       ++tried;
       const float z = frame.depth.at<float>(v, u);
       if (!(z > 0) || !std::isfinite(z)) continue;
@@ -197,6 +200,28 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
     }
   out.valid_ratio = tried > 0 ? static_cast<double>(out.points.size()) / tried : 0;
   return out;
+}
+
+}  // namespace
+
+DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
+                    int max_points) {
+  const Box2 box = clipped(detection.box, frame.depth.cols, frame.depth.rows);
+  const double du = kShrink * box.width(), dv = kShrink * box.height();
+  const Box2 inner{box.u_min + du, box.v_min + dv, box.u_max - du, box.v_max - dv};
+  const auto stride = strideOver(box, max_points);
+  return samplePixels(frame, inner, stride, ground_from_camera,
+                      [&](int u, int v) { return !maskedOut(detection, u, v); });
+}
+
+DepthMask sampleAround(const Frame& frame, const Box2& box, const Pose3& ground_from_camera, int max_points) {
+  const double du = kAround * box.width(), dv = kAround * box.height();
+  const Box2 outer = clipped({box.u_min - du, box.v_min - dv, box.u_max + du, box.v_max}, frame.depth.cols,
+                             frame.depth.rows);
+  const double gap_u = kGap * box.width(), gap_v = kGap * box.height();
+  const Box2 inner{box.u_min - gap_u, box.v_min - gap_v, box.u_max + gap_u, box.v_max};
+  return samplePixels(frame, outer, strideOver(outer, max_points), ground_from_camera,
+                      [&](int u, int v) { return !inner.contains(u, v); });
 }
 
 std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,

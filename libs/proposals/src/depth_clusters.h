@@ -16,6 +16,10 @@ namespace roomgraph {
 DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3& ground_from_camera,
                     int max_points = 800);
 
+/// Points left and right of the box and above it. At most about `max_points`, on a regular pixel grid.
+DepthMask sampleAround(const Frame& frame, const Box2& box, const Pose3& ground_from_camera,
+                       int max_points = 800);
+
 /// Removes the ground and points higher than the class can be, clusters the rest (Euclidean distance) and returns the
 /// clusters that explain the box best (large, central, filling the box, not behind others), best first, at most
 /// `max_count`. When the first is an occluder, the object is the next. Parts of the object separated from its cluster

@@ -75,7 +75,7 @@ std::optional<PlacedShape> through(const Sides& sides, const Eigen::Vector2d& di
   plane.sigma_m = sides.sigma * std::abs(plane.normal.dot(sides.near.normalized()));
   plane.sigma_rad = angle_sigma;
   plane.inlier_share = 1;
-  auto placed = doorOnPlane(plane, e);
+  auto placed = doorOnPlane(plane, e, e.model->depth_m / 4);
   if (placed) placed->source = source;
   return placed;
 }

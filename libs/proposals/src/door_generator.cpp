@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "door_from_image.h"
+#include "door_in_wall.h"
 #include "door_on_plane.h"
 #include "roomgraph/proposals/shape_fit.h"
 #include "vertical_plane.h"
@@ -44,6 +45,7 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
   const double usual = e.model->height_m, sigma = std::max(kLeastDoorSigma_m, e.model->height_sigma_m);
   const double gain = sigma * sigma / (sigma * sigma + seen_sigma * seen_sigma);
   placed.shape.height = usual + std::clamp(gain * (seen - usual), -kHeightGate * sigma, kHeightGate * sigma);
+  placed.size_information[2] = 1 / (seen_sigma * seen_sigma);
 }
 
 }  // namespace
@@ -51,9 +53,15 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
 std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
                                                  const GeneratorLimits& limits) const {
   std::vector<PlacedShape> guesses;
-  const auto plane = fitVerticalPlane(footprintPoints(evidence));
-  if (plane) {
-    if (const auto placed = doorOnPlane(*plane, evidence)) {
+  const auto leaf = fitVerticalPlane(footprintPoints(evidence));
+  if (auto in_wall = doorInWall(leaf, evidence)) {
+    adjustHeight(*in_wall, evidence);
+    return keepBest({*in_wall}, {}, limits);
+  }
+  if (leaf) {
+    // The points are on the leaf, which is flush with the wall or up to half of the frame's depth behind its
+    // face: the middle of both.
+    if (const auto placed = doorOnPlane(*leaf, evidence, evidence.model->depth_m / 4)) {
       guesses.push_back(*placed);
       guesses.back().source = "depth plane";
     }
@@ -61,7 +69,7 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
     guesses = doorsFromImage(evidence);
   }
   for (PlacedShape& placed : guesses) {
-    placed.supported = plane.has_value();
+    placed.supported = leaf.has_value();
     adjustHeight(placed, evidence);
     judge(placed, evidence);
   }

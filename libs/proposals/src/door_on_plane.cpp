@@ -15,21 +15,31 @@ constexpr double kLeastWidth_m = 0.2;  // no door is narrower
 // Standard deviations added when hardly any of the points are inliers of the plane; less by the square of their share.
 constexpr double kDoubt_m = 0.3, kDoubt_rad = 0.5;
 
-// Where a column of the image meets the plane: coordinate along it, and its change per pixel.
-struct ColumnHit {
+// Where a pixel's line of sight meets the plane: coordinate along it, and its change per pixel.
+struct PlaneHit {
   double at = 0, per_px = 0;
 };
 
-std::optional<ColumnHit> columnOnPlane(const BoxEvidence& e, const VerticalPlane& plane, double u) {
-  const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(u, e.box.center().y());
+std::optional<PlaneHit> hitOf(const BoxEvidence& e, const VerticalPlane& plane, double u, double v) {
+  const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(u, v);
   const Eigen::Vector2d d = ray.head<2>().normalized();
   const double slope = plane.normal.dot(d);
   if (slope > -kEdgeOn) return std::nullopt;
   const double range = plane.offset / slope;
-  return ColumnHit{plane.along().dot(range * d), range / -slope / (e.camera.fx * ray.head<2>().norm())};
+  return PlaneHit{plane.along().dot(range * d), range / -slope / (e.camera.fx * ray.head<2>().norm())};
 }
 
-SeenInterval seenBetween(const ColumnHit& left, const ColumnHit& right, const BoxEvidence& e) {
+// The upright edge that a side of the box touches. A camera that looks down sees upright edges diverge
+// upwards, so that the box's side touches one of its ends only: of the hits of both corners, the one nearer
+// to the box's middle.
+std::optional<PlaneHit> edgeAt(const BoxEvidence& e, const VerticalPlane& plane, double u) {
+  const auto top = hitOf(e, plane, u, e.box.v_min), bottom = hitOf(e, plane, u, e.box.v_max),
+             middle = hitOf(e, plane, e.box.center().x(), e.box.center().y());
+  if (!top || !bottom || !middle) return std::nullopt;
+  return std::abs(top->at - middle->at) < std::abs(bottom->at - middle->at) ? top : bottom;
+}
+
+SeenInterval seenBetween(const PlaneHit& left, const PlaneHit& right, const BoxEvidence& e) {
   const double px = sideSigma(e.box.width());
   SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut.left, e.cut.right};
   // Depending on the side of the plane, its coordinate grows to the right of the image or to the left.
@@ -58,7 +68,8 @@ Interval solve(const SeenInterval& seen, bool use_low, bool use_high, double usu
   if (use_high) normal.add({1, 0.5}, seen.high, seen.high_sigma);
   if (!use_low && !use_high) normal.add({1, 0}, (seen.low + seen.high) / 2, kVague_m);
   const Eigen::Vector2d x = normal.information.ldlt().solve(normal.right);
-  return {x[0], x[1], std::sqrt(normal.information.inverse()(0, 0))};
+  const Eigen::Matrix2d covariance = normal.information.inverse();
+  return {x[0], x[1], std::sqrt(covariance(0, 0)), std::max(0.0, 1 / covariance(1, 1) - 1 / (sigma * sigma))};
 }
 
 // Covariance of (x, y, yaw). An error of the plane's offset moves the door along the line of sight, since the box's
@@ -91,24 +102,22 @@ Interval fitInterval(const SeenInterval& seen, double usual_width, double width_
   return out;
 }
 
-std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e) {
-  const auto left = columnOnPlane(e, plane, e.box.u_min), right = columnOnPlane(e, plane, e.box.u_max);
+std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e, double seat_m) {
+  const auto left = edgeAt(e, plane, e.box.u_min), right = edgeAt(e, plane, e.box.u_max);
   if (!left || !right) return std::nullopt;
   const double width_sigma = std::max(kLeastDoorSigma_m, e.model->width_sigma_m);
   const Interval along = fitInterval(seenBetween(*left, *right, e), e.model->width_m, width_sigma);
   PlacedShape placed;
   placed.shape = e.model->nominal();
   placed.shape.width = std::max(kLeastWidth_m, along.width);
-  // The depth points are on the leaf, which is flush with the wall or up to half of the frame's depth behind its face:
-  // the middle of both.
-  const double seat = placed.shape.depth / 4;
-  const Eigen::Vector2d leaf = plane.normal * plane.offset + plane.along() * along.center;
-  const Eigen::Vector2d p = leaf - plane.normal * seat;
+  placed.size_information[0] = along.width_information;
+  const Eigen::Vector2d on_plane = plane.normal * plane.offset + plane.along() * along.center;
+  const Eigen::Vector2d p = on_plane - plane.normal * seat_m;
   placed.x = p.x();
   placed.y = p.y();
   placed.yaw = std::atan2(plane.normal.y(), plane.normal.x());
   placed.has_yaw = true;
-  placed.covariance = covarianceOn(plane, along, leaf, seat);
+  placed.covariance = covarianceOn(plane, along, on_plane, seat_m);
   return placed;
 }
 

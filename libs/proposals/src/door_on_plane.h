@@ -22,6 +22,7 @@ struct SeenInterval {
 struct Interval {
   double center = 0, width = 0;
   double center_sigma = 0;
+  double width_information = 0;  ///< 1/m^2, of what was seen alone
 };
 
 /// Least squares of both ends and the usual width (mean, standard deviation; m). When both ends are cut, the centre has
@@ -37,9 +38,11 @@ inline double sideSigma(double extent_px) {
   return fit.box_side_px + fit.box_side_share * extent_px;
 }
 
-/// A door whose leaf lies in the plane, between the sides of the box, with its covariance: across the plane from the
-/// plane's and that of the leaf's position in its frame, along it from the box's sides at this viewing angle. Nothing
-/// when the plane is seen edge-on, or the ray of a side of the box does not meet it.
-std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& evidence);
+/// A door between the sides of the box on the plane, `seat_m` behind which its middle is, with its
+/// covariance: across the plane from the plane's and as much as `seat_m`, which is a guess, along it from the
+/// box's sides at this viewing angle. Nothing when the plane is seen edge-on, or the ray of a side of the box
+/// does not meet it.
+std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& evidence,
+                                       double seat_m);
 
 }  // namespace roomgraph

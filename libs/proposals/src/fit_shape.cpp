@@ -27,6 +27,7 @@ constexpr double kNearRange = 0.03;    // quantile of the ranges taken for the n
 constexpr double kLeastSize_m = 0.05;  // no side of the shape becomes smaller
 constexpr int kMaxEvaluations = 30;    // bounds the time per hypothesis
 constexpr double kTolerance = 1e-4;    // relative
+constexpr double kLeastInformation = 1e-9;  // 1/m^2, 1/rad^2: what nothing in the image tells
 
 // Geman-McClure residual: outliers are wrong mask points and box sides cut by an occluder.
 double saturated(double r, double scale) {
@@ -148,6 +149,25 @@ class FitProblem {
     return 0;
   }
 
+  // Marginal information about width, depth and height beyond the usual size's, 1/m^2.
+  Eigen::Vector3d sizeInformation(const Eigen::VectorXd& x) const {
+    Eigen::MatrixXd jacobian(values(), inputs());
+    df(x, jacobian);
+    const Eigen::MatrixXd information =
+        jacobian.transpose() * jacobian + kLeastInformation * Eigen::MatrixXd::Identity(inputs(), inputs());
+    const Eigen::VectorXd known = information.inverse().diagonal().cwiseInverse();
+    const auto usual = [&](double sigma) { return std::pow(std::max(sigma, w_.least_size_sigma_m), -2); };
+    const ObjectModel& m = *e_.model;
+    const double width = usual(m.width_sigma_m), depth = usual(m.depth_sigma_m),
+                 height = usual(m.height_sigma_m);
+    if (round()) {
+      const double share =
+          std::max(0.0, known[2] / (width + depth) - 1);  // both say the same about one diameter
+      return {share * width, share * depth, std::max(0.0, known[3] - height)};
+    }
+    return Eigen::Vector3d(known[3] - width, known[4] - depth, known[5] - height).cwiseMax(0);
+  }
+
  private:
   using FixedResiduals = Eigen::Matrix<double, kFixedCount, 1>;
 
@@ -230,6 +250,7 @@ PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence, co
   Eigen::VectorXd x = problem.vectorOf(initial);
   solver.minimize(x);
   PlacedShape fitted = x.allFinite() ? problem.shapeOf(x) : initial;
+  if (x.allFinite()) fitted.size_information = problem.sizeInformation(x);
   judge(fitted, evidence);
   return fitted;
 }

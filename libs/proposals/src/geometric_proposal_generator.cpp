@@ -61,6 +61,7 @@ std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence&
   Proposal proposal;
   proposal.model = proposal.class_name = evidence.model->class_name;
   proposal.shape = placed.shape;
+  proposal.size_information = placed.size_information;
   proposal.camera_from_object = cameraFromObject(placed, evidence);
   proposal.covariance = covarianceOf(placed, evidence, tilt_sigma);
   proposal.has_yaw = placed.has_yaw;

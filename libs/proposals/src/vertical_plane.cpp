@@ -28,10 +28,6 @@ double noiseAcross(const VerticalPlane& plane, const Eigen::Vector2d& p) {
   return kSurfaceNoise_m + depthSigma(range) * std::abs(plane.normal.dot(p)) / range;
 }
 
-bool isInlier(const VerticalPlane& plane, const Eigen::Vector2d& p) {
-  return std::abs(plane.normal.dot(p) - plane.offset) < kOnWall_m + kOnWallSigmas * noiseAcross(plane, p);
-}
-
 std::ptrdiff_t inliers(const VerticalPlane& plane, const std::vector<Eigen::Vector2d>& points) {
   return std::count_if(points.begin(), points.end(),
                        [&](const Eigen::Vector2d& p) { return isInlier(plane, p); });
@@ -62,6 +58,10 @@ VerticalPlane refined(const VerticalPlane& initial, const std::vector<Eigen::Vec
 }
 
 }  // namespace
+
+bool isInlier(const VerticalPlane& plane, const Eigen::Vector2d& p) {
+  return std::abs(plane.normal.dot(p) - plane.offset) < kOnWall_m + kOnWallSigmas * noiseAcross(plane, p);
+}
 
 VerticalPlane planeThrough(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = (b - a).normalized();

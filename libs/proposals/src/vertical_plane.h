@@ -24,6 +24,9 @@ struct VerticalPlane {
 /// Plane through two points of the ground.
 VerticalPlane planeThrough(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
+/// Whether a point of the ground, measured by a depth camera above the origin, may lie on the plane.
+bool isInlier(const VerticalPlane& plane, const Eigen::Vector2d& point);
+
 /// Plane with the most inliers among the points (ground frame, measured from above the origin by a depth camera):
 /// RANSAC over pairs with a fixed seed, then weighted total least squares. Depth errors are along the view, hence small
 /// across a wall seen at a glancing angle. Nothing when there are few points, or about two thirds are outliers.

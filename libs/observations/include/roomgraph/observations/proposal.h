@@ -35,6 +35,9 @@ struct Proposal {
   Pose3 camera_from_object = Pose3::Identity();  ///< object frame: bottom centre, x front, z up
   Eigen::Matrix4d covariance =
       Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the ground-aligned camera frame: m, rad
+  /// Of width, depth and height, 1/m^2: what this image said about each. `shape` is the compromise of that
+  /// with the class's usual size.
+  Eigen::Vector3d size_information = Eigen::Vector3d::Zero();
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
   ProjectedShape projected;
   double score = 0;  ///< initialisation score in [0, 1] (method.md sec. 1.5)

@@ -49,6 +49,7 @@ struct BoxEvidence {
   BoxSides hidden;       ///< of these, the sides at a nearer object
   DepthMask mask;        ///< of the object; may be empty
   DepthMask all;         ///< everything in the box
+  DepthMask around;      ///< of planar classes: beside and above the box, where the wall is
   DepthMask other_mask;  ///< the second best explanation of the box's points; may be empty
   BoxEdges edges;
   std::vector<Segment2> segments;      ///< of the edges, those the mask supports, longest first

@@ -21,6 +21,7 @@ struct PlacedShape {
   std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
   std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction gives one
+  Eigen::Vector3d size_information = Eigen::Vector3d::Zero();  ///< see Proposal
   bool supported = true;                      ///< false: made without the evidence's depth points
   std::string source;                         ///< how it was made, for debug pictures
   std::string reason;                         ///< why it was dropped

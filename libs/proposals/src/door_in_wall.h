@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Door in the wall that is seen beside its box.
+#pragma once
+
+#include <optional>
+
+#include "roomgraph/proposals/box_evidence.h"
+#include "roomgraph/proposals/placed_shape.h"
+#include "vertical_plane.h"
+
+namespace roomgraph {
+
+/// A door whose frame ends at the face of the wall around the box: the sides of the box are the frame's edges
+/// on that face, whether the leaf is open, set back, or not there. `leaf`: plane of the points inside the
+/// box, if there is one; when it is another parallel plane, as the front of a cupboard before the wall, there
+/// is no door in this wall. Nothing as well when no wall is seen, or when what the box spans on it cannot be
+/// a door.
+std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence);
+
+}  // namespace roomgraph

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sizes with the usual one taken out of each: the mean is that of the measurements alone.
+#include "size_mean.h"
+
+#include <gtest/gtest.h>
+
+#include "shipped_objects.h"
+
+namespace roomgraph::test {
+namespace {
+
+const ObjectModel& sofa() {
+  return *shippedObjects().find("sofa");
+}
+
+// As a fit makes it of a measurement of the width, with variance: weighed against the usual size. The rest is
+// not seen.
+Proposal fitted(double measured_m, double sigma_m) {
+  const double prior = 1 / (sofa().width_sigma_m * sofa().width_sigma_m),
+               information = 1 / (sigma_m * sigma_m);
+  Proposal out;
+  out.shape = sofa().nominal();
+  out.shape.width = (information * measured_m + prior * sofa().width_m) / (information + prior);
+  out.size_information = {information, 0, 0};
+  return out;
+}
+
+TEST(SizeMean, GivesBackTheMeasurement) {
+  SizeMean mean;
+  EXPECT_TRUE(mean.empty());
+  for (int i = 0; i < 50; ++i) mean.add(fitted(2.4, 0.3), sofa(), 1);
+  const LandmarkSizeFactor factor = mean.factor(LandmarkId{7});
+  EXPECT_EQ(factor.landmark, LandmarkId{7});
+  EXPECT_NEAR(factor.size_m.x(), 2.4, 1e-6);
+  EXPECT_NEAR(factor.sigma_m.x(), 0.3, 1e-6) << "not surer than one of them";
+  EXPECT_GT(factor.sigma_m.y(), 100) << "the depth was never seen";
+}
+
+// Weighted least squares by hand.
+TEST(SizeMean, WeighsByInformationAndWeight) {
+  SizeMean mean;
+  mean.add(fitted(2.0, 0.1), sofa(), 0.8);
+  mean.add(fitted(2.3, 0.2), sofa(), 0.4);
+  const double a = 0.8 / (0.1 * 0.1), b = 0.4 / (0.2 * 0.2);
+  const LandmarkSizeFactor factor = mean.factor(LandmarkId{7});
+  EXPECT_NEAR(factor.size_m.x(), (a * 2.0 + b * 2.3) / (a + b), 1e-6);
+  EXPECT_NEAR(factor.sigma_m.x(), std::sqrt(1 / ((a + b) / 1.2 * 0.8)), 1e-6)
+      << "mean information, largest weight";
+}
+
+TEST(SizeMean, ThePriorIsTheUsualSize) {
+  const LandmarkSizeFactor prior = sizePrior(LandmarkId{3}, sofa());
+  EXPECT_TRUE(prior.size_m.isApprox(Eigen::Vector3d(sofa().width_m, sofa().depth_m, sofa().height_m)));
+  EXPECT_TRUE(prior.sigma_m.isApprox(
+      Eigen::Vector3d(sofa().width_sigma_m, sofa().depth_sigma_m, sofa().height_sigma_m)));
+}
+
+}  // namespace
+}  // namespace roomgraph::test
