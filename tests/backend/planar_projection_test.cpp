@@ -62,7 +62,8 @@ FactorGraph flatGraph(unsigned seed) {
     const Pose2 view{object.x + random.uniform(-0.2, 0.2), object.y + random.uniform(-0.2, 0.2),
                      object.yaw + 0.1};
     graph.addLandmark(LandmarkId{id}, {{view.x, view.y, 0}, view.yaw, {ShapeKind::kCuboid, 1, 2, 3}});
-    LandmarkViewFactor f{LandmarkId{id}, LandmarkId{3}, id == 4};
+    LandmarkViewFactor f{.view = LandmarkId{id}, .landmark = LandmarkId{3}, .has_yaw = id == 4};
+    if (f.has_yaw) f.offset_m = {0.1, -0.2};
     const Eigen::Matrix3d covariance = someCovariance(random);
     const int rows[] = {0, 1, 3};
     for (int r = 0; r < 3; ++r)

@@ -97,16 +97,24 @@ Specimen viewAtMeasurement(Random& random) {
   LandmarkViewFactor f;
   f.has_yaw = random.index(2) == 0;
   f.covariance = randomCovariance<4>(random);
-  return {sharedCost(f), {{object}, {object}}};
+  f.offset_by_size << random.uniform(-0.5, 0.5), 0, 0.1, 0.2, random.uniform(-0.5, 0.5), 0;
+  const Eigen::Vector3d size(1.8, 0.9, 0.8);
+  f.offset_m = -f.offset_by_size * size;  // it was taken for what it is
+  return {sharedCost(f), {{object}, {object}, {{size.x(), size.y(), size.z()}}}};
 }
 
-// The view stands 0.2 m east and 0.1 m south of the landmark and is turned by 3 - (-3) rad, which is 6 - 2 pi;
+// The view stands 0.2 m east and 0.1 m south of the landmark and is turned by 3 - (-3) rad, which is 6 - 2
+// pi; its fits of 1.6 m width are .2 m too narrow, so that their middles are .1 m ahead of the landmark's;
 // sigmas 0.1 m and 0.1 rad.
 Specimen viewByHand() {
   LandmarkViewFactor f;
   f.has_yaw = true;
   f.covariance = Eigen::Matrix4d::Identity() * 0.01;
-  return {sharedCost(f), {{{1.2, 1.9, 0, 3}}, {{1, 2, 0, -3}}}, {2, -1, 0, (6 - 2 * M_PI) / 0.1}};
+  f.offset_by_size(0, 0) = 0.5;
+  f.offset_m.x() = -0.5 * 1.6;
+  return {sharedCost(f),
+          {{{1.2, 1.9, 0, 3}}, {{1, 2, 0, -3}}, {{1.8, 0.9, 0.8}}},
+          {2 - std::cos(3), -1 + std::sin(3), 0, (6 - 2 * M_PI) / 0.1}};
 }
 
 Specimen onFloorAtMeasurement(Random& random) {

@@ -72,10 +72,8 @@ TEST_F(Evidence, OfSightingsByHand) {
   far.world_from_object.translation().x() = 3.4;
   far.covariance = 0.04 * Eigen::Matrix4d::Identity();
   far.measurement.proposal.score = 0.8;
-  far.measurement.proposal.box_iou = 0.6;
   const ExistenceEvidence evidence = of({chair});
   EXPECT_NEAR(evidence.score, (0.5 * 0.5 + 0.8 * 0.8 + 0.5 * 0.5) / 1.8, 1e-12);
-  EXPECT_NEAR(evidence.box, 0.8 * 0.6 / 1.8, 1e-12);
   EXPECT_NEAR(evidence.sightings, std::log(1 + 0.8), 1e-12) << "one key pose: the largest weight";
   EXPECT_NEAR(evidence.directions, 0, 1e-12) << "one direction";
   EXPECT_NEAR(evidence.scatter, std::log(0.05 + 0.4 * 0.4 / 0.04 / 3), 1e-12);

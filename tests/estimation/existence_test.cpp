@@ -35,7 +35,6 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"sightings", &E::sightings},
                                                              {"directions", &E::directions},
                                                              {"score", &E::score},
-                                                             {"box", &E::box},
                                                              {"label", &E::label},
                                                              {"scatter", &E::scatter},
                                                              {"turned", &E::turned},

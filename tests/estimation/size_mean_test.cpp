@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "shipped_objects.h"
 
 namespace roomgraph::test {
@@ -46,6 +49,28 @@ TEST(SizeMean, WeighsByInformationAndWeight) {
   EXPECT_NEAR(factor.size_m.x(), (a * 2.0 + b * 2.3) / (a + b), 1e-6);
   EXPECT_NEAR(factor.sigma_m.x(), std::sqrt(1 / ((a + b) / 1.2 * 0.8)), 1e-6)
       << "mean information, largest weight";
+}
+
+// Fits of usual width that hold the sofa's left end, seen from before and from behind, although it is 2.4 m
+// long.
+TEST(OffsetMean, PlacesTheMiddleByTheSizeThatIsTrue) {
+  OffsetMean mean;
+  Proposal left = fitted(1.85, 0.1);
+  left.place_by_size(1, 0) = -0.5;
+  mean.add(left, 0, 1);
+  Proposal from_behind = left;  // what is left there is right here
+  from_behind.place_by_size(1, 0) = 0.5;
+  mean.add(from_behind, std::numbers::pi, 3);
+  LandmarkViewFactor factor;
+  mean.apply(factor);
+  const Eigen::Vector3d truth(2.4, left.shape.depth, left.shape.height);
+  const Eigen::Vector2d offset = factor.offset_m + factor.offset_by_size * truth;
+  EXPECT_NEAR(offset.x(), 0, 1e-12);
+  EXPECT_NEAR(offset.y(), (2.4 - left.shape.width) / 2, 1e-12)
+      << "the fits' middles are nearer to the left end";
+  mean.add(4);  // half of the weight sees both ends
+  mean.apply(factor);
+  EXPECT_NEAR((factor.offset_m + factor.offset_by_size * truth).y(), (2.4 - left.shape.width) / 4, 1e-12);
 }
 
 TEST(SizeMean, ThePriorIsTheUsualSize) {

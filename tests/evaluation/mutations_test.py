@@ -30,7 +30,7 @@ if a[0] == "--preset":
     sys.exit(0)
 folder = pathlib.Path(a[1]) / "bin"
 folder.mkdir(parents=True, exist_ok=True)
-for target in a[3:]:
+for target in a[3:a.index("--") if "--" in a else None]:
     sources = [*pathlib.Path("libs").rglob("*.cpp"), *pathlib.Path("tests").rglob(target + ".cpp")]
     code = subprocess.run([{compiler!r}, "-std=c++17", "-o", folder / target, *sources]).returncode
     if code != 0:
@@ -71,6 +71,9 @@ BROKEN = {"name": "broken", "file": SOURCE, "find": "s + 1", "replace": "s +"}
 ENDLESS = {"name": "endless", "file": SOURCE, "find": "i < 0", "replace": "i > 0"}
 TERM = {"name": "term", "file": SOURCE, "kind": "expression", "find": "i + 0", "replace": "i + 4"}
 STEP = {"name": "step", "file": SOURCE, "kind": "statement", "find": "return s;  // unseen", "replace": "return -s;"}
+# A declaration is no expression: behind a switch it does not compile.
+DECLARED = {"name": "declared", "file": SOURCE, "kind": "expression", "find": "volatile int i = 1;",
+            "replace": "volatile int i = 5;"}
 SUM = {"name": "sum", "file": "libs/high/src/high.cpp", "kind": "expression", "find": "one() + two()",
        "replace": "one() - two()"}
 LOW, HIGH = [OWN, ABOVE, UNSEEN, BROKEN, TERM, STEP], [SUM]
@@ -155,6 +158,15 @@ class Mutations(unittest.TestCase):
         self.assertEqual(code, 0)
         self.assertIn("1 survivors explained", out)
         self.assertIn("nobody uses it", out)
+
+    def test_a_fault_that_does_not_compile_behind_a_switch_is_built_alone(self):
+        self.list("low", [DECLARED, STEP, UNSEEN])
+        self.list("high", [SUM])
+        code, out, err = self.call()
+        self.assertEqual(code, 1, err)
+        self.assertIn("not behind a switch, as it does not compile there: declared", out)
+        self.assertEqual(self.verdicts(), {"declared": "caught", "sum": "caught", "step": "survived", "unseen": "survived"})
+        self.assertTreeIsSound()
 
     def test_several_copies_find_the_same(self):
         self.assertEqual(self.call("--jobs", "2")[0], 1)

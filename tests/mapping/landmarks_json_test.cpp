@@ -53,8 +53,10 @@ TEST(LandmarksJson, HeaderAndSightings) {
   const auto landmarks = test::sampleMap().landmarks;
   ASSERT_GE(landmarks.size(), 2u);
   const LandmarkId seen = landmarks[0].id;
-  const auto json =
-      saved(landmarks, {"lab \"a\".rawlog", "1.2.3", {{seen, {1700000000.25, 1700000009.125}}}});
+  const auto json = saved(landmarks, {"lab \"a\".rawlog",
+                                      "1.2.3",
+                                      {{seen, {1700000000.25, 1700000009.125}}},
+                                      {{seen, {{"crossed", 0.25}}}}});
   EXPECT_EQ(json["frame"], "world");
   EXPECT_EQ(json["units"], nlohmann::json::parse(R"({"length": "m", "angle": "rad", "time": "s"})"));
   EXPECT_EQ(json["recording"], "lab \"a\".rawlog");
@@ -63,6 +65,8 @@ TEST(LandmarksJson, HeaderAndSightings) {
   EXPECT_EQ(json["landmarks"][0]["first_seen"], 1700000000.25);
   EXPECT_EQ(json["landmarks"][0]["last_seen"], 1700000009.125);
   EXPECT_FALSE(json["landmarks"][1].contains("first_seen")) << "not known";
+  EXPECT_EQ(json["landmarks"][0]["evidence"], nlohmann::json({{"crossed", 0.25}}));
+  EXPECT_FALSE(json["landmarks"][1].contains("evidence")) << "not known";
 }
 
 TEST(LandmarksJson, FootprintIsInWorld) {

@@ -72,6 +72,7 @@ FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Det
       proposal.has_yaw = object.shape.kind != ShapeKind::kCylinder;
       proposal.projected.full = proposal.projected.visible = detections[j].box;
       proposal.score = proposal.box_iou = 1;
+      proposal.size_information.setConstant(1e8);
       out.proposals.push_back(proposal);
     }
   return out;

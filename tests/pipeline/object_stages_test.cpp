@@ -11,7 +11,9 @@
 namespace roomgraph::test {
 namespace {
 
-const std::string kFakeObjects = "[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n";
+// The fakes' scans and images show a room without its objects, so that rays speak against all of them.
+const std::string kFakeObjects =
+    "[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n[existence]\nenabled = false\n";
 
 class ObjectStagesTest : public ::testing::Test {
  protected:
@@ -61,11 +63,29 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
     EXPECT_EQ(landmark.has_yaw, truth.class_name == "sofa");
     EXPECT_LT(landmark.has_yaw ? std::abs(wrapAngle(landmark.yaw - 2.8)) : 0.0, 0.05);
     EXPECT_NEAR(landmark.shape.width, truth.shape.width, 1e-3);
-    EXPECT_GT(landmark.existence, 0.9) << "by its sightings alone: the frames have no depth";
+    EXPECT_GT(landmark.existence, 0.99);
     EXPECT_GT(landmark.observations, 10);
     EXPECT_TRUE(slam.graph().hasLandmark(landmark.id));
   }
   EXPECT_GT(slam.graph().landmarks(), 2u) << "views";
+}
+
+TEST_F(ObjectStagesTest, WhatBeamsCrossIsNotInTheMap) {
+  place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 1.0}, 3.5, 1.0, 2.8);
+  place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);
+  SemanticSlam slam(
+      setupWith("[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n"
+                "[tracking]\nenabled = false\n"));
+  const SlamResult result = drive(slam);
+  ASSERT_EQ(result.candidates.size(), 2u);
+  for (const auto& [landmark, evidence] : result.candidates) {
+    const bool is_sofa = landmark.class_name == "sofa";
+    EXPECT_NEAR(evidence.beams_crossed, is_sofa ? 1 : 0, 1e-9) << "a sofa is solid below, a chair is not";
+    EXPECT_EQ(landmark.existence > 0.5, !is_sofa);
+    EXPECT_GT(evidence.sightings, 1);
+  }
+  ASSERT_EQ(result.map.landmarks.size(), 1u);
+  EXPECT_EQ(result.map.landmarks[0].class_name, "swivel_chair");
 }
 
 // Place, yaw, size and covariance of one estimate, to the last bit.

@@ -137,6 +137,34 @@ TEST(Fit, SizeInformationIsThatOfTheImageAlone) {
   }
 }
 
+// The place moves with a size that is only believed: fits with another usual width say by how much.
+TEST(Fit, PlaceBySizeIsTheChangeOfThePlaceWithTheUsualSize) {
+  const auto crate = [](double width) {
+    return ObjectDatabase::fromText(
+        "[crate]\nlabels = crate\ndepth_m = 0.8\nheight_m = 0.6\ndepth_sigma_m = 0.05\nheight_sigma_m = "
+        "0.05\n"
+        "width_sigma_m = 0.02\nwidth_m = " +
+        std::to_string(width) + "\n");
+  };
+  for (const bool cut : {false, true}) {
+    Scene scene = test::sceneAhead();
+    scene.addBox(2.4, cut ? -1.2 : 0, pi, 1.3, 0.8, 0, 0.6, 1);
+    const auto fit = [&](const ObjectDatabase& database) {
+      const BoxEvidence e = fitEvidence(scene, *database.find("crate"), true);
+      EXPECT_EQ(e.cut.right, cut);
+      PlacedShape start = usualShape(e);
+      start.x = 2.4, start.y = cut ? -1.2 : 0, start.yaw = pi, start.has_yaw = true;
+      return fitShape(start, e);
+    };
+    const PlacedShape narrow = fit(crate(1.28)), wide = fit(crate(1.32));
+    const double grown = wide.shape.width - narrow.shape.width;
+    ASSERT_GT(grown, cut ? 0.03 : 0.01);
+    // In the crate's frame left is where y falls in the ground's.
+    EXPECT_NEAR((narrow.y - wide.y) / grown, narrow.place_by_size(1, 0), 0.1) << cut;
+    EXPECT_NEAR(narrow.place_by_size(1, 0), cut ? 0.5 : 0, 0.15) << "the left side in the image stays";
+  }
+}
+
 // Only the foot end of a bed is seen, at the height of the camera: the rest lies behind it.
 TEST(Cuboid, WhatIsNotSeenLiesBehindWhatIs) {
   const ObjectDatabase database = ObjectDatabase::fromText(

@@ -135,13 +135,14 @@ TEST_F(RecordingTest, WrongUseIsRefused) {
 }
 
 TEST_F(RecordingTest, AnInterruptedRunLeavesTheWholeInput) {
-  const auto copy = folder.file("copy.rawlog"), out = folder.file("out");
+  const auto copy = folder.file("copy.rawlog"), out = folder.file("out"), pictures = folder.file("pictures");
   std::vector<std::string> arguments{
-      "run",           kRoomToRecord.string(),        "-o",         out.string(), "--quiet",
-      "--no-snapshot", "--record-detections", copy.string()};
+      "run",           kRoomToRecord.string(), "-o",          out.string(),     "--quiet",
+      "--no-snapshot", "--record-detections",  copy.string(), "--debug-images", pictures.string()};
   arguments.insert(arguments.end(), replayed.begin(), replayed.end());
   Program program(folder.path(), arguments);
-  for (int i = 0; i < 12000 && !fs::exists(out / "roomgraph_unfinished" / "live.tum"); ++i)
+  // The first picture says that there is a pose.
+  for (int i = 0; i < 12000 && (!fs::exists(pictures) || fs::is_empty(pictures)); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(program.pid(), SIGINT);
   EXPECT_EQ(program.wait().exit_code, 4);

@@ -137,7 +137,9 @@ Blocks blocksOf(Impl& graph, const LandmarkFactor& f) {
   return blocks;
 }
 Blocks blocksOf(Impl& graph, const LandmarkViewFactor& f) {
-  return {graph.at(f.view).value.data(), graph.at(f.landmark).value.data()};
+  Blocks blocks{graph.at(f.view).value.data()};
+  append(blocks, graph.at(f.landmark));
+  return blocks;
 }
 Blocks blocksOf(Impl& graph, const LandmarkGroundFactor& f) {
   return {graph.at(f.landmark).value.data()};

@@ -39,6 +39,11 @@ inline Eigen::Matrix4d turnedBy(const Eigen::Matrix4d& covariance, double yaw) {
   return turn * covariance * turn.transpose();
 }
 
+/// Where a view stands beside its landmark, in the landmark's frame.
+inline Eigen::Vector2d offsetOf(const LandmarkViewFactor& f, const ObjectShape& shape) {
+  return f.offset_m + f.offset_by_size * Eigen::Vector3d(shape.width, shape.depth, shape.height);
+}
+
 /// Covariance of a view's edge, in the frame of its landmark. One without a yaw has a vertex that is free to turn: its
 /// horizontal covariance is made the same in all directions, or the solver would turn it to where errors cost least.
 inline Eigen::Matrix4d edgeCovariance(const LandmarkViewFactor& f, double landmark_yaw) {

@@ -107,9 +107,11 @@ void FactorGraph::saveG2o(const std::filesystem::path& file, const NodeTimes& ti
     const auto* view = std::get_if<LandmarkViewFactor>(&entry.factor);
     if (!view || view->weight <= kLeastWeight) continue;
     out << "EDGE_SE3:QUAT " << impl_->vertexOf(view->landmark) << ' ' << impl_->vertexOf(view->view);
-    writeTransform(out, Pose3::Identity());
+    const Eigen::Vector2d offset = offsetOf(*view, landmark(view->landmark).shape);
+    const Pose3 edge = toPose3(Pose2{offset.x(), offset.y(), 0});
+    writeTransform(out, edge);
     const Eigen::Matrix4d covariance = edgeCovariance(*view, landmark(view->landmark).yaw);
-    writeUpper<6>(out, informationOf(Pose3::Identity(), covariance, view->has_yaw));
+    writeUpper<6>(out, informationOf(edge, covariance, view->has_yaw));
   }
   writeFileAtomically(file, out.str());
 }

@@ -265,7 +265,10 @@ LandmarkFactor sightingOf(const Edge& edge, LandmarkId landmark) {
 
 // From a landmark to how it seems from one direction.
 LandmarkViewFactor viewOf(const Edge& edge, LandmarkId landmark, LandmarkId view, double yaw) {
-  LandmarkViewFactor factor{view, landmark, measuresYaw(edge), turnedBy(placeCovariance(edge), -yaw)};
+  LandmarkViewFactor factor{.view = view, .landmark = landmark};
+  factor.offset_m = edge.a_from_b.translation().head<2>();
+  factor.has_yaw = measuresYaw(edge);
+  factor.covariance = turnedBy(placeCovariance(edge), -yaw);
   factor.robust_width = 0;
   return factor;
 }

@@ -71,8 +71,9 @@ PlanarGraph FactorGraph::planar() const {
     const auto* view = std::get_if<LandmarkViewFactor>(&entry.factor);
     if (!view || view->weight <= kLeastWeight) continue;
     const Eigen::Matrix4d covariance = edgeCovariance(*view, landmark(view->landmark).yaw);
-    out.edges.push_back({impl_->vertexOf(view->landmark), impl_->vertexOf(view->view), Pose2{},
-                         planarInformation(covariance, view->has_yaw)});
+    const Eigen::Vector2d offset = offsetOf(*view, landmark(view->landmark).shape);
+    out.edges.push_back({impl_->vertexOf(view->landmark), impl_->vertexOf(view->view),
+                         Pose2{offset.x(), offset.y(), 0}, planarInformation(covariance, view->has_yaw)});
   }
   return out;
 }

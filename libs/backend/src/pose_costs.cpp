@@ -20,7 +20,7 @@ ceres::CostFunction* costOf(const LandmarkFactor& factor) {
   return automatic<LandmarkResidual, 4, 3, 4, 4>(factor);
 }
 ceres::CostFunction* costOf(const LandmarkViewFactor& factor) {
-  return automatic<LandmarkViewResidual, 4, 4, 4>(factor);
+  return automatic<LandmarkViewResidual, 4, 4, 4, 3>(factor);
 }
 ceres::CostFunction* costOf(const LandmarkGroundFactor& factor) {
   return automatic<LandmarkGroundResidual, 1, 4>(factor);

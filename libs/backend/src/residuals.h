@@ -126,18 +126,26 @@ struct LandmarkResidual {
 };
 
 struct LandmarkViewResidual {
-  explicit LandmarkViewResidual(const LandmarkViewFactor& f) : whitening(placeWhitening(f.covariance, f.has_yaw)) {}
+  explicit LandmarkViewResidual(const LandmarkViewFactor& f)
+      : factor(f), whitening(placeWhitening(f.covariance, f.has_yaw)) {}
 
   template <class T>
-  bool operator()(const T* view, const T* landmark, T* out) const {
+  bool operator()(const T* view, const T* landmark, const T* size, T* out) const {
+    const Eigen::Matrix<T, 2, 1> offset =
+        factor.offset_m.cast<T>() + factor.offset_by_size.cast<T>() * Eigen::Map<const Vec3<T>>(size);
+    using std::cos, std::sin;
+    const T c = cos(landmark[3]), s = sin(landmark[3]);
     Eigen::Matrix<T, 4, 1> error;
     for (int i = 0; i < 3; ++i) error[i] = view[i] - landmark[i];
+    error[0] -= c * offset[0] - s * offset[1];
+    error[1] -= s * offset[0] + c * offset[1];
     error[3] = angleDifference(view[3], landmark[3]);
     Eigen::Map<Eigen::Matrix<T, 4, 1>> whitened(out);
     whitened = whitening.cast<T>() * error;
     return true;
   }
 
+  LandmarkViewFactor factor;
   Eigen::Matrix4d whitening;
 };
 

@@ -11,16 +11,15 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -17.1",      "filter 0.391", "sightings 1.12",     "directions 0.512", "score 3.58",
-               "box 8.4",         "label 3.27",   "scatter -0.445",     "turned -1.71",     "size -0.315",
-               "contested -2.76", "spread 3.27",  "beams_crossed -8.47"},
-      cuboid{"bias -10.3",    "filter 0.292",   "sightings 0.299", "score 3.36",
-             "box 6.8",       "scatter -0.342", "turned -2.12",    "contested -1.01",
-             "crossed -0.32", "filled 0.551",   "spread 3.07",     "beams_crossed -12.6"},
-      planar{"bias -5.68",           "filter 0.275",       "sightings 1.33",     "directions 0.844",
-             "label 1.35",           "scatter -0.113",     "turned -2.03",       "size -0.268",
-             "contested -1.42",      "crossed -0.474",     "filled 0.472",       "spread 1.45",
-             "beside_crossed -6.33", "beside_filled 2.15", "beams_crossed -8.44"} {}
+    : cylinder{"bias -16.3",  "filter 0.5",      "sightings 1.49", "directions 0.815",
+               "score 5.36",  "label 8.92",      "scatter -0.429", "turned -1.05",
+               "size -0.839", "contested -2.25", "spread 2.01",    "beams_crossed -10.5"},
+      cuboid{"bias -7.88",     "filter 0.386",   "sightings 0.601", "score 5.24",
+             "label 2.79",     "scatter -0.365", "turned -2.49",    "contested -1.39",
+             "crossed -0.366", "filled 0.345",   "spread 1.69",     "beams_crossed -15.6"},
+      planar{"bias -9.53",           "filter 0.353",       "sightings 1.22",     "directions 1.13",
+             "score 3.27",           "label 4.33",         "size -0.385",        "contested -1.51",
+             "beside_crossed -6.06", "beside_filled 3.21", "beams_crossed -10.5"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

@@ -23,13 +23,15 @@ constexpr double kDirection_rad = 0.26;
 constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
 constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
+constexpr double kUsuallyFilled = 0.3, kUsualSpread = 0.7;  // medians of true landmarks
+constexpr double kFloorSlack_m = 0.05;  // a lidar whose height nobody measured is said to be on the floor
 constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
 
 // --- from sightings ---
 
 struct SightingSums {
   int count = 0, contested = 0, placed = 0;
-  double weight = 0, score = 0, box = 0, with_yaw = 0, turned = 0;  // weighted by the sightings' weights
+  double weight = 0, score = 0, with_yaw = 0, turned = 0;  // weighted by the sightings' weights
   double scatter = 0;
   std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
   std::set<int> directions;
@@ -74,7 +76,6 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
       const double weight = sightingWeight(measurement);
       sums.weight += weight;
       sums.score += weight * measurement.proposal.score;
-      sums.box += weight * measurement.proposal.box_iou;
       double& at_node = sums.at_nodes[poses.nearest(frame.t).id];
       at_node = std::max(at_node, weight);
       const Eigen::Vector3d from = world_from_camera.translation() - landmark.position;
@@ -104,7 +105,6 @@ void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
   evidence.sightings = std::log1p(of_nodes);
   evidence.directions = std::log(static_cast<double>(sums.directions.size()));
   evidence.score = sums.score / sums.weight;
-  evidence.box = sums.box / sums.weight;
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
   evidence.turned = sums.with_yaw > 0 ? sums.turned / sums.with_yaw : 0;
   evidence.scatter = std::log(kLeastScatter + (sums.placed ? sums.scatter / sums.placed : 0));
@@ -182,16 +182,19 @@ double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vecto
   return used ? static_cast<double>(enough) / used : 0;
 }
 
-void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
-             const PosedViews& views) {
+using PointsInWorld = std::vector<Eigen::Vector3d>;
+
+PointsInWorld inWorld(PointsInWorld points, const Pose3& world_from_object) {
+  for (auto& p : points) p = world_from_object * p;
+  return points;
+}
+
+void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
+                  const PosedViews& views) {
   const ObjectShape& shape = landmark.shape;
   const Pose3 world_from_object = landmark.worldFromObject();
-  const auto inWorld = [&](std::vector<Eigen::Vector3d> points) {
-    for (auto& p : points) p = world_from_object * p;
-    return points;
-  };
   const auto inside = insidePoints(shape);
-  const auto counts = views.byImages(inWorld(inside));
+  const auto counts = views.byImages(inWorld(inside, world_from_object));
   evidence.filled = share(counts, mostlyFilled);
   evidence.spread =
       std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
@@ -199,18 +202,35 @@ void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid
   for (std::size_t i = 0; i < inside.size(); ++i)
     if (solid_share == 0 || inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
   evidence.crossed = share(solid, mostlyCrossed);
-  if (shape.kind == ShapeKind::kPlanar) {
-    const auto wall = views.byImages(inWorld(wallPoints(shape)));
-    evidence.beside_crossed = share(wall, mostlyCrossed);
-    evidence.beside_filled = share(wall, mostlyFilled);
-  }
+  if (shape.kind != ShapeKind::kPlanar) return;
+  const auto wall = views.byImages(inWorld(wallPoints(shape), world_from_object));
+  evidence.beside_crossed = share(wall, mostlyCrossed);
+  evidence.beside_filled = share(wall, mostlyFilled);
+}
+
+void setBeams(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
+              const PosedViews& views) {
   if (solid_share == 0) return;
+  const Pose3 world_from_object = landmark.worldFromObject();
   std::vector<Eigen::Vector2d> ground;
-  for (const auto& p : footprintPoints(shape))
+  for (const auto& p : footprintPoints(landmark.shape))
     ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
   const double bottom = landmark.position.z();
   evidence.beams_crossed =
-      share(views.byScans(ground, bottom, bottom + solid_share * shape.height), mostlyCrossed);
+      share(views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height),
+            mostlyCrossed);
+}
+
+// Without depth images what they would say of most landmarks is taken.
+void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
+             const PosedViews& views) {
+  if (views.hasImages()) {
+    setDepthRays(evidence, landmark, solid_share, views);
+  } else {
+    evidence.filled = kUsuallyFilled;
+    evidence.spread = kUsualSpread;
+  }
+  setBeams(evidence, landmark, solid_share, views);
 }
 
 double sizeDistance(const ObjectShape& shape, const ObjectModel& model) {

@@ -32,6 +32,15 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, c
   return factor;
 }
 
+namespace {
+
+// Weight of a sighting in a mean place.
+double shareOf(const LandmarkFactor& sighting) {
+  return std::max(sighting.weight, 1e-9) / sighting.covariance.topLeftCorner<2, 2>().trace();
+}
+
+}  // namespace
+
 LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
   LandmarkFactor mean = sightings.front();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -39,7 +48,7 @@ LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   double sum = 0, yaw_sum = 0, yaw_weight = 0;
   for (const auto& s : sightings) {
-    const double share = std::max(s.weight, 1e-9) / s.covariance.topLeftCorner<2, 2>().trace();
+    const double share = shareOf(s);
     position += share * s.position_in_robot;
     covariance += share * s.covariance;
     sum += share;
@@ -77,6 +86,7 @@ struct PointView {
 struct SizeSeen {
   const Proposal* proposal;
   double yaw_in_robot, weight;
+  double share;  // of the sighting in a mean place
 };
 
 // Measurements of one landmark.
@@ -94,8 +104,8 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   sighting.weight *= trust;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
-  out.sizes[node.id].push_back(
-      {&measurement.proposal, sighting.yaw_in_robot, sighting.weight * visibleFraction(measurement)});
+  out.sizes[node.id].push_back({&measurement.proposal, sighting.yaw_in_robot,
+                                sighting.weight * visibleFraction(measurement), shareOf(sighting)});
   LandmarkBoxFactor& best = out.boxes[node.id];
   if (!best.landmark.valid() || sighting.weight > best.weight)
     best = {.node = node.id,
@@ -181,6 +191,7 @@ using Visit = std::vector<LandmarkFactor>;  // sightings from one direction in a
 struct View {
   std::vector<Visit> visits;
   SizeMean size;
+  OffsetMean offset;
 };
 
 std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* usual, const KeyPoses& poses,
@@ -201,8 +212,15 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
     if (gone) view.visits.emplace_back();
     view.visits.back().push_back(sighting);
     if (!usual) continue;
-    for (const auto& [proposal, seen_yaw, weight] : seen.sizes.at(id))
-      if (!proposal->has_yaw || !isAcross(seen_yaw - yaw_in_robot)) view.size.add(*proposal, *usual, weight);
+    for (const auto& [proposal, seen_yaw, weight, share] : seen.sizes.at(id)) {
+      const bool across = proposal->has_yaw && isAcross(seen_yaw - yaw_in_robot);
+      if (!across) view.size.add(*proposal, *usual, weight);
+      if (across || !proposal->has_yaw) {
+        view.offset.add(share);
+      } else {
+        view.offset.add(*proposal, seen_yaw - yaw_in_robot, share);
+      }
+    }
   }
   return views;
 }
@@ -234,6 +252,7 @@ void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
     out.views[id] = {landmark.position, yaw, landmark.shape};
     out.shared_errors.push_back(sharedError(visits, options));
     out.shared_errors.back().view = id;
+    if (landmark.has_yaw) view.offset.apply(out.shared_errors.back());
     if (!view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
   }
   if (usual) out.sizes.push_back(sizePrior(landmark.id, *usual));

@@ -2,6 +2,7 @@
 // Weighted mean of sizes in information form, with the prior of each taken out.
 #include "size_mean.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace roomgraph {
@@ -46,6 +47,20 @@ LandmarkSizeFactor SizeMean::factor(LandmarkId id) const {
   const Eigen::Vector3d variance = (information * largest_ / weight_).cwiseInverse();
   return {id, (vector_ + least * usual_).cwiseQuotient(information),
           variance.cwiseSqrt().cwiseMax(kLeastSigma_m)};
+}
+
+void OffsetMean::add(const Proposal& proposal, double yaw, double share) {
+  const Eigen::Matrix<double, 2, 3> in_landmark =
+      Eigen::Rotation2Dd(yaw).toRotationMatrix() * proposal.place_by_size;
+  at_fit_ += share * in_landmark * sizeOf(proposal.shape);
+  by_size_ += share * in_landmark;
+  weight_ += share;
+}
+
+void OffsetMean::apply(LandmarkViewFactor& factor) const {
+  if (weight_ <= 0) return;
+  factor.offset_m = at_fit_ / weight_;
+  factor.offset_by_size = -by_size_ / weight_;
 }
 
 LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model) {

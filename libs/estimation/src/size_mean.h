@@ -26,6 +26,23 @@ class SizeMean {
   double weight_ = 0, largest_ = 0;
 };
 
+/// Where the sightings from one direction place the landmark, by its size: a side that all of them see is at
+/// the same place whatever the size; a fit that took the object for shorter has put its middle nearer to that
+/// side.
+class OffsetMean {
+ public:
+  /// `yaw`: of the sighting against the landmark, rad. `share`: its weight in the mean place.
+  void add(const Proposal& proposal, double yaw, double share);
+  /// A sighting in the mean place that says nothing about the offset.
+  void add(double share) { weight_ += share; }
+  void apply(LandmarkViewFactor& factor) const;
+
+ private:
+  Eigen::Vector2d at_fit_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3> by_size_ = Eigen::Matrix<double, 2, 3>::Zero();
+  double weight_ = 0;
+};
+
 /// The class's usual size and its variation.
 LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model);
 

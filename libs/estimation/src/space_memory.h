@@ -21,6 +21,7 @@ struct RayCounts {
 /// Depth images and scans of a whole run with the poses as they are now.
 class PosedViews {
  public:
+  bool hasImages() const { return !images_.empty(); }
   /// Of every point (world, m), by the depth images.
   std::vector<RayCounts> byImages(const std::vector<Eigen::Vector3d>& points) const;
   /// Of every point on the ground (world, m), by the scans taken between the two heights.

@@ -69,7 +69,8 @@ Interval solve(const SeenInterval& seen, bool use_low, bool use_high, double usu
   if (!use_low && !use_high) normal.add({1, 0}, (seen.low + seen.high) / 2, kVague_m);
   const Eigen::Vector2d x = normal.information.ldlt().solve(normal.right);
   const Eigen::Matrix2d covariance = normal.information.inverse();
-  return {x[0], x[1], std::sqrt(covariance(0, 0)), std::max(0.0, 1 / covariance(1, 1) - 1 / (sigma * sigma))};
+  return {x[0], x[1], std::sqrt(covariance(0, 0)), std::max(0.0, 1 / covariance(1, 1) - 1 / (sigma * sigma)),
+          covariance(0, 1) / covariance(1, 1)};
 }
 
 // Covariance of (x, y, yaw). An error of the plane's offset moves the door along the line of sight, since the box's
@@ -111,6 +112,7 @@ std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvid
   placed.shape = e.model->nominal();
   placed.shape.width = std::max(kLeastWidth_m, along.width);
   placed.size_information[0] = along.width_information;
+  placed.place_by_size(1, 0) = along.center_by_width;
   const Eigen::Vector2d on_plane = plane.normal * plane.offset + plane.along() * along.center;
   const Eigen::Vector2d p = on_plane - plane.normal * seat_m;
   placed.x = p.x();

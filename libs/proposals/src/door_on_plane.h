@@ -23,6 +23,7 @@ struct Interval {
   double center = 0, width = 0;
   double center_sigma = 0;
   double width_information = 0;  ///< 1/m^2, of what was seen alone
+  double center_by_width = 0;    ///< change of the centre by that of the width: one end may be fixed
 };
 
 /// Least squares of both ends and the usual width (mean, standard deviation; m). When both ends are cut, the centre has

@@ -27,6 +27,7 @@ constexpr double kNearRange = 0.03;    // quantile of the ranges taken for the n
 constexpr double kLeastSize_m = 0.05;  // no side of the shape becomes smaller
 constexpr int kMaxEvaluations = 30;    // bounds the time per hypothesis
 constexpr double kTolerance = 1e-4;    // relative
+constexpr double kLargestLever = 0.5;  // of the place by the size: one side is fixed
 constexpr double kLeastInformation = 1e-9;  // 1/m^2, 1/rad^2: what nothing in the image tells
 
 // Geman-McClure residual: outliers are wrong mask points and box sides cut by an occluder.
@@ -149,23 +150,34 @@ class FitProblem {
     return 0;
   }
 
-  // Marginal information about width, depth and height beyond the usual size's, 1/m^2.
-  Eigen::Vector3d sizeInformation(const Eigen::VectorXd& x) const {
+  // What the image said about the size beyond the usual one, and how the place depends on it, at the
+  // solution.
+  void describe(const Eigen::VectorXd& x, PlacedShape& fitted) const {
     Eigen::MatrixXd jacobian(values(), inputs());
     df(x, jacobian);
-    const Eigen::MatrixXd information =
-        jacobian.transpose() * jacobian + kLeastInformation * Eigen::MatrixXd::Identity(inputs(), inputs());
-    const Eigen::VectorXd known = information.inverse().diagonal().cwiseInverse();
-    const auto usual = [&](double sigma) { return std::pow(std::max(sigma, w_.least_size_sigma_m), -2); };
+    const Eigen::MatrixXd covariance =
+        (jacobian.transpose() * jacobian + kLeastInformation * Eigen::MatrixXd::Identity(inputs(), inputs()))
+            .inverse();
+    const Eigen::Index first = round() ? 2 : 3, sizes = round() ? 2 : 3;
+    const Eigen::MatrixXd by_size = Eigen::Rotation2Dd(-fitted.yaw).toRotationMatrix() *
+                                    covariance.block(0, first, 2, sizes) *
+                                    covariance.block(first, first, sizes, sizes).inverse();
     const ObjectModel& m = *e_.model;
+    const auto usual = [&](double sigma) { return std::pow(std::max(sigma, w_.least_size_sigma_m), -2); };
     const double width = usual(m.width_sigma_m), depth = usual(m.depth_sigma_m),
                  height = usual(m.height_sigma_m);
+    const Eigen::VectorXd known = covariance.diagonal().cwiseInverse();
     if (round()) {
       const double share =
           std::max(0.0, known[2] / (width + depth) - 1);  // both say the same about one diameter
-      return {share * width, share * depth, std::max(0.0, known[3] - height)};
+      fitted.size_information = {share * width, share * depth, std::max(0.0, known[3] - height)};
+      fitted.place_by_size << by_size.col(0) / 2, by_size.col(0) / 2, by_size.col(1);
+    } else {
+      fitted.size_information =
+          Eigen::Vector3d(known[3] - width, known[4] - depth, known[5] - height).cwiseMax(0);
+      fitted.place_by_size = by_size;
     }
-    return Eigen::Vector3d(known[3] - width, known[4] - depth, known[5] - height).cwiseMax(0);
+    fitted.place_by_size = fitted.place_by_size.cwiseMax(-kLargestLever).cwiseMin(kLargestLever);
   }
 
  private:
@@ -250,7 +262,7 @@ PlacedShape fitShape(const PlacedShape& initial, const BoxEvidence& evidence, co
   Eigen::VectorXd x = problem.vectorOf(initial);
   solver.minimize(x);
   PlacedShape fitted = x.allFinite() ? problem.shapeOf(x) : initial;
-  if (x.allFinite()) fitted.size_information = problem.sizeInformation(x);
+  if (x.allFinite()) problem.describe(x, fitted);
   judge(fitted, evidence);
   return fitted;
 }

@@ -63,10 +63,14 @@ struct LandmarkFactor {
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
-/// A landmark as it seems from one direction against the landmark itself: the error that all sightings from there share
-/// has mean zero and this covariance.
+/// A landmark as it seems from one direction against the landmark itself: the error that all sightings from
+/// there share has mean zero and this covariance. From there the landmark seems to stand beside its place
+/// when its size was taken for another one: by offset + offset_by_size * (width, depth, height), x forward
+/// and y left in the landmark's frame.
 struct LandmarkViewFactor {
   LandmarkId view, landmark;
+  Eigen::Vector2d offset_m = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3> offset_by_size = Eigen::Matrix<double, 2, 3>::Zero();
   bool has_yaw = false;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in world
   double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost

@@ -20,7 +20,6 @@ struct ExistenceEvidence {
   double sightings = 0;   ///< log(1 + sum of their weights, one for each key pose)
   double directions = 0;  ///< log(number of directions it was seen from)
   double score = 0;       ///< mean initialisation score of its sightings
-  double box = 0;         ///< mean IoU of its boxes with the proposals' projections
   double label = 0;       ///< posterior of its class
   double scatter = 0;     ///< log of the sightings' mean squared normalised distance from it
   double turned = 0;      ///< share of the sightings whose yaw is another one, but for front and back
@@ -33,14 +32,14 @@ struct ExistenceEvidence {
   double beside_filled = 0;   ///< of doors: share of it where they ended
   double beams_crossed = 0;   ///< of solid classes: share of the footprint that lidar beams crossed
 
-  static constexpr std::array<std::string_view, 16> kNames = {
-      "filter",  "sightings",      "directions",    "score",        "box",     "label",
-      "scatter", "turned",         "size",          "contested",    "crossed", "filled",
-      "spread",  "beside_crossed", "beside_filled", "beams_crossed"};
+  static constexpr std::array<std::string_view, 15> kNames = {
+      "filter",  "sightings", "directions",     "score",         "label",
+      "scatter", "turned",    "size",           "contested",     "crossed",
+      "filled",  "spread",    "beside_crossed", "beside_filled", "beams_crossed"};
   /// In the order of kNames.
-  std::array<double, 16> values() const {
-    return {filter, sightings, directions, score,  box,    label,          scatter,       turned,
-            size,   contested, crossed,    filled, spread, beside_crossed, beside_filled, beams_crossed};
+  std::array<double, 15> values() const {
+    return {filter,    sightings, directions, score,  label,          scatter,       turned,       size,
+            contested, crossed,   filled,     spread, beside_crossed, beside_filled, beams_crossed};
   }
 };
 

@@ -38,6 +38,9 @@ struct Proposal {
   /// Of width, depth and height, 1/m^2: what this image said about each. `shape` is the compromise of that
   /// with the class's usual size.
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();
+  /// By how much the place (x forward, y left in the object's frame) moves for each metre that width, depth
+  /// and height are larger: the side that was seen stays where it is.
+  Eigen::Matrix<double, 2, 3> place_by_size = Eigen::Matrix<double, 2, 3>::Zero();
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
   ProjectedShape projected;
   double score = 0;  ///< initialisation score in [0, 1] (method.md sec. 1.5)
