@@ -10,10 +10,12 @@ calls it correct and false when it calls it a false alarm or a duplicate; look-a
 
 The model is a logistic regression for each kind of shape, whose weights differ from common ones by a ridge penalty, and whose
 signs agree with the meaning of the evidence. Printed are the reliability on flats left out one at a time, and the weights of
-all flats as they stand in libs/estimation/src/existence_weights.cpp. Needs python3-numpy.
+all flats as they stand in libs/estimation/src/existence.cpp.
 """
 import argparse
 import json
+import math
+import statistics
 import sys
 from pathlib import Path
 
@@ -24,7 +26,7 @@ LEAST_SIGHTINGS = 3
 RIDGE_COMMON, RIDGE_OWN, RIDGE_BIAS = 2.0, 4.0, 0.05
 SIGNS = {"filter": 1, "sightings": 1, "directions": 1, "score": 1, "label": 1, "scatter": -1, "turned": -1, "size": -1,
          "contested": -1, "crossed": -1, "filled": 1, "spread": 1, "beside_crossed": -1, "beside_filled": 1, "beams_crossed": -1}
-ROUNDS, STEP = 400, 0.7
+ROUNDS, STEP = 60, 0.8
 BINS = (0, 0.1, 0.3, 0.5, 0.7, 0.9, 1)
 
 
@@ -39,58 +41,73 @@ def samples_of(number, run, report):
     return out
 
 
+def solved(matrix, right):
+    """Solution of a linear system by Gaussian elimination; the matrix is positive definite."""
+    rows = [[*row, value] for row, value in zip(matrix, right)]
+    for i, pivot in enumerate(rows):
+        for row in rows[i + 1:]:
+            factor = row[i] / pivot[i]
+            for j in range(i, len(row)):
+                row[j] -= factor * pivot[j]
+    out = [0.0] * len(rows)
+    for i in reversed(range(len(rows))):
+        out[i] = (rows[i][-1] - sum(rows[i][j] * out[j] for j in range(i + 1, len(rows)))) / rows[i][i]
+    return out
+
+
+def logistic(log_odds):
+    return 1 / (1 + math.exp(-max(-500.0, min(500.0, log_odds))))
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
 class Model:
-    """Weights of standardised evidence; row i of `weights` is that of kinds[i], the bias first."""
+    """Weights of standardised evidence by kind of shape, the bias first."""
 
     def __init__(self, samples):
-        import numpy as np
-        self.np = np
-        self.kinds = sorted({kind for _, kind, _, _ in samples})
-        self.names = list(SIGNS)
-        values = np.array([[evidence[name] for name in self.names] for _, _, evidence, _ in samples])
-        self.mean, self.sigma = values.mean(axis=0), values.std(axis=0) + 1e-6
-        self.signs = np.array([0] + [SIGNS[name] for name in self.names])
-        self.weights = np.zeros((len(self.kinds), 1 + len(self.names)))
-        self.fit(self.rows(samples), np.array([self.kinds.index(kind) for _, kind, _, _ in samples]),
-                 np.array([is_true for _, _, _, is_true in samples], float))
+        self.names, self.signs = list(SIGNS), [0, *SIGNS.values()]
+        columns = [[evidence[name] for _, _, evidence, _ in samples] for name in self.names]
+        self.mean = [statistics.fmean(column) for column in columns]
+        self.sigma = [statistics.pstdev(column) + 1e-6 for column in columns]
+        self.weights = {kind: [0.0] * len(self.signs) for _, kind, _, _ in samples}
+        self.fit({kind: ([self.row(e) for _, k, e, _ in samples if k == kind], [v for _, k, _, v in samples if k == kind])
+                  for kind in self.weights})
 
-    def rows(self, samples):
-        values = self.np.array([[evidence[name] for name in self.names] for _, _, evidence, _ in samples])
-        return self.np.hstack([self.np.ones((len(samples), 1)), (values - self.mean) / self.sigma])
+    def row(self, evidence):
+        return [1.0, *((evidence[name] - m) / s for name, m, s in zip(self.names, self.mean, self.sigma))]
 
-    def fit(self, rows, kinds, truth):
+    def fit(self, samples_of_kind):
         """Damped Newton steps for each kind, towards the common weights; weights of the wrong sign are held at 0."""
-        common = self.np.zeros(rows.shape[1])
+        common = [0.0] * len(self.signs)
         for _ in range(ROUNDS):
-            for k in range(len(self.kinds)):
-                self.weights[k] = self.improved(self.weights[k], common, rows[kinds == k], truth[kinds == k])
-            common = RIDGE_OWN * self.weights.sum(axis=0) / (RIDGE_COMMON + RIDGE_OWN * len(self.kinds))
-            common[0] = 0
+            for kind, (rows, truth) in samples_of_kind.items():
+                self.weights[kind] = self.improved(self.weights[kind], common, rows, truth)
+            shrunk = RIDGE_OWN / (RIDGE_COMMON + RIDGE_OWN * len(self.weights))
+            common = [0.0, *(shrunk * sum(of) for of in list(zip(*self.weights.values()))[1:])]
 
     def improved(self, weights, common, rows, truth):
-        np = self.np
-        ridge = np.array([RIDGE_BIAS] + [RIDGE_OWN] * len(self.names))
-        probability = 1 / (1 + np.exp(-rows @ weights))
-        gradient = rows.T @ (truth - probability) - ridge * (weights - common)
-        free = ~((weights * self.signs <= 0) & (self.signs != 0) & (gradient * self.signs < 0))
-        hessian = (rows * (probability * (1 - probability))[:, None]).T @ rows + np.diag(ridge)
-        step = np.zeros(len(weights))
-        step[free] = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
-        out = weights + STEP * step
-        out[out * self.signs < 0] = 0
-        return out
+        ridge = [RIDGE_BIAS] + [RIDGE_OWN] * len(self.names)
+        probability = [logistic(dot(row, weights)) for row in rows]
+        gradient = [dot([row[i] for row in rows], [v - p for v, p in zip(truth, probability)]) - ridge[i] * (weights[i] - common[i])
+                    for i in range(len(weights))]
+        free = [i for i, s in enumerate(self.signs) if not (s and weights[i] * s <= 0 and gradient[i] * s < 0)]
+        spread = [p * (1 - p) for p in probability]
+        hessian = [[sum(w * row[i] * row[j] for w, row in zip(spread, rows)) + (ridge[i] if i == j else 0) for j in free] for i in free]
+        out = list(weights)
+        for i, step in zip(free, solved(hessian, [gradient[i] for i in free])):
+            out[i] += STEP * step
+        return [0.0 if w * s < 0 else w for w, s in zip(out, self.signs)]
 
     def probabilities(self, samples):
-        kinds = [self.kinds.index(kind) for _, kind, _, _ in samples]
-        return 1 / (1 + self.np.exp(-(self.rows(samples) * self.weights[kinds]).sum(axis=1)))
+        return [logistic(dot(self.row(evidence), self.weights[kind])) for _, kind, evidence, _ in samples]
 
     def text(self, kind):
         """Weights of the evidence as it is, for the config."""
-        raw = self.weights[self.kinds.index(kind)].copy()
-        raw[1:] /= self.sigma
-        raw[0] -= raw[1:] @ self.mean
-        entries = [f"bias {raw[0]:.3g}"] + [f"{name} {value:.3g}" for name, value in zip(self.names, raw[1:]) if abs(value) > 1e-3]
-        return f"{kind} = " + ", ".join(entries)
+        raw = [w / s for w, s in zip(self.weights[kind][1:], self.sigma)]
+        entries = [f"bias {self.weights[kind][0] - dot(raw, self.mean):.3g}"]
+        return f"{kind} = " + ", ".join(entries + [f"{name} {value:.3g}" for name, value in zip(self.names, raw) if abs(value) > 1e-3])
 
 
 def cross_validated(samples):
@@ -100,7 +117,7 @@ def cross_validated(samples):
         model = Model([sample for sample in samples if sample[0] != flat])
         left_out = [i for i, sample in enumerate(samples) if sample[0] == flat]
         for i, probability in zip(left_out, model.probabilities([samples[i] for i in left_out])):
-            out[i] = float(probability)
+            out[i] = probability
     return out
 
 
@@ -156,7 +173,7 @@ def summary(samples):
     return "\n".join([f"{len(samples)} landmarks of {len({s[0] for s in samples})} flats, {true} true; on flats left out:", "",
                       reliability(samples, probabilities), "",
                       *(decisions(samples, probabilities, limit) for limit in (0.3, 0.5, 0.7, 0.9)), "",
-                      *(model.text(kind) for kind in model.kinds)])
+                      *(model.text(kind) for kind in sorted(model.weights))])
 
 
 if __name__ == "__main__":
