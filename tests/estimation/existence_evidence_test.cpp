@@ -140,7 +140,7 @@ TEST_F(Evidence, RaysThroughAndIntoAVolume) {
   EXPECT_NEAR(evidence.spread, 0.4, 0.21) << "one to three of five slices from front to back";
 }
 
-// Three quarters of the sofa's length are air: a wall close behind what is there.
+// Half of the sofa's length is air.
 TEST_F(Evidence, SpreadIsTheShareOfTheLengthThatIsThere) {
   const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
   Frame frame = frameOfDepth(0, 0, 6);

@@ -53,6 +53,19 @@ TEST(ObjectDatabase, LooksUpByLabelWhateverTheCase) {
   EXPECT_EQ(database.models().size(), 1u) << "a section without any key is none";
 }
 
+// A size that is said to be exact is one within 1 cm: dividing by its deviation gives a number.
+TEST(ObjectDatabase, SizesAreComparedInStandardDeviations) {
+  const auto database = ObjectDatabase::fromText(
+      "[tv]\nlabels = tv\nwidth_m = 1\ndepth_m = 0.1\nheight_m = 0.6\n"
+      "width_sigma_m = 0.2\ndepth_sigma_m = 0\nheight_sigma_m = 0.05\n");
+  const ObjectModel& tv = *database.find("tv");
+  EXPECT_TRUE(tv.sizeSigma().isApprox(Eigen::Vector3d(0.2, 0.01, 0.05)));
+  EXPECT_EQ(tv.sizeDistance2(tv.nominal()), 0);
+  ObjectShape other = tv.nominal();
+  other.width += 0.4, other.depth -= 0.03, other.height += 0.05;
+  EXPECT_NEAR(tv.sizeDistance2(other), 4 + 9 + 1, 1e-9);
+}
+
 TEST(ObjectDatabase, NewClassNeedsNoCode) {
   const auto database =
       ObjectDatabase::fromText("[desk]\nlabels = table\nwidth_m = 1.6\ndepth_m = 0.8\nheight_m = 0.75\n");

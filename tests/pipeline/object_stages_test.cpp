@@ -106,6 +106,8 @@ TEST_F(ObjectStagesTest, TheMapIsTheOptimumOfTheGraph) {
     EXPECT_EQ(landmark.shape.height, optimum.shape.height);
     EXPECT_EQ(landmark.covariance, covariances->at(landmark.id));
   }
+  for (const auto& candidate : result.candidates)
+    EXPECT_EQ(candidate.landmark.covariance, covariances->at(candidate.landmark.id)) << "the same estimate";
   const TemporaryFolder folder;
   slam.graph().saveG2o(folder.file("graph.g2o"));
   const auto content = loadG2o(folder.file("graph.g2o"));

@@ -267,10 +267,11 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
 }
 
 std::vector<Landmark> LandmarkMap::confirmed(const std::vector<Landmark>& judged,
-                                             double least_existence) const {
+                                             std::optional<double> least_existence) const {
+  const double least = least_existence.value_or(options_.confirm_existence);
   std::vector<Landmark> sure;
   for (const auto& landmark : judged)
-    if (landmark.existence >= least_existence && landmark.observations >= options_.confirm_observations)
+    if (landmark.existence >= least && landmark.observations >= options_.confirm_observations)
       sure.push_back(landmark);
   // Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
   // more evidence stays.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "roomgraph/backend/factors.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 
@@ -41,7 +42,7 @@ inline Eigen::Matrix4d turnedBy(const Eigen::Matrix4d& covariance, double yaw) {
 
 /// Where a view stands beside its landmark, in the landmark's frame.
 inline Eigen::Vector2d offsetOf(const LandmarkViewFactor& f, const ObjectShape& shape) {
-  return f.offset_m + f.offset_by_size * Eigen::Vector3d(shape.width, shape.depth, shape.height);
+  return f.offset_m + f.offset_by_size * sizeOf(shape);
 }
 
 /// Covariance of a view's edge, in the frame of its landmark. One without a yaw has a vertex that is free to turn: its

@@ -29,10 +29,9 @@ void ExistenceOptions::declareParameters(ParameterVisitor& v) {
         {.doc = "At the end of a run, a landmark is in the map from this existence probability on.",
          .min = 0,
          .max = 1});
-  v.add(
-      "cylinder_weights", cylinder,
-      {.doc =
-           "Weights of the evidence for the existence of round objects: \"NAME VALUE\", or \"bias VALUE\"."});
+  v.add("cylinder_weights", cylinder,
+        {.doc = "Weights of the evidence for the existence of round objects: \"NAME VALUE\", or \"bias "
+                "VALUE\"; names that are left out have none."});
   v.add("cuboid_weights", cuboid, {.doc = "The same for box-shaped objects."});
   v.add("planar_weights", planar, {.doc = "The same for doors and other planar objects."});
 }

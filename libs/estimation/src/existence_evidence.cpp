@@ -55,6 +55,34 @@ double coveredShare(const Box2& box, const Landmark& landmark, const Pose3& came
   return intersection(box, projected->visible).area() / box.area();
 }
 
+// Landmarks that may explain boxes of others, as they have none of their own in this frame.
+std::vector<const Landmark*> unseenHere(const std::vector<Landmark>& landmarks, const ObjectFrame& frame) {
+  std::set<LandmarkId> here;
+  for (const auto& decision : frame.decisions) here.insert(decision.landmark);
+  std::vector<const Landmark*> out;
+  for (const auto& landmark : landmarks)
+    if (!here.contains(landmark.id) && landmark.observations >= kEstablished) out.push_back(&landmark);
+  return out;
+}
+
+void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& seen, NodeId node,
+         const Eigen::Vector3d& camera_in_world) {
+  const double weight = sightingWeight(seen.measurement);
+  const Proposal& proposal = seen.measurement.proposal;
+  ++sums.count;
+  sums.weight += weight;
+  sums.score += weight * proposal.score;
+  sums.at_nodes[node] = std::max(sums.at_nodes[node], weight);
+  const Eigen::Vector3d from = camera_in_world - landmark.position;
+  sums.directions.insert(static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad)));
+  if (proposal.class_name != landmark.class_name) return;
+  ++sums.placed;
+  sums.scatter += normalisedDistance2(landmark, seen);
+  if (!proposal.has_yaw) return;
+  sums.with_yaw += weight;
+  if (isTurned(planarPart(seen.world_from_object).yaw - landmark.yaw)) sums.turned += weight;
+}
+
 std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
                                                    const std::vector<ObjectFrame>& frames,
                                                    const KeyPoses& poses) {
@@ -64,34 +92,17 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
   for (const auto& frame : frames) {
     const Pose3 world_from_camera = poses.at(frame.t) * frame.robot_from_camera;
     const Pose3 camera_from_world = world_from_camera.inverse();
-    std::set<LandmarkId> here;
-    for (const auto& decision : frame.decisions) here.insert(decision.landmark);
+    const auto others = unseenHere(landmarks, frame);
     for (const auto& decision : frame.decisions) {
       const auto found = known.find(decision.landmark);
       if (found == known.end()) continue;
       const Landmark& landmark = *found->second;
-      const ObjectMeasurement& measurement = decision.seen.measurement;
       SightingSums& sums = out[landmark.id];
-      ++sums.count;
-      const double weight = sightingWeight(measurement);
-      sums.weight += weight;
-      sums.score += weight * measurement.proposal.score;
-      double& at_node = sums.at_nodes[poses.nearest(frame.t).id];
-      at_node = std::max(at_node, weight);
-      const Eigen::Vector3d from = world_from_camera.translation() - landmark.position;
-      sums.directions.insert(static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad)));
-      if (measurement.proposal.class_name == landmark.class_name) {
-        sums.scatter += normalisedDistance2(landmark, decision.seen);
-        ++sums.placed;
-        if (measurement.proposal.has_yaw) {
-          sums.with_yaw += weight;
-          if (isTurned(planarPart(decision.seen.world_from_object).yaw - landmark.yaw)) sums.turned += weight;
-        }
-      }
-      sums.contested += std::any_of(landmarks.begin(), landmarks.end(), [&](const Landmark& other) {
-        return !here.contains(other.id) &&
-               other.observations >= std::max(kEstablished, landmark.observations) &&
-               coveredShare(measurement.detection.box, other, camera_from_world, frame.camera) > kCovered;
+      add(sums, landmark, decision.seen, poses.nearest(frame.t).id, world_from_camera.translation());
+      const Box2& box = decision.seen.measurement.detection.box;
+      sums.contested += std::any_of(others.begin(), others.end(), [&](const Landmark* other) {
+        return other->observations >= landmark.observations &&
+               coveredShare(box, *other, camera_from_world, frame.camera) > kCovered;
       });
     }
   }
@@ -182,9 +193,7 @@ double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vecto
   return used ? static_cast<double>(enough) / used : 0;
 }
 
-using PointsInWorld = std::vector<Eigen::Vector3d>;
-
-PointsInWorld inWorld(PointsInWorld points, const Pose3& world_from_object) {
+std::vector<Eigen::Vector3d> inWorld(std::vector<Eigen::Vector3d> points, const Pose3& world_from_object) {
   for (auto& p : points) p = world_from_object * p;
   return points;
 }
@@ -233,12 +242,6 @@ void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid
   setBeams(evidence, landmark, solid_share, views);
 }
 
-double sizeDistance(const ObjectShape& shape, const ObjectModel& model) {
-  return std::sqrt(std::pow((shape.width - model.width_m) / model.width_sigma_m, 2) +
-                   std::pow((shape.depth - model.depth_m) / model.depth_sigma_m, 2) +
-                   std::pow((shape.height - model.height_m) / model.height_sigma_m, 2));
-}
-
 }  // namespace
 
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
@@ -255,7 +258,7 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
         own != landmark.class_posterior.end())
       evidence.label = own->second;
     const ObjectModel* model = database.find(landmark.class_name);
-    if (model) evidence.size = sizeDistance(landmark.shape, *model);
+    if (model) evidence.size = std::sqrt(model->sizeDistance2(landmark.shape));
     setRays(evidence, landmark, model ? model->solid_share : 0, views);
     out.push_back(evidence);
   }

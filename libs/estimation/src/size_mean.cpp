@@ -5,37 +5,25 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "roomgraph/geometry/shape_math.h"
+
 namespace roomgraph {
 namespace {
 
 constexpr double kLeastSigma_m = 0.02;      // real furniture is no box
 constexpr double kLeastInformation = 1e-6;  // 1/m^2: a direction from which a dimension is not seen
 
-Eigen::Vector3d sizeOf(const ObjectShape& shape) {
-  return {shape.width, shape.depth, shape.height};
-}
-
-Eigen::Vector3d usualSize(const ObjectModel& model) {
-  return {model.width_m, model.depth_m, model.height_m};
-}
-
-Eigen::Vector3d usualSigma(const ObjectModel& model) {
-  return Eigen::Vector3d(model.width_sigma_m, model.depth_sigma_m, model.height_sigma_m)
-      .cwiseMax(kLeastSigma_m);
-}
-
 }  // namespace
 
 void SizeMean::add(const Proposal& proposal, const ObjectModel& model, double weight) {
-  const Eigen::Vector3d prior = usualSigma(model).cwiseAbs2().cwiseInverse();
-  const Eigen::Vector3d measured = proposal.size_information;
+  const Eigen::Vector3d prior = model.sizeSigma().cwiseAbs2().cwiseInverse();
+  const Eigen::Vector3d measured = proposal.size_information, fitted = sizeOf(proposal.shape);
+  usual_ = sizeOf(model.nominal());
   for (int i = 0; i < 3; ++i) {
     if (measured[i] < kLeastInformation) continue;
     information_[i] += weight * measured[i];
-    vector_[i] +=
-        weight * ((measured[i] + prior[i]) * sizeOf(proposal.shape)[i] - prior[i] * usualSize(model)[i]);
+    vector_[i] += weight * ((measured[i] + prior[i]) * fitted[i] - prior[i] * usual_[i]);
   }
-  usual_ = usualSize(model);
   weight_ += weight;
   largest_ = std::max(largest_, weight);
 }
@@ -64,7 +52,7 @@ void OffsetMean::apply(LandmarkViewFactor& factor) const {
 }
 
 LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model) {
-  return {id, usualSize(model), usualSigma(model)};
+  return {id, sizeOf(model.nominal()), model.sizeSigma()};
 }
 
 }  // namespace roomgraph

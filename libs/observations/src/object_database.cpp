@@ -7,6 +7,7 @@
 #include <map>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 namespace {
@@ -90,6 +91,16 @@ void ObjectModel::declareParameters(ParameterVisitor& v) {
 
 ObjectShape ObjectModel::nominal() const {
   return {shapeKindFromString(shape), width_m, depth_m, height_m};
+}
+
+Eigen::Vector3d ObjectModel::sizeSigma() const {
+  constexpr double kLeast_m = 0.01;
+  return Eigen::Vector3d(width_sigma_m, depth_sigma_m, height_sigma_m).cwiseMax(kLeast_m);
+}
+
+double ObjectModel::sizeDistance2(const ObjectShape& other) const {
+  const Eigen::Vector3d d = (sizeOf(other) - sizeOf(nominal())).cwiseQuotient(sizeSigma());
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
 FrontRule ObjectModel::frontRule() const {

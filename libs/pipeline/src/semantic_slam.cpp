@@ -21,10 +21,9 @@ bool isMounted(const Frame& frame) {
 
 std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const LandmarkMap& map,
                             const ExistenceOptions& options) {
-  if (!options.enabled) return map.confirmed();
   std::vector<Landmark> judged;
   for (const auto& candidate : candidates) judged.push_back(candidate.landmark);
-  return map.confirmed(judged, options.least_probability);
+  return options.enabled ? map.confirmed(judged, options.least_probability) : map.confirmed(judged);
 }
 
 }  // namespace
@@ -298,12 +297,12 @@ SlamResult SemanticSlam::collect() {
   if (poses.empty()) return result;
   const ExistenceOptions& existence = setup_->options.existence;
   result.candidates = objects_.candidates(setup_->database, existence.enabled ? &existence_ : nullptr);
-  result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
-  result.seen = objects_.seenSpans();
   if (const auto covariances = graph().landmarkCovariances())
-    for (auto& landmark : result.map.landmarks)
+    for (auto& [landmark, evidence] : result.candidates)
       if (const auto found = covariances->find(landmark.id); found != covariances->end())
         landmark.covariance = found->second;
+  result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
+  result.seen = objects_.seenSpans();
   if (map_) result.earlier = EarlierMap{};
   if (map_ && map_->recognised()) {
     const auto& earlier = map_->map().landmarks;

@@ -145,8 +145,7 @@ std::optional<Measured> sideRange(const BoxEvidence& e, double u) {
   std::optional<Measured> bottom, top;
   if (!e.cut.bottom) bottom = rangeOf(height, -slope(e.box.v_max), angle, 0);
   if (!e.cut.top)
-    top = rangeOf(e.model->height_m - height, slope(e.box.v_min), angle,
-                  std::max(kLeastDoorSigma_m, e.model->height_sigma_m));
+    top = rangeOf(e.model->height_m - height, slope(e.box.v_min), angle, e.model->sizeSigma()[2]);
   if (!bottom || !top) return bottom ? bottom : top;
   const double a = std::pow(bottom->sigma, -2), b = std::pow(top->sigma, -2);
   return Measured{(a * bottom->value + b * top->value) / (a + b), std::sqrt(1 / (a + b))};

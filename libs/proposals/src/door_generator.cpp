@@ -42,7 +42,7 @@ void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
   const double seen =
       e.camera_from_ground.inverse().translation().z() + ray.z() / ray.head<2>().norm() * range;
   const double seen_sigma = range / e.camera.fy * sideSigma(e.box.height());
-  const double usual = e.model->height_m, sigma = std::max(kLeastDoorSigma_m, e.model->height_sigma_m);
+  const double usual = e.model->height_m, sigma = e.model->sizeSigma()[2];
   const double gain = sigma * sigma / (sigma * sigma + seen_sigma * seen_sigma);
   placed.shape.height = usual + std::clamp(gain * (seen - usual), -kHeightGate * sigma, kHeightGate * sigma);
   placed.size_information[2] = 1 / (seen_sigma * seen_sigma);

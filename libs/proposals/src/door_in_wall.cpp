@@ -44,7 +44,7 @@ bool surrounds(const VerticalPlane& wall, const BoxEvidence& e) {
 }
 
 bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
-  const double turned = std::abs(std::acos(std::min(1.0, leaf.normal.dot(wall.normal))));
+  const double turned = std::acos(std::min(1.0, leaf.normal.dot(wall.normal)));
   if (turned > kOpen_rad) return false;
   if (turned > kSameDirection_rad + kSameSigmas * std::hypot(leaf.sigma_rad, wall.sigma_rad)) return true;
   const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
@@ -59,8 +59,8 @@ std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, 
   if (!wall || !surrounds(*wall, evidence) || (leaf && isAnotherWall(*leaf, *wall))) return std::nullopt;
   auto placed = doorOnPlane(*wall, evidence, evidence.model->depth_m / 2);
   if (!placed) return std::nullopt;
-  const double sigma = std::max(kLeastDoorSigma_m, evidence.model->width_sigma_m);
-  if (std::abs(placed->shape.width - evidence.model->width_m) > kMostWidths * sigma) return std::nullopt;
+  const double wrong = std::abs(placed->shape.width - evidence.model->width_m);
+  if (wrong > kMostWidths * evidence.model->sizeSigma()[0]) return std::nullopt;
   placed->source = "wall";
   BoxEvidence box_alone = evidence;  // points inside an open door are behind it, or on its leaf
   box_alone.mask = {};

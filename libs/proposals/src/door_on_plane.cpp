@@ -106,8 +106,8 @@ Interval fitInterval(const SeenInterval& seen, double usual_width, double width_
 std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e, double seat_m) {
   const auto left = edgeAt(e, plane, e.box.u_min), right = edgeAt(e, plane, e.box.u_max);
   if (!left || !right) return std::nullopt;
-  const double width_sigma = std::max(kLeastDoorSigma_m, e.model->width_sigma_m);
-  const Interval along = fitInterval(seenBetween(*left, *right, e), e.model->width_m, width_sigma);
+  const Interval along =
+      fitInterval(seenBetween(*left, *right, e), e.model->width_m, e.model->sizeSigma()[0]);
   PlacedShape placed;
   placed.shape = e.model->nominal();
   placed.shape.width = std::max(kLeastWidth_m, along.width);

@@ -30,9 +30,6 @@ struct Interval {
 /// a large standard deviation.
 Interval fitInterval(const SeenInterval& seen, double usual_width, double width_sigma);
 
-/// A class whose size hardly varies still leaves the construction some freedom, m.
-inline constexpr double kLeastDoorSigma_m = 0.02;
-
 /// Standard deviation of a box's side, px, by the box's extent across it: as in the fit of other shapes.
 inline double sideSigma(double extent_px) {
   const FitWeights fit;

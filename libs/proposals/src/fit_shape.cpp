@@ -162,19 +162,15 @@ class FitProblem {
     const Eigen::MatrixXd by_size = Eigen::Rotation2Dd(-fitted.yaw).toRotationMatrix() *
                                     covariance.block(0, first, 2, sizes) *
                                     covariance.block(first, first, sizes, sizes).inverse();
-    const ObjectModel& m = *e_.model;
-    const auto usual = [&](double sigma) { return std::pow(std::max(sigma, w_.least_size_sigma_m), -2); };
-    const double width = usual(m.width_sigma_m), depth = usual(m.depth_sigma_m),
-                 height = usual(m.height_sigma_m);
+    const Eigen::Vector3d usual = e_.model->sizeSigma().cwiseAbs2().cwiseInverse();
     const Eigen::VectorXd known = covariance.diagonal().cwiseInverse();
     if (round()) {
-      const double share =
-          std::max(0.0, known[2] / (width + depth) - 1);  // both say the same about one diameter
-      fitted.size_information = {share * width, share * depth, std::max(0.0, known[3] - height)};
+      // Width and depth say the same about one diameter.
+      const double share = std::max(0.0, known[2] / (usual[0] + usual[1]) - 1);
+      fitted.size_information = {share * usual[0], share * usual[1], std::max(0.0, known[3] - usual[2])};
       fitted.place_by_size << by_size.col(0) / 2, by_size.col(0) / 2, by_size.col(1);
     } else {
-      fitted.size_information =
-          Eigen::Vector3d(known[3] - width, known[4] - depth, known[5] - height).cwiseMax(0);
+      fitted.size_information = (known.segment<3>(3) - usual).cwiseMax(0);
       fitted.place_by_size = by_size;
     }
     fitted.place_by_size = fitted.place_by_size.cwiseMax(-kLargestLever).cwiseMin(kLargestLever);
@@ -189,12 +185,7 @@ class FitProblem {
     FixedResiduals r;
     r.head<4>() = boxSides(p);
     const ObjectModel& m = *e_.model;
-    const auto size = [&](double value, double usual, double sigma) {
-      return (value - usual) / std::max(sigma, w_.least_size_sigma_m);
-    };
-    r[kWidth] = size(p.shape.width, m.width_m, m.width_sigma_m);
-    r[kDepth] = size(p.shape.depth, m.depth_m, m.depth_sigma_m);
-    r[kHeight] = size(p.shape.height, m.height_m, m.height_sigma_m);
+    r.segment<3>(kWidth) = (sizeOf(p.shape) - sizeOf(m.nominal())).cwiseQuotient(m.sizeSigma());
     r[kNearSide] = nearSideKnown() ? saturated((nearestRange(p) - near_range_) / (w_.near_side_gain * sigma_point_),
                                                w_.near_side_saturation)
                                    : 0;

@@ -20,20 +20,13 @@ double meanOutside(const PlacedShape& placed, const std::vector<MaskPoint>& poin
   return sum / static_cast<double>(points.size());
 }
 
-double squaredSizeError(double value, double usual, double sigma) {
-  constexpr double kLeastSigma_m = 0.01;
-  return std::pow((value - usual) / std::max(sigma, kLeastSigma_m), 2);
-}
-
 }  // namespace
 
 void judge(PlacedShape& placed, const BoxEvidence& evidence, const QualityWeights& weights) {
   const ObjectModel& m = *evidence.model;
   const auto& points = evidence.mask.points;
   placed.box_iou = boxIou(placed, evidence);
-  const double size = squaredSizeError(placed.shape.width, m.width_m, m.width_sigma_m) +
-                      squaredSizeError(placed.shape.depth, m.depth_m, m.depth_sigma_m) +
-                      squaredSizeError(placed.shape.height, m.height_m, m.height_sigma_m);
+  const double size = m.sizeDistance2(placed.shape);
   placed.quality = placed.box_iou * std::exp(-meanOutside(placed, points, weights.far_outside_m) / weights.outside_m -
                                              weights.size * size);
   if (points.empty())

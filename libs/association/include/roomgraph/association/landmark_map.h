@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "roomgraph/association/associator.h"
@@ -58,9 +59,10 @@ class LandmarkMap {
 
   /// Landmarks for the map: existence and number of observations reach the configured limits, and no other
   /// confirmed landmark with more evidence overlaps them.
-  std::vector<Landmark> confirmed() const { return confirmed(landmarks_, options_.confirm_existence); }
-  /// The same with the existence of these copies of the landmarks, and another limit of it.
-  std::vector<Landmark> confirmed(const std::vector<Landmark>& judged, double least_existence) const;
+  std::vector<Landmark> confirmed() const { return confirmed(landmarks_); }
+  /// The same of these copies of the landmarks, perhaps with another existence, and another limit of it.
+  std::vector<Landmark> confirmed(const std::vector<Landmark>& judged,
+                                  std::optional<double> least_existence = std::nullopt) const;
 
  private:
   Landmark* get(LandmarkId id);

@@ -37,6 +37,11 @@ struct ObjectModel : Configurable {
 
   void declareParameters(ParameterVisitor& visitor) override;
   ObjectShape nominal() const;
+  /// Standard deviations of width, depth and height, m; at least 1 cm each: a class whose size hardly varies
+  /// still leaves some freedom.
+  Eigen::Vector3d sizeSigma() const;
+  /// Squared distance of a size from the usual one, normalised by sizeSigma().
+  double sizeDistance2(const ObjectShape& other) const;
   /// What tells the front; kNone for shapes without a yaw or with symmetric sides.
   FrontRule frontRule() const;
   /// Class name of the shape generator; for "auto" the shipped one of the shape.

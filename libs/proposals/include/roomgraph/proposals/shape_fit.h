@@ -13,7 +13,6 @@ struct FitWeights {
   double box_side_px = 4, box_side_share = 0.03;  ///< sigma of a box side: constant, and share of the box's extent
   double box_side_saturation = 5;
   double out_of_view = 20;            ///< residual of each side when the shape is not in view
-  double least_size_sigma_m = 0.01;   ///< a class whose size hardly varies still leaves the fit some freedom
   double point_sigma_m = 0.03;        ///< distance of a real surface from its model, besides the depth noise
   double point_noise_gain = 2;        ///< factor on the depth sensor's noise
   double point_saturation = 4;
