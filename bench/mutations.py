@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutation testing: puts one fault at a time into the code and sees whether a test notices.
 
-    bench/mutations.py [--list] [--library X ...] [--only NAME ...] [--tests PROGRAM ...] [--jobs N] [-o report.json]
+    bench/mutations.py [--list] [--library X ...] [--only NAME ...] [--tests PROGRAM ...] [--without PROGRAM ...] [--jobs N]
+                       [-o report.json]
 
 The faults are in bench/mutations/LIBRARY.json:
 
@@ -21,8 +22,9 @@ A fault that does not compile behind a switch is found by the lines of the compi
 
 The work happens in copies of the source tree, DIR/1 to DIR/N (default build/mutations), which are kept: the next call
 builds only what changed. The tree itself is never touched. In each copy all test programs are run without a fault
-first, then, fault by fault, the tests of that library, followed by those of everything that links it, until one
-fails. A test program that takes ten times as long as without the fault has failed.
+first, then, fault by fault, the tests of that library, followed by those of everything that links it, the quickest
+first, until one fails. A test program that takes ten times as long as without the fault has failed. A fault that nothing
+notices costs as long as all of them: slow ones can be left out (--without), and survivors tried again with them.
 
 The report is rewritten after every fault and stays valid when the program is interrupted (Ctrl-C). Exit code: 0 when
 every fault that was built and has no `why` is caught, 1 when one is not, 2 for unusable input, 130 when interrupted.
@@ -148,6 +150,7 @@ class Copy:
         """The fault's result."""
         began = time.monotonic()
         result = {key: fault[key] for key in ("name", "library", "file", "why") if key in fault}
+        programs = programs[:1] + sorted(programs[1:], key=self.usual_s.get)
         is_alone = fault["name"] in self.alone
         result.update(self.with_text(fault, programs) if is_alone else self.verdict(programs, fault["name"]))
         return {**result, "seconds": round(time.monotonic() - began, 1)}
@@ -269,7 +272,7 @@ def lock(folder):
 def run_all(root, faults, options):
     programs = test_programs(root)
     libraries = {f["library"] for f in faults}
-    programs_of = {library: programs_for(programs, library, options.tests) for library in libraries}
+    programs_of = {library: programs_for(programs, library, options.tests, options.without) for library in libraries}
     needed = [p for _, p, _ in programs if any(p in names for names in programs_of.values())]
     report, stop, problems = Report(options.output, len(faults)), threading.Event(), []
     todo, ended = queue.Queue(), queue.Queue()
@@ -303,6 +306,8 @@ def arguments(argv):
     parser.add_argument("--library", nargs="+", help="faults in these libraries only")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="these faults only")
     parser.add_argument("--tests", nargs="+", metavar="PROGRAM", help="run these test programs only")
+    parser.add_argument("--without", nargs="+", metavar="PROGRAM", default=(),
+                        help="run these for faults of their own library only")
     parser.add_argument("--jobs", type=int, default=1, help="copies that work at a time")
     parser.add_argument("--build", type=pathlib.Path, help="folder of the copies (build/mutations)")
     parser.add_argument("--preset", default="release", help="CMake preset of their builds")

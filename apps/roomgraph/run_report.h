@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/pipeline/replay.h"
 
 namespace roomgraph {

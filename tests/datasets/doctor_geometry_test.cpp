@@ -69,11 +69,11 @@ mrpt::obs::CObservation2DRangeScan::Ptr roomScan(double t) {
 
 class DoctorGeometry : public ::testing::Test {
  protected:
-  /// 40 images of a robot in the room, changed by `change`, with odometry and, if wanted, scans.
+  /// Images of a robot in the room, changed by `change`, with odometry and, if wanted, scans.
   template <class Change>
-  RawlogReport inspect(bool scans, const Change& change, bool odometry = true) {
+  RawlogReport inspect(bool scans, const Change& change, bool odometry = true, int count = 40) {
     std::vector<Object> objects;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < count; ++i) {
       if (odometry) objects.push_back(makeOdometry(0.1 * i, 0, 0, 0));
       if (scans) objects.push_back(roomScan(0.1 * i + 0.02));
       const auto images = roomImages(0.1 * i + 0.05);
@@ -175,6 +175,21 @@ TEST_F(DoctorGeometry, SwayingHandHasNoFloorAtOnePlace) {
       false);
   EXPECT_FALSE(imagesOf(report).floor);
   EXPECT_THAT(report.findings, kNoWorseThanNotes);
+}
+
+TEST_F(DoctorGeometry, FloorInFewImagesIsNoFloor) {
+  for (const int with_floor : {40, 60}) {  // a quarter must show it
+    int i = 0;
+    const auto report = inspect(
+        false,
+        [&](Images& images) {
+          images.sensorPose = {0.3,       0, kHeight_m,
+                               -M_PI / 2, 0, -M_PI / 2};               // no floor where this pose expects it
+          if (i++ >= with_floor) images.rangeImage.setConstant(2000);  // a wall
+        },
+        true, 200);
+    EXPECT_EQ(imagesOf(report).floor.has_value(), with_floor == 60) << with_floor << " of 200";
+  }
 }
 
 // The recordings at hand are well, and are not when the unit of their depths is wrong.

@@ -27,6 +27,17 @@ TEST(Shape, FootprintsAreCounterClockwise) {
   EXPECT_LT(polygonArea(footprint(cylinder, 8)), std::numbers::pi * 0.09);
 }
 
+TEST(Shape, FootprintTurnsWithItsPose) {
+  const ObjectShape cuboid{ShapeKind::kCuboid, 2, 1,
+                           0.5};  // its front, half its depth ahead, shows to the left
+  const auto corners = footprintAt({3, 4, std::numbers::pi / 2}, cuboid);
+  Eigen::AlignedBox2d box;
+  for (const auto& corner : corners) box.extend(corner);
+  EXPECT_TRUE(box.min().isApprox(Eigen::Vector2d(2, 3.5))) << box.min().transpose();
+  EXPECT_TRUE(box.max().isApprox(Eigen::Vector2d(4, 4.5))) << box.max().transpose();
+  EXPECT_NEAR(polygonArea(corners), 2, 1e-12) << "counter-clockwise";
+}
+
 TEST(Shape, DistanceOutside) {
   const ObjectShape cuboid{ShapeKind::kCuboid, 2, 1, 0.5};
   EXPECT_EQ(distanceOutside(cuboid, {0, 0, 0.2}), Eigen::Vector2d(0, 0));

@@ -53,6 +53,33 @@ TEST(Occlusion, ChairWhoseFeetADeskHides) {
   EXPECT_LT(std::hypot(found[0].x - 2.8, found[0].y - 0.1), 0.15);
 }
 
+// Its table top reaches up to the chair, so that nothing is clearly nearer than the chair.
+TEST(Occlusion, ChairPushedUnderATable) {
+  constexpr double kRange_m = 2.4, kRadius_m = 0.31;
+  Scene scene = sceneAhead();
+  scene.addCylinder(kRange_m, 0.1, kRadius_m, 0.95, 1);
+  scene.addBox(kRange_m - kRadius_m - 0.85, 0, 0, 2.0, 1.6, 0.6, 0.65, 2);
+  const BoxEvidence e = shadedEvidence(scene, "swivel_chair");
+  EXPECT_TRUE(e.hidden.bottom);
+  const auto found = test::hypotheses<CylinderGenerator>(e);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(std::hypot(found[0].x - kRange_m, found[0].y - 0.1), 0.1);
+  EXPECT_NEAR(found[0].shape.height, 0.95, 0.05);
+  EXPECT_GT(found[0].box_iou, 0.8) << "what the table hides is not missed";
+  const auto whole = project(found[0], e);
+  ASSERT_TRUE(whole);
+  EXPECT_GT(whole->visible.v_max, e.box.v_max + 20) << "the shape goes on below the table top";
+  EXPECT_EQ(unhidden(whole->visible, e.box, e.hidden).v_max, e.box.v_max);
+}
+
+TEST(Occlusion, WhatStandsFartherAwayHidesNoBottom) {
+  Scene scene = sceneAhead();
+  scene.addBox(3.0, 0, 0, 2.0, 0.8, 0, 0.6, 2);
+  scene.addCylinder(2.7, 0.1, 0.31, 0.95, 1);
+  BoxEvidence e = shadedEvidence(scene, "swivel_chair");
+  EXPECT_FALSE(e.hidden.bottom) << "floor is below it";
+}
+
 TEST(Occlusion, NothingIsHiddenInTheOpen) {
   Scene scene = sceneAhead();
   scene.addCylinder(2.5, 0.1, 0.31, 0.95, 1);

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -57,7 +58,16 @@ class Program {
     redirect(1, "stdout.txt");
     redirect(2, "stderr.txt");
     posix_spawn_file_actions_addchdir_np(&actions, working_directory.c_str());
-    const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, nullptr, pointers.data(), environ);
+    // Tests may themselves run under nohup, and an ignored signal stays ignored in children.
+    sigset_t ended_by;
+    sigemptyset(&ended_by);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ended_by, signal);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigdefault(&attributes, &ended_by);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0) << ROOMGRAPH_PROGRAM << " cannot be started";
   }

@@ -47,9 +47,8 @@ double rayDensity(const WorldMeasurement& seen, const Landmark& landmark, double
 
 double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b,
                         const Pose3& world_from_b) {
-  auto base_a = footprint(a), base_b = footprint(b);
-  for (auto& corner : base_a) corner = planarPart(world_from_a) * corner;
-  for (auto& corner : base_b) corner = planarPart(world_from_b) * corner;
+  const auto base_a = footprintAt(planarPart(world_from_a), a);
+  const auto base_b = footprintAt(planarPart(world_from_b), b);
   const double smaller = std::min(polygonArea(base_a), polygonArea(base_b));
   return smaller > 0 ? polygonArea(intersectConvex(base_a, base_b)) / smaller : 0;
 }

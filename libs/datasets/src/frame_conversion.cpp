@@ -46,10 +46,8 @@ void setColor(Frame& frame, const mrpt::img::CImage& image) {
   if (pixels.channels() == 1) {
     frame.gray = pixels;
     cv::cvtColor(pixels, frame.color, cv::COLOR_GRAY2BGR);
-  } else if (image.getChannelsOrder() == "RGB") {
-    cv::cvtColor(pixels, frame.color, cv::COLOR_RGB2BGR);
   } else {
-    frame.color = pixels;
+    frame.color = pixels;  // MRPT has BGR only
   }
   if (isDistorted(frame.camera)) {
     frame.color = undistorted(frame.color, frame.camera, cv::INTER_LINEAR);

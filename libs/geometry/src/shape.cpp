@@ -31,6 +31,12 @@ std::vector<Eigen::Vector2d> footprint(const ObjectShape& shape, int circle) {
   return footprintCorners<double>(shape.kind, sizeOf(shape), circle);
 }
 
+std::vector<Eigen::Vector2d> footprintAt(const Pose2& pose, const ObjectShape& shape, int circle) {
+  auto corners = footprint(shape, circle);
+  for (auto& corner : corners) corner = pose * corner;
+  return corners;
+}
+
 Eigen::Vector2d distanceOutside(const ObjectShape& shape, const Eigen::Vector3d& point) {
   const auto [horizontal, vertical] = distanceOutside<double>(shape.kind, sizeOf(shape), point);
   return {horizontal, vertical};

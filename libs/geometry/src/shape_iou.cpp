@@ -12,16 +12,14 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-std::vector<Eigen::Vector2d> footprintInWorld(ObjectShape shape, const Pose3& world_from_object,
-                                              double thickness) {
+constexpr int kCorners = 64;  // of a circle
+
+ObjectShape atLeastAsThick(ObjectShape shape, double thickness) {
   if (shape.kind != ShapeKind::kCylinder) {
     shape.width = std::max(shape.width, thickness);
     shape.depth = std::max(shape.depth, thickness);
   }
-  std::vector<Eigen::Vector2d> corners = footprint(shape, 64);
-  for (auto& corner : corners)
-    corner = (world_from_object * Eigen::Vector3d(corner.x(), corner.y(), 0)).head<2>();
-  return corners;
+  return shape;
 }
 
 }  // namespace
@@ -53,8 +51,8 @@ std::vector<Eigen::Vector2d> intersectConvex(const std::vector<Eigen::Vector2d>&
 
 double iou3d(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b, const Pose3& world_from_b,
              double min_thickness_m) {
-  const auto base_a = footprintInWorld(a, world_from_a, min_thickness_m);
-  const auto base_b = footprintInWorld(b, world_from_b, min_thickness_m);
+  const auto base_a = footprintAt(planarPart(world_from_a), atLeastAsThick(a, min_thickness_m), kCorners);
+  const auto base_b = footprintAt(planarPart(world_from_b), atLeastAsThick(b, min_thickness_m), kCorners);
   const double za = world_from_a.translation().z(), zb = world_from_b.translation().z();
   const double overlap = std::min(za + a.height, zb + b.height) - std::max(za, zb);
   const double common = std::max(0.0, overlap) * polygonArea(intersectConvex(base_a, base_b));

@@ -11,13 +11,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json footprintInWorld(const Landmark& landmark) {
+Json footprintPolygon(const Landmark& landmark) {
   Json polygon = Json::array();
   const Pose2 world_from_object{landmark.position.x(), landmark.position.y(), landmark.yaw};
-  for (const auto& corner : footprint(landmark.shape)) {
-    const Eigen::Vector2d p = world_from_object * corner;
-    polygon.push_back({p.x(), p.y()});
-  }
+  for (const auto& p : footprintAt(world_from_object, landmark.shape)) polygon.push_back({p.x(), p.y()});
   return polygon;
 }
 
@@ -38,7 +35,7 @@ Json toJson(const Landmark& landmark) {
           {"has_yaw", landmark.has_yaw},
           {"shape", toString(landmark.shape.kind)},
           {"size_wdh", {landmark.shape.width, landmark.shape.depth, landmark.shape.height}},
-          {"footprint", footprintInWorld(landmark)},
+          {"footprint", footprintPolygon(landmark)},
           {"covariance", covariance},
           {"existence", landmark.existence},
           {"class_posterior", Json(landmark.class_posterior)},

@@ -89,8 +89,8 @@ std::vector<PlacedShape> guessesFromContact(const BoxEvidence& e) {
     placed.yaw =
         wrapAngle(std::atan2(ahead.y(), ahead.x()) + std::numbers::pi + 2 * k * std::numbers::pi / kContactYaws);
     double reach = 0;
-    for (const auto& corner : footprint(placed.shape))
-      reach = std::max(reach, ahead.dot(Pose2{0, 0, placed.yaw} * corner));
+    for (const auto& corner : footprintAt({0, 0, placed.yaw}, placed.shape))
+      reach = std::max(reach, ahead.dot(corner));
     const Eigen::Vector2d center = *contact + ahead * reach;
     placed.x = center.x();
     placed.y = center.y();

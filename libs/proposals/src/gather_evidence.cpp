@@ -20,14 +20,22 @@ constexpr double kBesideBox_px = 3, kBesideBoxShare = 0.02;
 constexpr int kSamples = 24;          // along that line
 constexpr double kHidingShare = 0.4;  // of them, nearer than the object: the side is hidden
 constexpr double kNearer_m = 0.15;    // what counts as nearer
+// What reaches up to the box's bottom side is a table top or the like, not the floor, if it is so high and no
+// farther than the object; the object stands on the floor, behind or below it.
+constexpr double kRaised_m = 0.3, kNotBehind_m = 0.1;
 
 BoxSides sidesAtBorder(const BoxEvidence& e) {
   const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
   return {!inside.left, !inside.top, !inside.right, !inside.bottom};
 }
 
-// Whether an occluder, nearer than the object, covers enough of the line from a to b (px, just outside the box).
-bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double object_range,
+// What hides an object: higher above the ground than `height_m`, and nearer than `range_m`.
+struct Occluder {
+  double height_m, range_m;
+};
+
+// Whether an occluder covers enough of the line from a to b (px, just outside the box).
+bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Occluder& occluder,
                  const BoxEvidence& e, const Frame& frame) {
   const Pose3 ground_from_camera = e.camera_from_ground.inverse();
   int hiding = 0;
@@ -36,7 +44,7 @@ bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double obje
     const float z = frame.depthAt(p.x(), p.y());
     if (!(z > 0) || !std::isfinite(z)) continue;
     const Eigen::Vector3d q = ground_from_camera * e.camera.backProject(p.x(), p.y(), z);
-    hiding += q.z() > kStanding_m && q.head<2>().norm() < object_range - kNearer_m;
+    hiding += q.z() > occluder.height_m && q.head<2>().norm() < occluder.range_m;
   }
   return hiding >= kHidingShare * kSamples;
 }
@@ -49,13 +57,17 @@ void markHidden(BoxEvidence& e, const Frame& frame) {
   const double range = quantile(std::move(ranges), kObjectFront);
   const Box2& b = e.box;
   const double du = kBesideBox_px + kBesideBoxShare * b.width(), dv = kBesideBox_px + kBesideBoxShare * b.height();
-  const auto along = [&](double u0, double v0, double u1, double v1) {
-    return hiddenAlong({u0, v0}, {u1, v1}, range, e, frame);
+  const Occluder nearer{kStanding_m, range - kNearer_m}, table{kRaised_m, range + kNotBehind_m};
+  const auto along = [&](double u0, double v0, double u1, double v1, const Occluder& occluder) {
+    return hiddenAlong({u0, v0}, {u1, v1}, occluder, e, frame);
   };
-  e.hidden.left = !e.cut.left && along(b.u_min - du, b.v_min, b.u_min - du, b.v_max);
-  e.hidden.right = !e.cut.right && along(b.u_max + du, b.v_min, b.u_max + du, b.v_max);
-  e.hidden.top = !e.cut.top && along(b.u_min, b.v_min - dv, b.u_max, b.v_min - dv);
-  e.hidden.bottom = !e.cut.bottom && along(b.u_min, b.v_max + dv, b.u_max, b.v_max + dv);
+  e.hidden.left = !e.cut.left && along(b.u_min - du, b.v_min, b.u_min - du, b.v_max, nearer);
+  e.hidden.right = !e.cut.right && along(b.u_max + du, b.v_min, b.u_max + du, b.v_max, nearer);
+  e.hidden.top = !e.cut.top && along(b.u_min, b.v_min - dv, b.u_max, b.v_min - dv, nearer);
+  const auto below = [&](const Occluder& occluder) {
+    return along(b.u_min, b.v_max + dv, b.u_max, b.v_max + dv, occluder);
+  };
+  e.hidden.bottom = !e.cut.bottom && (below(nearer) || (e.model->rests_on_ground && below(table)));
   e.cut.left |= e.hidden.left;
   e.cut.right |= e.hidden.right;
   e.cut.top |= e.hidden.top;

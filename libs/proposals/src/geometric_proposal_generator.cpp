@@ -67,6 +67,7 @@ std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence&
   proposal.covariance = covarianceOf(placed, evidence, tilt_sigma);
   proposal.has_yaw = placed.has_yaw;
   proposal.projected = *projected;
+  proposal.projected.visible = unhidden(projected->visible, evidence.box, placed.hidden);
   proposal.score = std::clamp(start.value * placed.quality, 0.0, 1.0);
   proposal.box_iou = placed.box_iou;
   proposal.source = placed.source;

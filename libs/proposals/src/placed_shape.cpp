@@ -40,16 +40,16 @@ std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEviden
   return projectShape(placed.shape, cameraFromObject(placed, evidence), evidence.camera);
 }
 
+Box2 unhidden(const Box2& visible, const Box2& box, const BoxSides& hidden) {
+  return {hidden.left ? std::max(visible.u_min, box.u_min) : visible.u_min,
+          hidden.top ? std::max(visible.v_min, box.v_min) : visible.v_min,
+          hidden.right ? std::min(visible.u_max, box.u_max) : visible.u_max,
+          hidden.bottom ? std::min(visible.v_max, box.v_max) : visible.v_max};
+}
+
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence) {
   const auto projected = project(placed, evidence);
-  if (!projected) return 0;
-  Box2 seen = projected->visible;
-  const Box2& box = evidence.box;
-  if (evidence.hidden.left) seen.u_min = std::max(seen.u_min, box.u_min);
-  if (evidence.hidden.top) seen.v_min = std::max(seen.v_min, box.v_min);
-  if (evidence.hidden.right) seen.u_max = std::min(seen.u_max, box.u_max);
-  if (evidence.hidden.bottom) seen.v_max = std::min(seen.v_max, box.v_max);
-  return iou(seen, box);
+  return projected ? iou(unhidden(projected->visible, evidence.box, evidence.hidden), evidence.box) : 0;
 }
 
 }  // namespace roomgraph

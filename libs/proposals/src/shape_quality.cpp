@@ -25,6 +25,7 @@ double meanOutside(const PlacedShape& placed, const std::vector<MaskPoint>& poin
 void judge(PlacedShape& placed, const BoxEvidence& evidence, const QualityWeights& weights) {
   const ObjectModel& m = *evidence.model;
   const auto& points = evidence.mask.points;
+  placed.hidden = evidence.hidden;
   placed.box_iou = boxIou(placed, evidence);
   const double size = m.sizeDistance2(placed.shape);
   placed.quality = placed.box_iou * std::exp(-meanOutside(placed, points, weights.far_outside_m) / weights.outside_m -

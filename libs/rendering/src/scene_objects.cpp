@@ -50,8 +50,8 @@ void addFrontArrow(const Landmark& landmark, double height, double size, const p
 
 std::vector<Eigen::Vector3d> footprintInWorld(const Landmark& landmark) {
   std::vector<Eigen::Vector3d> corners;
-  for (const auto& corner : footprint(landmark.shape))
-    corners.push_back(landmark.worldFromObject() * Eigen::Vector3d(corner.x(), corner.y(), 0));
+  for (const auto& corner : footprintAt(planarPart(landmark.worldFromObject()), landmark.shape))
+    corners.emplace_back(corner.x(), corner.y(), landmark.position.z());
   return corners;
 }
 

@@ -31,6 +31,9 @@ struct ObjectShape {
 /// `circle` points.
 std::vector<Eigen::Vector2d> footprint(const ObjectShape& shape, int circle = 24);
 
+/// The same in the ground plane of another frame, from the object's pose there.
+std::vector<Eigen::Vector2d> footprintAt(const Pose2& pose, const ObjectShape& shape, int circle = 24);
+
 /// Distance from a point (object frame) to the model's volume: (horizontal, vertical), both 0 inside.
 Eigen::Vector2d distanceOutside(const ObjectShape& shape, const Eigen::Vector3d& point);
 

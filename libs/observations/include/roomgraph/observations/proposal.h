@@ -42,7 +42,7 @@ struct Proposal {
   /// and height are larger: the side that was seen stays where it is.
   Eigen::Matrix<double, 2, 3> place_by_size = Eigen::Matrix<double, 2, 3>::Zero();
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
-  ProjectedShape projected;
+  ProjectedShape projected;         ///< its `visible` ends where something nearer hides a side of the box
   double score = 0;  ///< initialisation score in [0, 1] (method.md sec. 1.5)
   double box_iou =
       0;  ///< IoU of the projected shape with the detection's box; sides that are cut or hidden count as met

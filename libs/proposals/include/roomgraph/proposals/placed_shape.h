@@ -18,6 +18,7 @@ struct PlacedShape {
   double roll = 0, pitch = 0;    ///< rad, small correction of the local ground's normal, about the camera
   double quality = 0;            ///< how well it explains box, points and usual size, in [0, 1]
   double box_iou = 0;
+  BoxSides hidden;  ///< sides of the box that the model was not compared with, as something nearer hides them
   std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
   std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction gives one
@@ -39,6 +40,9 @@ Pose3 groundFromObject(const PlacedShape& placed);
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence);
 /// Nothing when it is out of view.
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
+/// What a nearer object leaves to be seen of it: the model's box in the image, cut by the hidden sides of the
+/// detection's.
+Box2 unhidden(const Box2& visible, const Box2& box, const BoxSides& hidden);
 /// IoU of the projected model with the box, both cut by the image border, the model also by hidden box sides;
 /// 0 when it is out of view.
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence);
