@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace roomgraph {
@@ -52,6 +53,38 @@ TEST(FanFromDepth, LevelWhenTheCameraIsNot) {
     }
     EXPECT_GT(returns, 70);
   }
+}
+
+// A person 1.5 m ahead, in the middle of the image; the box covers them and some wall.
+TEST(FanFromDepth, PeopleAreNeitherDrawnNorSeenThrough) {
+  Frame frame = frameOfWall(0, 0, 2.5);
+  const Box2 person{60, 30, 100, 120};
+  frame.depth(cv::Rect(65, 35, 30, 85)).setTo(1.5F);
+  const Plane ground = groundInCamera(frame.robot_from_camera);
+  DepthSlice slice;
+  slice.step_px = 1;
+  const auto nearer = [&](const RangeFan& fan) {
+    return std::count_if(fan.ranges_m.begin(), fan.ranges_m.end(), [](float r) { return r > 0 && r < 2; });
+  };
+  EXPECT_GT(nearer(fanFromDepth(frame, ground, slice)), 20);
+  const RangeFan without = fanFromDepth(frame, ground, slice, {person});
+  EXPECT_EQ(nearer(without), 0);
+  int unknown = 0, walls = 0;
+  for (std::size_t i = 0; i < without.ranges_m.size(); ++i) {
+    const double u =
+        frame.camera
+            .project(
+                {-std::tan(without.angle_min_rad + static_cast<double>(i) * without.angle_step_rad), 0, 1})
+            .x();
+    if (u > person.u_min + 1 && u < person.u_max - 1) {
+      EXPECT_EQ(without.ranges_m[i], 0) << "nothing is known behind a person, column " << u;
+      ++unknown;
+    } else if (u < person.u_min - 1 || u > person.u_max + 1) {
+      walls += without.ranges_m[i] > 2;
+    }
+  }
+  EXPECT_GT(unknown, 20);
+  EXPECT_GT(walls, 40);
 }
 
 TEST(FanFromDepth, FloorAloneIsFree) {

@@ -105,5 +105,46 @@ TEST(PeopleMap, ASittingPersonIsNotDrawnAndErasesNothing) {
   }
 }
 
+// Depth images of a wall 3.5 m ahead and somebody before it, at whom the detector looks or not.
+Grid gridFromDepth(bool detected) {
+  registerAllClasses();
+  fakes::registerClasses();
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(WatchingMatcher, fakes));
+  fakes::world() = {};
+  fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
+  const fakes::WorldObject person{
+      "person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, poseFromYpr(kSeat.x(), kSeat.y(), 0, 0, 0, 0)};
+  if (detected) fakes::world().objects = {person};
+  Frame frame = Drive::frame(0);
+  frame.depth.setTo(3.5F);
+  const Pose3 camera_from_person = Drive::robotFromCamera().inverse() * person.world_from_object;
+  const Box2 seen = projectShape(person.shape, camera_from_person, frame.camera)->visible;
+  frame
+      .depth(cv::Rect(cv::Point(static_cast<int>(seen.u_min) + 1, static_cast<int>(seen.v_min) + 1),
+                      cv::Point(static_cast<int>(seen.u_max), static_cast<int>(seen.v_max))))
+      .setTo(1.8F);
+  SemanticSlam slam(
+      setupWith("[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n[tracking]\n"
+                "enabled = false\n[lidar]\nclass = WatchingMatcher\nloop_closing = false\n"
+                "[mapping]\nsource = depth\n"));
+  std::mt19937 random{3};
+  for (double t = 0; t < 10; t += 0.5) {
+    frame.t = t;
+    frame.id = FrameId{static_cast<std::int64_t>(std::lround(10 * t))};
+    slam.process(frame);
+    slam.process(castScan(asymmetricRoom(), {}, t + 0.1, random, 0.01, 720));
+  }
+  return *slam.finish().map.occupancy;
+}
+
+TEST(PeopleMap, DepthImagesLeavePeopleOut) {
+  const Eigen::Vector2d wall(3.6, -0.8), front(1.9, kSeat.y());
+  const Grid drawn = gridFromDepth(false), left_out = gridFromDepth(true);
+  EXPECT_TRUE(occupiedWithin(drawn, front, 0.15)) << "what nobody calls a person is an obstacle";
+  EXPECT_FALSE(occupiedWithin(left_out, front, 0.4));
+  EXPECT_TRUE(occupiedWithin(drawn, wall, 0.1));
+  EXPECT_TRUE(occupiedWithin(left_out, wall, 0.1));
+}
+
 }  // namespace
 }  // namespace roomgraph::test

@@ -58,9 +58,9 @@ void OccupancyMapper::add(const Scan& scan) {
   scans_.push_back(fanFromScan(scan, options_.no_return_free_m));
 }
 
-void OccupancyMapper::add(const Frame& frame, const Plane& ground) {
+void OccupancyMapper::add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving) {
   if (!frame.hasDepth() || !frame.camera.valid()) return;
-  slices_.push_back(fanFromDepth(frame, ground, options_.slice));
+  slices_.push_back(fanFromDepth(frame, ground, options_.slice, moving));
 }
 
 void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,

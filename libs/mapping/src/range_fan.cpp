@@ -34,13 +34,16 @@ struct Beam {
 };
 
 /// Sorts the image's points into beams over the full circle, beam 0 straight backwards.
-std::vector<Beam> sortIntoBeams(const Frame& frame, const Pose3& ground_from_camera,
-                                const DepthSlice& slice) {
+std::vector<Beam> sortIntoBeams(const Frame& frame, const Pose3& ground_from_camera, const DepthSlice& slice,
+                                const std::vector<Box2>& moving) {
+  const auto moves = [&](int u, int v) {
+    return std::any_of(moving.begin(), moving.end(), [&](const Box2& box) { return box.contains(u, v); });
+  };
   std::vector<Beam> beams(static_cast<std::size_t>(std::ceil(2 * std::numbers::pi / slice.beam_rad)));
   for (int v = slice.step_px / 2; v < frame.depth.rows; v += slice.step_px) {
     const float* row = frame.depth.ptr<float>(v);
     for (int u = slice.step_px / 2; u < frame.depth.cols; u += slice.step_px) {
-      if (!(row[u] > 0)) continue;
+      if (!(row[u] > 0) || moves(u, v)) continue;
       const Eigen::Vector3d p =
           ground_from_camera * frame.camera.backProject(u, v, static_cast<double>(row[u]));
       const double range = std::hypot(p.x(), p.y());
@@ -76,9 +79,10 @@ RangeFan fanFromScan(const Scan& scan, double no_return_free_m) {
   return fan;
 }
 
-RangeFan fanFromDepth(const Frame& frame, const Plane& ground, const DepthSlice& slice) {
+RangeFan fanFromDepth(const Frame& frame, const Plane& ground, const DepthSlice& slice,
+                      const std::vector<Box2>& moving) {
   const Pose3 camera_from_ground = cameraFromGround(ground);
-  const auto beams = sortIntoBeams(frame, camera_from_ground.inverse(), slice);
+  const auto beams = sortIntoBeams(frame, camera_from_ground.inverse(), slice, moving);
   const auto known = [](const Beam& beam) { return beam.range() != 0; };
   const auto first = std::find_if(beams.begin(), beams.end(), known);
   const auto last = std::find_if(beams.rbegin(), beams.rend(), known).base();

@@ -64,7 +64,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
-    mapper_.add(frame, floor);
+    mapper_.add(frame, floor, people);  // sec. 5
     objects_.look(frame, estimator_.poses().at(frame.t));
     if (detections.current()) {
       const auto measurements = select(frame, proposals, tracked.features);      // sec. 3

@@ -18,8 +18,9 @@ class OccupancyMapper {
   explicit OccupancyMapper(const OccupancyOptions& options = {}) : options_(options) {}
   /// Stores the scan, so that the grid can be built again with other poses.
   void add(const Scan& scan);
-  /// `ground`: floor in the camera frame. A frame without depth is left out.
-  void add(const Frame& frame, const Plane& ground);
+  /// `ground`: floor in the camera frame. `moving`: boxes (px) of what moves by itself, which is not drawn. A
+  /// frame without depth is left out.
+  void add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {});
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
   /// without any. Cells hold the probability of being free (MRPT). Throws RunError when the grid would be too large to
   /// be right (a wrong trajectory).

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "roomgraph/geometry/box.h"
 #include "roomgraph/geometry/ground.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/scan.h"
@@ -33,7 +34,9 @@ struct DepthSlice {
 };
 
 /// Virtual level scan in the local ground frame below the camera: a beam ends at the nearest point in the
-/// band (more exactly the third nearest, as outliers: flying pixels), or else is free up to the farthest floor point.
-RangeFan fanFromDepth(const Frame& frame, const Plane& ground, const DepthSlice& slice);
+/// band (more exactly the third nearest, as outliers: flying pixels), or else is free up to the farthest
+/// floor point. Nothing is known where the image shows what moves by itself: pixels in `moving` are left out.
+RangeFan fanFromDepth(const Frame& frame, const Plane& ground, const DepthSlice& slice,
+                      const std::vector<Box2>& moving = {});
 
 }  // namespace roomgraph
