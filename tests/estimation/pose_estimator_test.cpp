@@ -135,8 +135,8 @@ TEST(PoseEstimator, AClosureOverAGapMovesWhatCameAfterIt) {
   EXPECT_EQ(nodes[1].world_from_robot.translation().x(), 1) << "what lies before the gap stays";
 }
 
-// A camera held in the hand 1.3 m above the floor, pitched and rolled: the first sight of the floor puts z up.
-TEST(PoseEstimator, TheFloorLevelsAHandheldWorldOnce) {
+// A camera held in the hand 1.3 m above the floor, pitched and rolled: the floor puts z up.
+TEST(PoseEstimator, TheFloorLevelsAHandheldWorld) {
   const BackendOptions options;
   const MotionSource none{MotionNoise{}, false};
   const Motion motion{none, none, none};
@@ -147,12 +147,21 @@ TEST(PoseEstimator, TheFloorLevelsAHandheldWorldOnce) {
                                bodyFromOptical();
   EXPECT_FALSE(estimator.levelled());
   estimator.addFloor(0, groundInCamera(level_from_camera), Pose3::Identity());
+  EXPECT_FALSE(estimator.levelled()) << "what one frame saw";
+  const Pose3 start = estimator.poses().at(0);
+  const Pose3 moved = estimator.level(transformed(start, groundInCamera(level_from_camera)));
   EXPECT_TRUE(estimator.levelled());
+  EXPECT_TRUE((moved * start).isApprox(estimator.poses().at(0), 1e-9));
   const Pose3 world_from_camera = estimator.poses().at(0);
   const Plane floor = groundInCamera(world_from_camera), seen = groundInCamera(level_from_camera);
   EXPECT_LT((floor.normal - seen.normal).norm(), 1e-9);
   EXPECT_NEAR(floor.offset, seen.offset, 1e-9);
   EXPECT_LT(world_from_camera.translation().head<2>().norm(), 1e-9) << "the start keeps its place";
+
+  // That was a table; the floor is 0.7 m below it.
+  estimator.level({Eigen::Vector3d::UnitZ(), 0.7});
+  EXPECT_NEAR(estimator.poses().at(0).translation().z(), seen.offset + 0.7, 1e-9);
+  EXPECT_TRUE(estimator.poses().at(0).linear().isApprox(world_from_camera.linear(), 1e-9));
 }
 
 TEST(PoseEstimator, ARobotOnTheFloorNeedsNoLevelling) {

@@ -18,6 +18,14 @@ Pose3 robotCamera(double pitch_down) {
   return pose;
 }
 
+TEST(Plane, KeepsDistancesInAnotherFrame) {
+  const Plane plane{Eigen::Vector3d(1, -2, 3).normalized(), 0.4};
+  const Pose3 a_from_b = poseFromYpr(1, 2, 3, 0.4, -0.5, 0.6);
+  const Plane moved = transformed(a_from_b, plane);
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -1, 2)})
+    EXPECT_NEAR(moved.distance(a_from_b * p), plane.distance(p), 1e-12);
+}
+
 TEST(Ground, PlaneOfAnyCamera) {
   Random random(1);
   for (int round = 0; round < 30; ++round) {

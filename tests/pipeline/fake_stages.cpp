@@ -7,6 +7,7 @@
 namespace fakes {
 
 IMPLEMENTS_MRPT_OBJECT(FakeDetector, roomgraph::Detector, fakes)
+IMPLEMENTS_MRPT_OBJECT(FakeFloors, roomgraph::GroundDetector, fakes)
 IMPLEMENTS_MRPT_OBJECT(FakeProposals, roomgraph::ProposalGenerator, fakes)
 IMPLEMENTS_MRPT_OBJECT(FakeOdometry, roomgraph::RgbdOdometry, fakes)
 
@@ -19,6 +20,7 @@ World& world() {
 
 void registerClasses() {
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeDetector, fakes));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeFloors, fakes));
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeProposals, fakes));
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeOdometry, fakes));
 }
@@ -46,6 +48,16 @@ Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
     found.push_back(detection);
   }
   return found;
+}
+
+Outcome<GroundEstimate> FakeFloors::detect(const Frame& frame, const std::optional<Plane>& expected) {
+  Pose3 above = world().world_from_camera(frame.t);
+  above.translation().z() -= world().plane_height(frame.t);
+  const Plane plane = groundInCamera(above);
+  if (expected && (std::abs(expected->offset - plane.offset) > 0.12 ||
+                   expected->normal.dot(plane.normal) < std::cos(0.1)))
+    return Outcome<GroundEstimate>::failure("elsewhere");
+  return GroundEstimate{plane, 1e-6 * Eigen::Matrix4d::Identity(), true};
 }
 
 FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Detection>& detections,

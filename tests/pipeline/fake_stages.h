@@ -24,6 +24,8 @@ struct World {
   std::vector<WorldObject> objects;
   double lost_at = 1e300;              ///< from then on the odometry counts in a new segment
   double detector_fails_from = 1e300;  ///< from then on the detector does not run
+  /// Above the floor, of the level plane that the depth camera sees, by time.
+  std::function<double(double)> plane_height = [](double) { return 0.0; };
   /// What came of the run: regions that the tracker was told to leave out, frame by frame.
   std::vector<std::vector<roomgraph::Box2>> masked = {};
 };
@@ -37,6 +39,14 @@ class FakeDetector : public roomgraph::Detector {
  public:
   void setDatabase(const roomgraph::ObjectDatabase&) override {}
   roomgraph::Outcome<std::vector<roomgraph::Detection>> detect(const roomgraph::Frame& frame) override;
+};
+
+/// Sees exactly the plane of the world, unless one is expected elsewhere.
+class FakeFloors : public roomgraph::GroundDetector {
+  DEFINE_MRPT_OBJECT(FakeFloors, fakes)
+ public:
+  roomgraph::Outcome<roomgraph::GroundEstimate> detect(
+      const roomgraph::Frame& frame, const std::optional<roomgraph::Plane>& expected) override;
 };
 
 /// Exact shapes and places of the detected objects, and the exact floor.

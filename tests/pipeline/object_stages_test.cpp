@@ -149,7 +149,8 @@ TEST_F(ObjectStagesTest, HandheldCameraIsLevelledByTheFloor) {
     return held * forward_from_optical;
   };
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
-  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n"));
+  SemanticSlam slam(
+      setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n[ground]\nclass = FakeFloors\n"));
   for (int i = 0; i <= 120; ++i) {
     Frame frame = Drive::frame(0.1 * i);
     frame.robot_from_camera = forward_from_optical;  // nobody says where it is held

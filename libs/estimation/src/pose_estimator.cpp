@@ -68,15 +68,19 @@ std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose
   return shifts;
 }
 
+Pose3 PoseEstimator::level(const Plane& floor_in_world) {
+  const Pose3 world_from_ground = cameraFromGround(floor_in_world);
+  const Pose3 ground_from_world = world_from_ground.inverse();
+  const Pose2 first = planarPart(ground_from_world * poses_.nodes().front().world_from_robot);
+  const Pose3 level_from_world = toPose3(first.inverse()) * ground_from_world;
+  measurements_.grounds.clear();  // of a floor that was none
+  transform(level_from_world);
+  levelled_ = true;
+  return level_from_world;
+}
+
 void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robot_from_camera) {
-  if (planar()) return;
-  if (!levelled_) {
-    const Pose3 world_from_camera = poses_.at(t) * robot_from_camera;
-    const Pose3 level_from_world = cameraFromGround(in_camera).inverse() * world_from_camera.inverse();
-    const Pose2 first = planarPart(level_from_world * poses_.nodes().front().world_from_robot);
-    transform(toPose3(first.inverse()) * level_from_world);
-    levelled_ = true;
-  }
+  if (planar() || !levelled_) return;
   const KeyPose& node = poses_.nodes().back();
   if (node.t != t) return;
   GroundFactor factor{.node = node.id,

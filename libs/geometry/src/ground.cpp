@@ -4,6 +4,11 @@
 
 namespace roomgraph {
 
+Plane transformed(const Pose3& a_from_b, const Plane& plane_in_b) {
+  const Eigen::Vector3d normal = a_from_b.linear() * plane_in_b.normal;
+  return {normal, plane_in_b.offset - normal.dot(a_from_b.translation())};
+}
+
 Plane groundInCamera(const Pose3& world_from_camera) {
   return {world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ(),
           world_from_camera.translation().z()};

@@ -178,13 +178,39 @@ ScanMatch SemanticSlam::match(const Scan& scan) {
   return front_ends_.match(scan);
 }
 
-FrameProposals SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
+FrameGround SemanticSlam::seeGround(const Frame& frame) {
   std::optional<Plane> expected;
   if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
   if (estimator_.levelled())
     expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
+  GroundDetector& detector = *setup_->stages.ground_detector;
+  FrameGround ground = groundOf(frame, expected, detector);
+  if (estimator_.planar() || (ground.estimate && ground.estimate->from_depth && expected)) return ground;
+  // A handheld camera whose floor is not known yet, or is not where it should be.
+  const FrameGround anywhere = expected ? groundOf(frame, std::nullopt, detector) : ground;
+  if (anywhere.estimate && findFloor(frame, anywhere.estimate->plane)) return seeGround(frame);
+  if (!expected && ground.estimate)
+    return {std::nullopt, "a plane that few frames have seen may be no floor"};
+  return ground;
+}
+
+// Levels the world by a floor that several frames agree on; returns whether it did.
+bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
+  const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
+  const Plane in_world = transformed(world_from_camera, in_camera);
+  const bool again = estimator_.levelled();
+  if (again && !contradictsFloor(in_world, world_from_camera.translation())) return false;
+  const auto floor = floors_.add(frame.t, in_world, world_from_camera.translation());
+  if (!floor) return false;
+  if (again) ++counts_.reasons["ground: what was taken for the floor was none"];
+  objects_.move({-std::numeric_limits<double>::infinity(), estimator_.level(*floor)});
+  floors_.clear();
+  return true;
+}
+
+FrameProposals SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
   const auto timing = times_.measure("proposals");
-  const FrameGround ground = groundOf(frame, expected, *setup_->stages.ground_detector);
+  const FrameGround ground = seeGround(frame);
   FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, ground);
   if (!proposals.ground) ++counts_.reasons["ground: " + proposals.ground_reason];
   return proposals;
@@ -262,6 +288,7 @@ void SemanticSlam::anchor() {
   const auto map_from_world = map_->recognise(objects_.landmarks().confirmed(), estimator_.poses());
   if (!map_from_world) return;
   estimator_.transform(toPose3(*map_from_world));
+  floors_.clear();
   objects_.move({-std::numeric_limits<double>::infinity(), toPose3(*map_from_world)});
 }
 

@@ -27,7 +27,7 @@ void DepthGroundDetector::declareParameters(ParameterVisitor& v) {
        .min = 0,
        .max = 1.5});
   v.add("min_camera_height_m", search_.min_camera_height_m,
-        {.doc = "Without an expected ground: a plane nearer to the camera than this is taken for a table.",
+        {.doc = "Without an expected ground: a plane nearer to the camera than this is no floor.",
          .unit = "m",
          .min = 0,
          .max = 5});

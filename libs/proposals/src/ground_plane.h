@@ -15,7 +15,7 @@ struct GroundSearch {
   double max_angle_error_rad = 0.10;  ///< against the expected normal
   double max_height_error_m = 0.12;  ///< against the expected camera height
   double max_tilt_rad = 0.87;         ///< normal against the image's up direction, without an expected plane
-  double min_camera_height_m = 0.8;   ///< without an expected plane: a nearer one is a table
+  double min_camera_height_m = 0.25;  ///< without an expected plane: a nearer one is no floor
   double max_camera_height_m = 2.5;
   double max_range_m = 5.0;       ///< depth beyond is not used
   double max_below_ratio = 0.04;  ///< share of all points that may lie below the floor

@@ -16,6 +16,9 @@ struct Plane {
   double distance(const Eigen::Vector3d& p) const { return normal.dot(p) + offset; }
 };
 
+/// The same plane in another frame.
+Plane transformed(const Pose3& a_from_b, const Plane& plane_in_b);
+
 /// Ground z = 0 of world, as a plane in the camera frame (normal up, offset = camera height above ground).
 Plane groundInCamera(const Pose3& world_from_camera);
 

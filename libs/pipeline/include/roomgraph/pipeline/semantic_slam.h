@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roomgraph/datasets/record_stream.h"
+#include "roomgraph/estimation/floor_consensus.h"
 #include "roomgraph/estimation/map_anchor.h"
 #include "roomgraph/estimation/object_loop_closer.h"
 #include "roomgraph/estimation/object_mapper.h"
@@ -82,6 +83,8 @@ class SemanticSlam {
 
   FrameDetections detect(const Frame& frame);
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
+  FrameGround seeGround(const Frame& frame);
+  bool findFloor(const Frame& frame, const Plane& in_camera);
   FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
   std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
                                         const std::vector<FeatureTrack>& features);
@@ -108,6 +111,7 @@ class SemanticSlam {
   FrontEnds front_ends_;     ///< trajectories of the sources
   std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
+  FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
   ObjectMapper objects_;     ///< what was seen of objects
   ExistenceModel existence_;
   ObjectLoopCloser object_loops_;
