@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "frame_conversion.h"
 #include "rawlog_maker.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 
@@ -132,6 +133,18 @@ TEST_F(FrameConversion, MissingIntrinsicsAreAReason) {
   images->cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
   EXPECT_THROW(readBack(images), std::runtime_error);
   EXPECT_THAT(statistics_.skipped, ElementsAre(Pair(testing::HasSubstr("no camera intrinsics"), 1)));
+}
+
+TEST_F(FrameConversion, IntrinsicsOfAnotherImageSizeAreScaledUnlessItsShapeDiffers) {
+  mrpt::img::TCamera calibration;
+  calibration.ncols = 640;
+  calibration.nrows = 480;
+  calibration.setIntrinsicParamsFromValues(500, 510, 320, 250);
+  const PinholeCamera half = cameraForImage(calibration, 320, 240);
+  EXPECT_TRUE(half.valid());
+  EXPECT_DOUBLE_EQ(half.fx, 250);
+  EXPECT_DOUBLE_EQ(half.fy, 255);
+  EXPECT_FALSE(cameraForImage(calibration, 320, 180).valid()) << "cropped or stretched, nobody knows";
 }
 
 TEST_F(FrameConversion, ExternalImagesAreReadAndMissingOnesCounted) {

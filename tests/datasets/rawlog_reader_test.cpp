@@ -104,6 +104,26 @@ TEST(RawlogReader, PoseChangeAndSpatialMovementCountAsOdometry) {
               ElementsAre(Pair("CActionCollection: no movement of the robot in it", 1)));
 }
 
+TEST(RawlogReader, WheelsArePreferredToAScanMatcherWhateverComesFirst) {
+  using Movement = mrpt::obs::CActionRobotMovement2D;
+  for (const bool wheels_first : {true, false}) {
+    Movement wheels, matched;
+    wheels.computeFromOdometry({1, 0, 0}, {});
+    matched.estimationMethod = Movement::emScan2DMatching;
+    matched.poseChange = mrpt::poses::CPosePDFGaussian::Create(mrpt::poses::CPose2D(5, 0, 0));
+    wheels.timestamp = matched.timestamp = mrpt::Clock::fromDouble(1);
+    auto actions = mrpt::obs::CActionCollection::Create();
+    actions->insert(wheels_first ? wheels : matched);
+    actions->insert(wheels_first ? matched : wheels);
+    TemporaryFolder folder;
+    writeRawlog(folder / "x.rawlog", {actions, makeSensoryFrame({makeScan(1)})});
+    RawlogReader reader(folder / "x.rawlog");
+    const auto records = readAll(reader);
+    ASSERT_FALSE(records.empty());
+    EXPECT_NEAR(std::get<OdometryReading>(records[0]).odom_from_robot.x, 1, 1e-9) << wheels_first;
+  }
+}
+
 TEST(RawlogReader, LastActionWithoutTimeIsCounted) {
   TemporaryFolder folder;
   writeRawlog(folder / "x.rawlog", {makeSensoryFrame({makeScan(1)}), makeAction(-1, 1, 0, 0)});

@@ -105,6 +105,11 @@ TEST_F(TumImport, NearestStampsArePairedOneToOne) {
   EXPECT_NEAR(read[0].depth.at<float>(0, 0), 0.6, 1e-6);
   EXPECT_NEAR(read[1].depth.at<float>(0, 0), 0.4, 1e-6);
   EXPECT_EQ(convert({.max_time_difference_s = 0.021}).written, 3);
+
+  // Alone, colour .025 takes the nearer one, which is not the first.
+  writeBytes(folder_ / "rgb.txt", "0.025 rgb/a.png\n");
+  EXPECT_EQ(convert().written, 1);
+  EXPECT_NEAR(frames().at(0).depth.at<float>(0, 0), 0.4, 1e-6);
 }
 
 TEST_F(TumImport, MissingFilesAreCountedAndNothingLeftIsAnError) {

@@ -34,6 +34,7 @@ Pose3 cameraFromObject(const WorldObject& object, double t) {
 }  // namespace
 
 Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
+  ++world().detector_calls;
   if (frame.t >= world().detector_fails_from) return Outcome<std::vector<Detection>>::failure("not this frame");
   std::vector<Detection> found;
   for (const auto& object : world().objects) {
@@ -92,11 +93,12 @@ FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Det
 
 TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prior) {
   world().masked.push_back(prior.dynamic_regions);
+  world().expected.push_back(prior.previous_from_current);
   TrackingResult result;
   result.tracked = true;
   // A frame of its own, as a real tracker has.
   result.odom_from_camera = poseFromYpr(4, 5, 6, 0.3, 0, 0) * world().world_from_camera(frame.t);
-  result.step_covariance = 1e-8 * Matrix6d::Identity();
+  result.step_covariance = world().step_covariance;
   result.segment = frame.t >= world().lost_at;
   trajectory_.add(frame.t, result.odom_from_camera, result.segment);
   return result;

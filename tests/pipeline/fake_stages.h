@@ -26,8 +26,12 @@ struct World {
   double detector_fails_from = 1e300;  ///< from then on the detector does not run
   /// Above the floor, of the level plane that the depth camera sees, by time.
   std::function<double(double)> plane_height = [](double) { return 0.0; };
-  /// What came of the run: regions that the tracker was told to leave out, frame by frame.
+  roomgraph::Matrix6d step_covariance = 1e-8 * roomgraph::Matrix6d::Identity();  ///< that the odometry says
+  /// What came of the run: what the tracker was told to leave out and to expect, frame by frame; detector's
+  /// calls.
   std::vector<std::vector<roomgraph::Box2>> masked = {};
+  std::vector<std::optional<roomgraph::Pose3>> expected = {};
+  int detector_calls = 0;
 };
 World& world();
 

@@ -120,6 +120,15 @@ TEST_F(ObjectStagesTest, TheMapIsTheOptimumOfTheGraph) {
   EXPECT_TRUE(saved.landmarkCovariances()) << "every landmark is tied to the poses, through its views";
 }
 
+TEST_F(ObjectStagesTest, TheDetectorRunsOnEveryNthFrame) {
+  place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
+  SemanticSlam slam(
+      setupWith("[detection]\nclass = FakeDetector\nevery_nth_frame = 3\n[proposals]\nclass = "
+                "FakeProposals\n[tracking]\nenabled = false\n"));
+  drive(slam);
+  EXPECT_EQ(fakes::world().detector_calls, 21) << "of 61 frames";
+}
+
 TEST_F(ObjectStagesTest, SightingsReachTheSinks) {
   struct Watcher : Sink {
     void onStep(const StepReport& report) override {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Between camera and robot: predictions, covariances of steps, and verified closures in the right frames.
+#include "roomgraph/pipeline/front_ends.h"
+
+#include <gtest/gtest.h>
+
+#include "drive.h"
+#include "fake_stages.h"
+
+namespace roomgraph::test {
+namespace {
+
+class FrontEndsTest : public ::testing::Test {
+ protected:
+  FrontEndsTest() {
+    registerAllClasses();
+    fakes::registerClasses();
+    fakes::world() = {};
+    fakes::world().world_from_camera = [](double t) {
+      return toPose3(Drive::truth(t)) * Drive::robotFromCamera();
+    };
+    start();
+  }
+  void start() {
+    setup_ = setupWith(
+        "[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n[lidar]\nenabled = false\n");
+    front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  }
+  Matrix6d covarianceOfAStep(const Matrix6d& of_camera) {
+    fakes::world().step_covariance = of_camera;
+    start();
+    for (const double t : {0.0, 0.1}) front_->track(Drive::frame(t), {});
+    return front_->motion().visual.between(0, 0.1, 0.01)->covariance;
+  }
+  std::unique_ptr<roomgraph::Setup> setup_;
+  std::unique_ptr<FrontEnds> front_;
+};
+
+TEST_F(FrontEndsTest, WheelsPredictForTheCamera) {
+  const Drive drive;
+  for (const double t : {0.0, 0.1}) {
+    ASSERT_TRUE(front_->add(drive.odometry(t)));
+    front_->track(Drive::frame(t), {});
+  }
+  ASSERT_EQ(fakes::world().expected.size(), 2u);
+  EXPECT_FALSE(fakes::world().expected[0]);
+  ASSERT_TRUE(fakes::world().expected[1]);
+  const auto camera = [&](double t) {
+    return toPose3(drive.odometry(t).odom_from_robot) * Drive::robotFromCamera();
+  };
+  EXPECT_TRUE(fakes::world().expected[1]->isApprox(camera(0).inverse() * camera(0.1), 1e-9));
+}
+
+// A camera that is unsure along its optical axis means a robot that is unsure ahead.
+TEST_F(FrontEndsTest, UncertaintyOfTheCameraIsTurnedIntoTheRobot) {
+  Matrix6d of_camera = Matrix6d::Zero();
+  of_camera.diagonal() << 1e-4, 2e-4, 9e-4, 3e-4, 4e-4, 5e-4;
+  const Matrix6d difference = covarianceOfAStep(of_camera) - covarianceOfAStep(Matrix6d::Zero());
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = Drive::robotFromCamera().linear();
+  const Matrix6d expected = turn * of_camera * turn.transpose();
+  EXPECT_NEAR(expected(0, 0), 9e-4, 1e-12) << "the optical axis looks ahead";
+  EXPECT_LT((difference - expected).norm(), 1e-9) << difference.diagonal().transpose();
+}
+
+TEST_F(FrontEndsTest, ImagesConfirmClosuresBetweenRobots) {
+  for (double t = 0; t < 5.05; t += 0.1) front_->track(Drive::frame(t), {});
+  RelativePose proposed;
+  proposed.t_a = 1;
+  proposed.t_b = 5;
+  const Pose3 truth = toPose3(Drive::truth(1).inverse() * Drive::truth(5));
+  proposed.a_from_b = truth * poseFromYpr(0.1, -0.1, 0, 0.05, 0, 0);
+  const auto closure = front_->verify(proposed);
+  ASSERT_TRUE(closure);
+  EXPECT_TRUE(closure->a_from_b.isApprox(truth, 1e-6));
+}
+
+}  // namespace
+}  // namespace roomgraph::test
