@@ -106,21 +106,38 @@ TEST(SubmapLoopCloser, SameInputSameOutput) {
   }
 }
 
-TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
-  const auto room = test::asymmetricRoom();
-  const auto poses = oval(170);
+/// A pass of 170 poses and the begin of a second, before which the odometry is lost: search alone would look elsewhere.
+void passTwice(const std::vector<test::Wall>& walls, const std::vector<Pose2>& poses, SubmapLoopCloser& closer) {
+  constexpr double kFar_m = 40;
   std::mt19937 random(5);
-  SubmapLoopCloser closer;
   closer.prepare();
-  const double far = 40;  // the odometry is lost after the first pass: search alone would look elsewhere
   for (int i = 0; i < 230; ++i) {
     const Pose2 pose = poses[static_cast<std::size_t>(i % 170)];
     ScanMatch match;
     match.matched = true;
-    match.odom_from_robot = i < 170 ? pose : Pose2{far, 0, 0.5} * pose;
+    match.odom_from_robot = i < 170 ? pose : Pose2{kFar_m, 0, 0.5} * pose;
     match.segment = i < 170 ? 0 : 1;
-    closer.add(test::castScan(room, pose, 0.2 * i, random), match);
+    closer.add(test::castScan(walls, pose, 0.2 * i, random), match);
   }
+}
+
+TEST(SubmapLoopCloser, ACorridorConfirmsNothing) {
+  const auto poses = oval(170);
+  RelativePose proposed;
+  proposed.t_a = 0.2 * 20;
+  proposed.t_b = 0.2 * 195;
+  proposed.a_from_b = toPose3(poses[20].inverse() * poses[25]);
+  SubmapLoopCloser in_a_room, in_a_corridor;
+  passTwice(test::asymmetricRoom(), poses, in_a_room);
+  passTwice(test::corridor(), poses, in_a_corridor);
+  EXPECT_TRUE(in_a_room.verify(proposed));
+  EXPECT_FALSE(in_a_corridor.verify(proposed)) << "a metre farther along it looks the same";
+}
+
+TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
+  const auto poses = oval(170);
+  SubmapLoopCloser closer;
+  passTwice(test::asymmetricRoom(), poses, closer);
   RelativePose proposed;
   proposed.t_a = 0.2 * 20;
   proposed.t_b = 0.2 * 195;
