@@ -202,6 +202,39 @@ TEST(ObjectFactors, TheYawIsThatOfMostSightingsNotOfTheSurest) {
   EXPECT_NEAR(wrapAngle(graph.landmark(landmark.id).yaw - 0.4), 0, 1e-3);
 }
 
+// Two of seven sightings took width for depth: what they say of the sizes is left out.
+TEST(ObjectFactors, SightingsFromTheSideTellNoSize) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  auto frames = framesOf(poses);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    auto& proposal = frames[i].decisions[0].seen.measurement.proposal;
+    const bool wrong = i == 1 || i == 5;
+    proposal.camera_from_object =
+        poses.nodes()[i].world_from_robot.inverse() * poseFromYpr(3, 1, 0, wrong ? 2.0 : 0.4, 0, 0);
+    proposal.has_yaw = true;
+    proposal.shape = {ShapeKind::kCuboid, wrong ? 0.9 : 1.8, wrong ? 1.8 : 0.9, 0.8};
+    proposal.size_information.setConstant(1e6);
+  }
+  const auto database = ObjectDatabase::fromText(
+      "[swivel_chair]\nlabels = chair\nshape = cuboid\nwidth_m = 1.7\ndepth_m = 1\nheight_m = "
+      ".8\nwidth_sigma_m = .3\n"
+      "depth_sigma_m = .3\nheight_sigma_m = .1\n",
+      "test");
+  Landmark landmark = chair();
+  landmark.yaw = 0.4;
+  landmark.has_yaw = true;
+  const ObjectFactors factors = objectFactors(frames, poses, {landmark}, database, BackendOptions{});
+  int told = 0;
+  for (const auto& factor : factors.sizes) {
+    if (factor.sigma_m[0] > 0.2) continue;  // the prior
+    EXPECT_LT((factor.size_m - Eigen::Vector3d(1.8, 0.9, 0.8)).norm(), 1e-3) << factor.size_m.transpose();
+    ++told;
+  }
+  EXPECT_GT(told, 0);
+}
+
 TEST(ObjectFactors, StandingStillIsOneVisit) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};

@@ -6,6 +6,7 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/config.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/pipeline/setup.h"
 #include "temporary_folder.h"
 #include "tiny_network.h"
