@@ -56,7 +56,8 @@ TEST(Occlusion, ChairWhoseFeetADeskHides) {
 // Its table top reaches up to the chair, so that nothing is clearly nearer than the chair.
 TEST(Occlusion, ChairPushedUnderATable) {
   constexpr double kRange_m = 2.4, kRadius_m = 0.31;
-  Scene scene = sceneAhead();
+  Scene scene;
+  scene.lookAhead(1.4, 0.35);
   scene.addCylinder(kRange_m, 0.1, kRadius_m, 0.95, 1);
   scene.addBox(kRange_m - kRadius_m - 0.85, 0, 0, 2.0, 1.6, 0.6, 0.65, 2);
   const BoxEvidence e = shadedEvidence(scene, "swivel_chair");
@@ -70,6 +71,15 @@ TEST(Occlusion, ChairPushedUnderATable) {
   ASSERT_TRUE(whole);
   EXPECT_GT(whole->visible.v_max, e.box.v_max + 20) << "the shape goes on below the table top";
   EXPECT_EQ(unhidden(whole->visible, e.box, e.hidden).v_max, e.box.v_max);
+}
+
+// A monitor that a detector takes for a chair: its lower end is where it stands.
+TEST(Occlusion, WhatStandsOnATableIsNotBehindIt) {
+  Scene scene;
+  scene.lookAhead(1.4, 0.35);
+  scene.addBox(1.9, 0, 0, 2.0, 1.6, 0.6, 0.65, 2);
+  scene.addBox(2.2, 0.1, 0, 0.5, 0.1, 0.65, 1.05, 1);
+  EXPECT_FALSE(shadedEvidence(scene, "swivel_chair").hidden.bottom);
 }
 
 TEST(Occlusion, WhatStandsFartherAwayHidesNoBottom) {

@@ -21,8 +21,10 @@ constexpr int kSamples = 24;          // along that line
 constexpr double kHidingShare = 0.4;  // of them, nearer than the object: the side is hidden
 constexpr double kNearer_m = 0.15;    // what counts as nearer
 // What reaches up to the box's bottom side is a table top or the like, not the floor, if it is so high and no
-// farther than the object; the object stands on the floor, behind or below it.
-constexpr double kRaised_m = 0.3, kNotBehind_m = 0.1;
+// farther than the object. An object that stands behind it is seen over its edge to a point below its height;
+// one that stands on it is not.
+constexpr double kRaised_m = 0.3, kNotBehind_m = 0.1, kOverTheEdge_m = 0.02;
+constexpr double kObjectBottom = 0.02;  // quantile of the heights taken for the lowest part in view
 
 BoxSides sidesAtBorder(const BoxEvidence& e) {
   const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
@@ -34,19 +36,29 @@ struct Occluder {
   double height_m, range_m;
 };
 
-// Whether an occluder covers enough of the line from a to b (px, just outside the box).
-bool hiddenAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Occluder& occluder,
-                 const BoxEvidence& e, const Frame& frame) {
+// Heights of the points of an occluder along the line from a to b (px, just outside the box); none when it
+// covers too little of it.
+std::vector<double> occluderAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                  const Occluder& occluder, const BoxEvidence& e, const Frame& frame) {
   const Pose3 ground_from_camera = e.camera_from_ground.inverse();
-  int hiding = 0;
+  std::vector<double> heights;
   for (int i = 0; i < kSamples; ++i) {
     const Eigen::Vector2d p = a + (i + 0.5) / kSamples * (b - a);
     const float z = frame.depthAt(p.x(), p.y());
     if (!(z > 0) || !std::isfinite(z)) continue;
     const Eigen::Vector3d q = ground_from_camera * e.camera.backProject(p.x(), p.y(), z);
-    hiding += q.z() > occluder.height_m && q.head<2>().norm() < occluder.range_m;
+    if (q.z() > occluder.height_m && q.head<2>().norm() < occluder.range_m) heights.push_back(q.z());
   }
-  return hiding >= kHidingShare * kSamples;
+  if (static_cast<double>(heights.size()) < kHidingShare * kSamples) heights.clear();
+  return heights;
+}
+
+// Whether the object's lower part is behind or below the table whose top has these heights.
+bool beyondTheEdge(const DepthMask& object, const std::vector<double>& table) {
+  if (table.empty()) return false;
+  std::vector<double> heights;
+  for (const auto& p : object.points) heights.push_back(p.in_ground.z());
+  return quantile(std::move(heights), kObjectBottom) < median(table) - kOverTheEdge_m;
 }
 
 // Behind an occluder the object may extend beyond the box's side, as beyond the image border: the side counts as cut.
@@ -59,15 +71,16 @@ void markHidden(BoxEvidence& e, const Frame& frame) {
   const double du = kBesideBox_px + kBesideBoxShare * b.width(), dv = kBesideBox_px + kBesideBoxShare * b.height();
   const Occluder nearer{kStanding_m, range - kNearer_m}, table{kRaised_m, range + kNotBehind_m};
   const auto along = [&](double u0, double v0, double u1, double v1, const Occluder& occluder) {
-    return hiddenAlong({u0, v0}, {u1, v1}, occluder, e, frame);
+    return occluderAlong({u0, v0}, {u1, v1}, occluder, e, frame);
   };
-  e.hidden.left = !e.cut.left && along(b.u_min - du, b.v_min, b.u_min - du, b.v_max, nearer);
-  e.hidden.right = !e.cut.right && along(b.u_max + du, b.v_min, b.u_max + du, b.v_max, nearer);
-  e.hidden.top = !e.cut.top && along(b.u_min, b.v_min - dv, b.u_max, b.v_min - dv, nearer);
+  e.hidden.left = !e.cut.left && !along(b.u_min - du, b.v_min, b.u_min - du, b.v_max, nearer).empty();
+  e.hidden.right = !e.cut.right && !along(b.u_max + du, b.v_min, b.u_max + du, b.v_max, nearer).empty();
+  e.hidden.top = !e.cut.top && !along(b.u_min, b.v_min - dv, b.u_max, b.v_min - dv, nearer).empty();
   const auto below = [&](const Occluder& occluder) {
     return along(b.u_min, b.v_max + dv, b.u_max, b.v_max + dv, occluder);
   };
-  e.hidden.bottom = !e.cut.bottom && (below(nearer) || (e.model->rests_on_ground && below(table)));
+  e.hidden.bottom = !e.cut.bottom && (!below(nearer).empty() ||
+                                      (e.model->rests_on_ground && beyondTheEdge(e.mask, below(table))));
   e.cut.left |= e.hidden.left;
   e.cut.right |= e.hidden.right;
   e.cut.top |= e.hidden.top;
