@@ -57,9 +57,9 @@ TEST(Occlusion, ChairWhoseFeetADeskHides) {
 TEST(Occlusion, ChairPushedUnderATable) {
   constexpr double kRange_m = 2.4, kRadius_m = 0.31;
   Scene scene;
-  scene.lookAhead(1.4, 0.35);
+  scene.lookAhead(2.0, 0.6);
   scene.addCylinder(kRange_m, 0.1, kRadius_m, 0.95, 1);
-  scene.addBox(kRange_m - kRadius_m - 0.85, 0, 0, 2.0, 1.6, 0.6, 0.65, 2);
+  scene.addBox(kRange_m - kRadius_m - 0.86, 0, 0, 2.0, 1.6, 0.6, 0.65, 2);
   const BoxEvidence e = shadedEvidence(scene, "swivel_chair");
   EXPECT_TRUE(e.hidden.bottom);
   const auto found = test::hypotheses<CylinderGenerator>(e);
