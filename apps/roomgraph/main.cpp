@@ -95,6 +95,7 @@ int flushOutput(int exit_code) {
 }  // namespace
 }  // namespace roomgraph
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only a wrong declaration of the options throws out of here
 int main(int argc, char** argv) {
   roomgraph::holdStandardStreams();
   CLI::App app{"Object-level semantic SLAM on MRPT rawlogs (RGB-D, 2D lidar, odometry).", "roomgraph"};

@@ -15,7 +15,7 @@ struct Id {
   std::int64_t value = -1;
 
   constexpr bool valid() const { return value >= 0; }
-  constexpr auto operator<=>(const Id&) const = default;
+  constexpr auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr): there is no pointer
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value; }
 };
 

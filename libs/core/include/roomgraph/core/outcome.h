@@ -13,8 +13,7 @@ namespace roomgraph {
 template <class T>
 class Outcome {
  public:
-  Outcome(T value)
-      : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): reads as a return value
+  Outcome(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-constructor): reads as a return value
   static Outcome failure(std::string reason) { return Outcome(std::nullopt, std::move(reason)); }
 
   explicit operator bool() const { return value_.has_value(); }

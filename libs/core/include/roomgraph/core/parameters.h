@@ -12,7 +12,7 @@ namespace roomgraph {
 /// What is declared about a parameter besides its key and its default (the member's initial value).
 struct ParameterInfo {
   std::string_view doc;        ///< one sentence, with the meaning of special values
-  std::string_view unit = "";  ///< "m", "rad", "s", "px" …; empty: dimensionless
+  std::string_view unit;       ///< "m", "rad", "s", "px" …; empty: dimensionless
   double min = -std::numeric_limits<double>::infinity();  ///< smallest allowed value, inclusive
   double max = std::numeric_limits<double>::infinity();   ///< largest allowed value, inclusive
   std::vector<std::string_view> choices = {};             ///< allowed texts; empty: any

@@ -2,6 +2,7 @@
 // RGB-D frame: undistorted colour, grey and depth images with camera and extrinsics.
 #pragma once
 
+#include <cmath>
 #include <opencv2/core/mat.hpp>
 #include <string>
 
@@ -25,7 +26,7 @@ struct Frame {
   bool hasDepth() const { return !depth.empty(); }
   /// Depth at the nearest pixel, 0 when there is none.
   float depthAt(double u, double v) const {
-    const int x = static_cast<int>(u + 0.5), y = static_cast<int>(v + 0.5);
+    const int x = static_cast<int>(std::floor(u + 0.5)), y = static_cast<int>(std::floor(v + 0.5));
     return hasDepth() && u > -0.5 && v > -0.5 && x < depth.cols && y < depth.rows ? depth.at<float>(y, x)
                                                                                   : 0.f;
   }

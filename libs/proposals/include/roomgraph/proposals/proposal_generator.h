@@ -20,7 +20,7 @@ class ProposalGenerator : public Stage {
   virtual void setDatabase(const ObjectDatabase& database) = 0;
   /// The shape generators that the database's classes name; called before prepare(). A proposal generator that does not
   /// use any ignores them.
-  virtual void setShapeGenerators(ShapeGenerators generators) { (void)generators; }
+  virtual void setShapeGenerators(ShapeGenerators generators) { (void)generators; }  // NOLINT: others keep it
   /// Proposals of every detection; none without a ground plane. The ground becomes part of the result.
   virtual FrameProposals generate(const Frame& frame, const std::vector<Detection>& detections,
                                   const FrameGround& ground) = 0;
