@@ -146,11 +146,11 @@ std::string missingExternalFile(const CObservation3DRangeScan& observation, cons
   mrpt::io::setLazyLoadPathBase(image_folder);
   const auto missing = [](const std::string& file) { return !std::filesystem::exists(file); };
   if (observation.hasIntensityImage && observation.intensityImage.isExternallyStored()) {
-    const auto file = observation.intensityImage.getExternalStorageFileAbsolutePath();
+    auto file = observation.intensityImage.getExternalStorageFileAbsolutePath();
     if (missing(file)) return file;
   }
   if (observation.hasRangeImage && rangeImageIsInAFile(observation)) {
-    const auto file = observation.rangeImage_getExternalStorageFileAbsolutePath("");
+    auto file = observation.rangeImage_getExternalStorageFileAbsolutePath("");
     if (missing(file)) return file;
   }
   return "";
