@@ -165,24 +165,34 @@ TEST(ObjectFactors, ViewsAreAveragedNotSightings) {
   EXPECT_NEAR(variance, 0.01 / 0.8 / 2, 1e-4);
 }
 
+// The same with a yaw: two of the seven sightings took width for depth, one the back for the front.
+constexpr double kTrueYaw = 0.4, kWrongYaw = 2.0;
+bool isTurned(std::size_t sighting) {
+  return sighting == 1 || sighting == 5;
+}
+std::vector<ObjectFrame> framesWithYaws(const KeyPoses& poses) {
+  auto frames = framesOf(poses);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    auto& proposal = frames[i].decisions[0].seen.measurement.proposal;
+    const double yaw = isTurned(i) ? kWrongYaw : i == 2 ? kTrueYaw - M_PI : kTrueYaw;
+    proposal.camera_from_object =
+        poses.nodes()[i].world_from_robot.inverse() * poseFromYpr(3, 1, 0, yaw, 0, 0);
+    proposal.has_yaw = true;
+  }
+  return frames;
+}
+
 // Five of seven sightings agree on the yaw; the two that took width for depth claim to be far surer. The
 // landmark itself has the wrong yaw so far.
 TEST(ObjectFactors, TheYawIsThatOfMostSightingsNotOfTheSurest) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
-  auto frames = framesOf(poses);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    auto& proposal = frames[i].decisions[0].seen.measurement.proposal;
-    const bool wrong = i == 1 || i == 5;
-    const double yaw = wrong ? 2.0 : i == 2 ? 0.4 - M_PI : 0.4;
-    proposal.camera_from_object =
-        poses.nodes()[i].world_from_robot.inverse() * poseFromYpr(3, 1, 0, yaw, 0, 0);
-    proposal.has_yaw = true;
-    proposal.covariance(3, 3) = wrong ? 0.001 : 0.1;
-  }
+  auto frames = framesWithYaws(poses);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    frames[i].decisions[0].seen.measurement.proposal.covariance(3, 3) = isTurned(i) ? 0.001 : 0.1;
   Landmark landmark = chair();
-  landmark.yaw = 2.0;
+  landmark.yaw = kWrongYaw;
   landmark.has_yaw = true;
   const BackendOptions options;
   const ObjectFactors factors = objectFactors(frames, poses, {landmark}, {}, options);
@@ -190,7 +200,7 @@ TEST(ObjectFactors, TheYawIsThatOfMostSightingsNotOfTheSurest) {
   for (const auto& sighting : factors.sightings) {
     const double node_yaw = planarPart(poses.node(sighting.node).world_from_robot).yaw;
     EXPECT_TRUE(sighting.has_yaw);
-    EXPECT_NEAR(wrapAngle(node_yaw + sighting.yaw_in_robot - 0.4), 0, 1e-9);
+    EXPECT_NEAR(wrapAngle(node_yaw + sighting.yaw_in_robot - kTrueYaw), 0, 1e-9);
   }
   FactorGraph graph;
   for (const auto& node : poses.nodes()) graph.addPose(node.id, node.world_from_robot, true);
@@ -199,7 +209,7 @@ TEST(ObjectFactors, TheYawIsThatOfMostSightingsNotOfTheSurest) {
   for (const auto& factor : factors.shared_errors) graph.add(factor);
   for (const auto& factor : factors.sightings) graph.add(factor);
   ASSERT_TRUE(graph.optimize().usable);
-  EXPECT_NEAR(wrapAngle(graph.landmark(landmark.id).yaw - 0.4), 0, 1e-3);
+  EXPECT_NEAR(wrapAngle(graph.landmark(landmark.id).yaw - kTrueYaw), 0, 1e-3);
 }
 
 // Two of seven sightings took width for depth: what they say of the sizes is left out.
@@ -207,14 +217,10 @@ TEST(ObjectFactors, SightingsFromTheSideTellNoSize) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
-  auto frames = framesOf(poses);
+  auto frames = framesWithYaws(poses);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     auto& proposal = frames[i].decisions[0].seen.measurement.proposal;
-    const bool wrong = i == 1 || i == 5;
-    proposal.camera_from_object =
-        poses.nodes()[i].world_from_robot.inverse() * poseFromYpr(3, 1, 0, wrong ? 2.0 : 0.4, 0, 0);
-    proposal.has_yaw = true;
-    proposal.shape = {ShapeKind::kCuboid, wrong ? 0.9 : 1.8, wrong ? 1.8 : 0.9, 0.8};
+    proposal.shape = {ShapeKind::kCuboid, isTurned(i) ? 0.9 : 1.8, isTurned(i) ? 1.8 : 0.9, 0.8};
     proposal.size_information.setConstant(1e6);
   }
   const auto database = ObjectDatabase::fromText(
@@ -223,7 +229,7 @@ TEST(ObjectFactors, SightingsFromTheSideTellNoSize) {
       "depth_sigma_m = .3\nheight_sigma_m = .1\n",
       "test");
   Landmark landmark = chair();
-  landmark.yaw = 0.4;
+  landmark.yaw = kTrueYaw;
   landmark.has_yaw = true;
   const ObjectFactors factors = objectFactors(frames, poses, {landmark}, database, BackendOptions{});
   int told = 0;

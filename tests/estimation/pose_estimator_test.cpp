@@ -158,10 +158,14 @@ TEST(PoseEstimator, TheFloorLevelsAHandheldWorld) {
   EXPECT_NEAR(floor.offset, seen.offset, 1e-9);
   EXPECT_LT(world_from_camera.translation().head<2>().norm(), 1e-9) << "the start keeps its place";
 
-  // That was a table; the floor is 0.7 m below it.
+  // That was a table; the floor is 0.7 m below it. Meanwhile world was moved into the frame of an earlier
+  // map.
+  const Pose3 map_from_world = poseFromYpr(3, -2, 0, 0.5, 0, 0);
+  estimator.transform(map_from_world);
   estimator.level({Eigen::Vector3d::UnitZ(), 0.7});
+  EXPECT_LT((estimator.poses().at(0).translation() - Eigen::Vector3d(3, -2, seen.offset + 0.7)).norm(), 1e-9);
   EXPECT_NEAR(estimator.poses().at(0).translation().z(), seen.offset + 0.7, 1e-9);
-  EXPECT_TRUE(estimator.poses().at(0).linear().isApprox(world_from_camera.linear(), 1e-9));
+  EXPECT_TRUE(estimator.poses().at(0).linear().isApprox((map_from_world * world_from_camera).linear(), 1e-9));
 }
 
 TEST(PoseEstimator, ARobotOnTheFloorNeedsNoLevelling) {

@@ -42,8 +42,8 @@ class PoseEstimator {
   /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first seen there
   /// are to be moved likewise.
   std::vector<PathShift> addClosures(const std::vector<RelativePose>& closures);
-  /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw of 0; returns how
-  /// it was moved. Floors measured before are forgotten.
+  /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw: world stays in
+  /// the frame of an earlier map. Returns how it was moved. Floors measured before are forgotten.
   Pose3 level(const Plane& floor_in_world);
   /// The floor that a handheld camera measured by depth at time t (a plane in the camera's frame), in a
   /// levelled world; seen from a key pose, it becomes a factor. Nothing for a robot on the floor.
