@@ -22,12 +22,18 @@ test_preset() {
   ctest --preset "$1" -j "$jobs"
 }
 
+# All sources are read in the units of the release, which share their headers: in an eighth of the time.
 tidy() {
-  cmake --preset dev >build/tidy.configure.log 2>&1 || { cat build/tidy.configure.log; return 1; }
-  cmake --build --preset dev --target roomgraph_revision || return 1
-  local files=("$@")
-  ((${#files[@]})) || mapfile -t files < <(git ls-files 'libs/*.cpp' 'apps/*.cpp' 'plugins/*.cpp')
-  printf '%s\n' "${files[@]}" | xargs -P "$jobs" -n 4 clang-tidy -p build/dev --quiet --warnings-as-errors='*' 2>/dev/null
+  local preset=release units=("$@") options=()
+  (($#)) && preset=dev
+  cmake --preset "$preset" >build/tidy.configure.log 2>&1 || { cat build/tidy.configure.log; return 1; }
+  cmake --build --preset "$preset" --target roomgraph_revision || return 1
+  if ! (($#)); then
+    mapfile -t units < <(grep -o '"file": "[^"]*"' build/release/compile_commands.json | cut -d '"' -f 4 | grep -v "^$PWD/\(build/release/\)\?tests/")
+    options=(--checks=-bugprone-suspicious-include --header-filter='/(libs|apps|plugins)/')
+  fi
+  printf '%s\n' "${units[@]}" |
+    xargs -P "$jobs" -n 1 clang-tidy -p "build/$preset" --quiet --warnings-as-errors='*' "${options[@]}" 2>/dev/null
 }
 
 case "${1:-}" in

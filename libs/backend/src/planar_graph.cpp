@@ -61,7 +61,7 @@ SolveReport optimize(PlanarGraph& graph, const SolveOptions& options) {
   State state = stateOf(graph);
   ceres::Problem problem;
   build(graph, state, problem);
-  const SolveReport report = solve(options, solverOptions(options), problem);
+  SolveReport report = solve(options, solverOptions(options), problem);
   if (report.usable)
     for (const auto& [id, v] : state) graph.poses[id] = {v[0], v[1], wrapAngle(v[2])};
   return report;

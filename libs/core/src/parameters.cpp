@@ -91,7 +91,7 @@ std::string describeAllowed(std::string_view type, const ParameterInfo& info) {
   if (type == "bool") return "true or false";
   if (type == "text") return info.file ? "a file" : "any text";
   if (type == "list") return info.file ? "files separated by commas" : "items separated by commas";
-  const std::string noun = type == "int" ? "a whole number" : "a number";
+  std::string noun = type == "int" ? "a whole number" : "a number";
   const bool low = std::isfinite(info.min), high = std::isfinite(info.max);
   if (low && high) return noun + " in [" + formatParameter(info.min) + ", " + formatParameter(info.max) + "]";
   if (low) return noun + " >= " + formatParameter(info.min);

@@ -19,7 +19,7 @@ inline std::filesystem::path withoutEndings(std::filesystem::path file) {
 inline std::string imageFolderOf(std::filesystem::path file) {
   file = withoutEndings(std::filesystem::absolute(file));
   for (const char* ending : {"_Images", "_images", "_IMAGES"})
-    if (const auto folder = file.string() + ending; std::filesystem::is_directory(folder)) return folder;
+    if (auto folder = file.string() + ending; std::filesystem::is_directory(folder)) return folder;
   return (file.parent_path() / "Images").string();
 }
 

@@ -73,7 +73,7 @@ Pose3 PoseEstimator::level(const Plane& floor_in_world) {
   const Pose3 ground_from_world = world_from_ground.inverse();
   const Pose3& first = poses_.nodes().front().world_from_robot;
   const Pose2 kept = planarPart(first), turned = planarPart(ground_from_world * first);
-  const Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
+  Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
   measurements_.grounds.clear();  // of a floor that was none
   transform(level_from_world);
   levelled_ = true;

@@ -41,7 +41,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
     if (const auto moved = predicted(*last_frame_t_, frame.t, motion_.odometry, motion_.lidar))
       prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
   last_frame_t_ = frame.t;
-  const TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
+  TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
   if (result.tracked)
     motion_.visual.add(frame.t, ofRobot(result.odom_from_camera, robot_from_camera_), result.segment,
                        rotateCovariance(result.step_covariance, robot_from_camera_.linear()));
@@ -54,7 +54,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
     if (const auto moved = predicted(*last_scan_t_, scan.t, motion_.odometry, motion_.visual))
       prior = planarPart(*moved);
   last_scan_t_ = scan.t;
-  const ScanMatch result = stages_.scan_matcher->match(scan, prior);
+  ScanMatch result = stages_.scan_matcher->match(scan, prior);
   if (result.matched)
     motion_.lidar.add(scan.t, toPose3(result.odom_from_robot), result.segment,
                       planarCovariance(result.step_covariance));

@@ -30,7 +30,7 @@ Pose3 groundFromObject(const PlacedShape& placed) {
 }
 
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence) {
-  const Pose3 camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
+  Pose3 camera_from_object = evidence.camera_from_ground * groundFromObject(placed);
   if (placed.roll == 0 && placed.pitch == 0) return camera_from_object;
   const Eigen::Matrix3d& axes = evidence.camera_from_ground.linear();
   return Pose3(expSO3(axes * Eigen::Vector3d(placed.roll, placed.pitch, 0))) * camera_from_object;

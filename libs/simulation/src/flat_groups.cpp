@@ -118,7 +118,7 @@ Furniture drawFurniture(const std::string& model, Random& random) {
   return out;
 }
 
-FurnitureGroup atWall(Furniture item, double gap_m) {
+FurnitureGroup atWall(const Furniture& item, double gap_m) {
   return {{placed(item, depthOf(item) / 2 + gap_m, 0, 0)}, true, false};
 }
 

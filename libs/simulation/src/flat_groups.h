@@ -20,7 +20,7 @@ struct FurnitureGroup {
 /// A single piece of drawn size, shape and colour at the origin, its front to +x.
 Furniture drawFurniture(const std::string& model, Random& random);
 /// One piece at a wall, its back to it.
-FurnitureGroup atWall(Furniture item, double gap_m = 0.03);
+FurnitureGroup atWall(const Furniture& item, double gap_m = 0.03);
 /// One piece anywhere.
 FurnitureGroup standsAlone(Furniture item);
 

@@ -82,11 +82,11 @@ std::string JsonEntry::text(const std::string& key, std::optional<std::string> f
   return found->get<std::string>();
 }
 
-std::string JsonEntry::choice(const std::string& key, std::optional<std::string> fallback,
+std::string JsonEntry::choice(const std::string& key, const std::optional<std::string>& fallback,
                               const std::vector<std::string>& choices) {
   const auto* found = find(key);
   if (!found && !fallback) fail(key, "is missing; one of " + join(choices));
-  const std::string value = text(key, fallback);
+  std::string value = text(key, fallback);
   for (const auto& allowed : choices)
     if (value == allowed) return value;
   fail(key, "unknown '" + value + "'" + didYouMean(value, choices) + "; one of " + join(choices));

@@ -26,7 +26,7 @@ class JsonEntry {
   bool flag(const std::string& key, bool fallback);
   std::string text(const std::string& key, std::optional<std::string> fallback);
   /// Text that must be one of `choices`.
-  std::string choice(const std::string& key, std::optional<std::string> fallback,
+  std::string choice(const std::string& key, const std::optional<std::string>& fallback,
                      const std::vector<std::string>& choices);
   /// Array of `count` coordinates or sizes, m: within 1000 m.
   std::vector<double> numbers(const std::string& key, std::size_t count);

@@ -81,7 +81,7 @@ void Scene::addPart(Mesh mesh, int object, int person) {
   parts_.push_back(std::move(part));
 }
 
-void Scene::add(SceneObject object, Mesh mesh_in_plan) {
+void Scene::add(SceneObject object, const Mesh& mesh_in_plan) {
   const Mesh mesh = mesh_in_plan.moved(world_from_plan_);
   object.id = static_cast<int>(objects_.size()) + 1;
   object.world_from_object = world_from_plan_ * object.world_from_object;

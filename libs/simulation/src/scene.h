@@ -52,7 +52,7 @@ class Scene {
   double duration() const { return duration_s_; }
 
  private:
-  void add(SceneObject object, Mesh mesh_in_plan);
+  void add(SceneObject object, const Mesh& mesh_in_plan);
   void addPart(Mesh mesh, int object, int person);
   void addDoors(const World& world);
   void addFurniture(const World& world);

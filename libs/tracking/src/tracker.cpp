@@ -73,7 +73,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   const Pose3 previous = lastPose();
   view.odom_from_camera = previous * dead_reckoned_;
   if (!findPose(view)) return lost("too few inliers", &view);
-  return accept(std::move(view), previous);
+  return accept(view, previous);
 }
 
 TrackingResult Tracker::start(View view) {
@@ -105,7 +105,7 @@ TrackingResult Tracker::lost(const std::string& reason, View* view) {
   return result;
 }
 
-TrackingResult Tracker::accept(View view, const Pose3& previous) {
+TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   velocity_ = normalized(previous.inverse() * view.odom_from_camera);
   TrackingResult result;
   result.step_covariance = stepCovariance(velocity_, view.solution);

@@ -52,7 +52,7 @@ class Tracker {
 
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
-  TrackingResult accept(View view, const Pose3& previous);
+  TrackingResult accept(const View& view, const Pose3& previous);
   /// Fills in what a tracked frame reports; its record must be the last one.
   void report(const Features& features, const std::vector<std::int64_t>& points,
               TrackingResult& result) const;
