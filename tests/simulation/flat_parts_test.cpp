@@ -73,6 +73,30 @@ TEST(FlatParts, WaysGoAroundAndKeepTheirClearance) {
   EXPECT_TRUE(grid.reachable({2.2, 1}, 0.3).empty());
 }
 
+TEST(FlatParts, NoWayLeadsThroughAClosedDoor) {
+  FlatDraft draft;
+  Room room;
+  room.min_m = {0, 0};
+  room.max_m = {3, 3};
+  Doorway doorway;
+  doorway.side = Side::kEast;
+  doorway.at_m = 1.5;
+  doorway.width_m = 1;
+  room.doorways = {doorway};
+  draft.world.rooms = {room};
+  room.doorways.clear();
+  room.min_m.x() = 3 + draft.world.wall_thickness_m;
+  room.max_m.x() = 6;
+  draft.world.rooms.push_back(room);
+  const auto ways = [&](DoorState door) {
+    draft.world.rooms[0].doorways[0].door = door;
+    return !floorGridOf(draft).way({1.5, 1.5}, {4.5, 1.5}, 0.25).empty();
+  };
+  EXPECT_TRUE(ways(DoorState::kNone));
+  EXPECT_TRUE(ways(DoorState::kOpen));
+  EXPECT_FALSE(ways(DoorState::kClosed));
+}
+
 TEST(FlatParts, LeavesOfOpenDoorsStandInTheRoom) {
   Room room;
   room.min_m = {0, 0};

@@ -23,7 +23,8 @@ DetectionsSpec flawless() {
 /// One object of the given model, seen without any occlusion.
 struct Seen {
   explicit Seen(const std::string& model)
-      : world(parseWorld(test::changed("\"model\": \"block\"", "\"model\": \"" + model + "\""), "w.json")), scene(world) {
+      : Seen(parseWorld(test::changed("\"model\": \"block\"", "\"model\": \"" + model + "\""), "w.json")) {}
+  explicit Seen(World w) : world(std::move(w)), scene(world) {
     image.depth = cv::Mat(480, 640, CV_32F, cv::Scalar(3));
     image.object = cv::Mat(480, 640, CV_16S, cv::Scalar(-1));
     image.views = {{0, 9000, {200, 100, 80, 240}, {200, 100, 80, 240}, 1, 1, 1, 2.0}};
@@ -171,6 +172,24 @@ TEST(PersistentDetector, DuplicatesHoldAPartOfTheObject) {
   EXPECT_NEAR(doubled / double{kSeeds}, 0.3, 0.06);
 }
 
+TEST(PersistentDetector, DuplicatesOfEverySecondObjectHoldItsLowerPart) {
+  World world = Seen("sofa").world;
+  world.furniture.push_back(world.furniture[0]);
+  world.furniture[1].at_m.y() = 1;
+  Seen seen(world);
+  DetectionsSpec spec = flawless();
+  spec.duplicates = 1;
+  spec.mislead = 0;
+  PersistentDetector detector(seen.scene, seen.world.camera->model, spec, 1);
+  for (const int object : {0, 1}) {
+    seen.image.views[0].object = object;
+    const auto items = detector.detect(seen.image, seen.from(0), 0.1 * object, object).items;
+    ASSERT_EQ(items.size(), 2u);
+    EXPECT_NEAR(items[1].v_min, object ? 100 + 0.35 * 240 : 100, object ? 0.11 * 240 : 1e-9);
+    EXPECT_NEAR(items[1].v_max, object ? 340 : 340 - 0.35 * 240, object ? 1e-9 : 0.11 * 240);
+  }
+}
+
 TEST(PersistentDetector, PhantomsStayWhereTheyWere) {
   Seen seen("block");
   seen.image.views.clear();
@@ -187,10 +206,26 @@ TEST(PersistentDetector, PhantomsStayWhereTheyWere) {
     }
   EXPECT_GT(boxes, 60);
   EXPECT_LT(places.size(), 25u) << "the same places again and again";
-  // From behind there is none of them.
-  const Pose3 back = camera * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
-  spec.false_positives = 0;
-  EXPECT_TRUE(PersistentDetector(seen.scene, seen.world.camera->model, spec, 3).detect(seen.image, back, 0, 0).items.empty());
+}
+
+TEST(PersistentDetector, PhantomsAreSeenFromTheirSideOnly) {
+  Seen seen("block");
+  seen.image.views.clear();
+  DetectionsSpec spec = flawless();
+  spec.false_positives = 5;
+  PersistentDetector detector(seen.scene, seen.world.camera->model, spec, 3);
+  const Pose3 camera = seen.scene.worldFromCamera(0);
+  // As far behind their surface as the camera is before it: same depth, same distance.
+  const Pose3 behind = camera * Eigen::Translation3d(0, 0, 6) * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY());
+  for (int i = 0; i < 60; ++i) detector.detect(seen.image, camera, 0.1 * i, i);
+  seen.image.object.setTo(0);  // an object everywhere: no new phantoms
+  std::size_t before = 0, from_behind = 0;
+  for (int i = 60; i < 120; i += 2) {
+    before += detector.detect(seen.image, camera, 0.1 * i, i).items.size();
+    from_behind += detector.detect(seen.image, behind, 0.1 * i + 0.1, i + 1).items.size();
+  }
+  EXPECT_GT(before, 30u);
+  EXPECT_EQ(from_behind, 0u);
 }
 
 }  // namespace
