@@ -10,6 +10,7 @@ IMPLEMENTS_MRPT_OBJECT(FakeDetector, roomgraph::Detector, fakes)
 IMPLEMENTS_MRPT_OBJECT(FakeFloors, roomgraph::GroundDetector, fakes)
 IMPLEMENTS_MRPT_OBJECT(FakeProposals, roomgraph::ProposalGenerator, fakes)
 IMPLEMENTS_MRPT_OBJECT(FakeOdometry, roomgraph::RgbdOdometry, fakes)
+IMPLEMENTS_MRPT_OBJECT(FakeAssociator, roomgraph::Associator, fakes)
 
 using namespace roomgraph;
 
@@ -23,6 +24,7 @@ void registerClasses() {
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeFloors, fakes));
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeProposals, fakes));
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeOdometry, fakes));
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FakeAssociator, fakes));
 }
 
 namespace {
@@ -88,6 +90,16 @@ FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Det
       proposal.size_information.setConstant(1e8);
       out.proposals.push_back(proposal);
     }
+  return out;
+}
+
+std::vector<Association> FakeAssociator::associate(const std::vector<WorldMeasurement>& measurements,
+                                                   const std::vector<Landmark>& landmarks) {
+  std::vector<Association> out;
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const LandmarkId id = i == 0 && !landmarks.empty() ? landmarks.front().id : LandmarkId{};
+    out.push_back({.measurement = i, .landmark = id, .probability = 1, .posterior = {{id, 1}}});
+  }
   return out;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detector, proposal generator and odometry that know the truth, chosen by class name.
+// Detector, proposal generator and odometry that know the truth, an associator that errs, chosen by class
+// name.
 #pragma once
 
 #include <functional>
 #include <vector>
 
+#include "roomgraph/association/association_model.h"
+#include "roomgraph/association/associator.h"
 #include "roomgraph/detection/detector.h"
 #include "roomgraph/proposals/proposal_generator.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
@@ -61,6 +64,18 @@ class FakeProposals : public roomgraph::ProposalGenerator {
   roomgraph::FrameProposals generate(const roomgraph::Frame& frame,
                                      const std::vector<roomgraph::Detection>& detections,
                                      const roomgraph::FrameGround& ground) override;
+};
+
+/// Takes all measurements for the first landmark, one in each frame; its model knows better.
+class FakeAssociator : public roomgraph::Associator {
+  DEFINE_MRPT_OBJECT(FakeAssociator, fakes)
+ public:
+  std::vector<roomgraph::Association> associate(const std::vector<roomgraph::WorldMeasurement>& measurements,
+                                                const std::vector<roomgraph::Landmark>& landmarks) override;
+  const roomgraph::AssociationModel* model() const override { return &model_; }
+
+ private:
+  roomgraph::AssociationModel model_;
 };
 
 /// The exact movement of the camera.

@@ -120,6 +120,43 @@ TEST_F(ObjectStagesTest, TheMapIsTheOptimumOfTheGraph) {
   EXPECT_TRUE(saved.landmarkCovariances()) << "every landmark is tied to the poses, through its views";
 }
 
+TEST_F(ObjectStagesTest, WhatIsGoneWhenTheCameraComesBackIsNotInTheMap) {
+  const fakes::WorldObject chair{
+      "swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, poseFromYpr(3, -0.5, 0, 0, 0, 0)};
+  for (const bool removed : {false, true}) {
+    fakes::world().objects = {chair};
+    SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+    Drive world;
+    for (int i = 0; i <= 250; ++i) {
+      if (removed && i == 8) fakes::world().objects.clear();
+      slam.process(world.odometry(0.1 * i));
+      slam.process(world.scan(0.1 * i));
+      if (i % 2) continue;
+      Frame frame = Drive::frame(0.1 * i);
+      frame.depth.setTo(6);  // nothing hides it
+      slam.process(frame);
+    }
+    const SlamResult result = slam.finish();
+    ASSERT_EQ(result.candidates.size(), 1u);
+    EXPECT_EQ(result.map.landmarks.size(), removed ? 0u : 1u) << result.candidates[0].landmark.existence;
+  }
+}
+
+// What was taken for one chair is told apart when all is known.
+TEST_F(ObjectStagesTest, HindsightDecidesAgainWhoIsWho) {
+  const ObjectShape chair{ShapeKind::kCylinder, 0.6, 0.6, 0.9};
+  place("swivel_chair", chair, 3.4, 0, 0);
+  place("swivel_chair", chair, -3.0, 2.0, 0);
+  SemanticSlam slam(
+      setupWith(kFakeObjects + "[association]\nclass = FakeAssociator\n[tracking]\nenabled = false\n"));
+  const SlamResult result = drive(slam);
+  ASSERT_EQ(result.map.landmarks.size(), 2u);
+  for (const auto& landmark : result.map.landmarks) {
+    const auto& truth = fakes::world().objects[landmark.position.x() > 0 ? 0 : 1];
+    EXPECT_LT((landmark.position - truth.world_from_object.translation()).norm(), 0.05);
+  }
+}
+
 TEST_F(ObjectStagesTest, TheDetectorRunsOnEveryNthFrame) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
   SemanticSlam slam(
