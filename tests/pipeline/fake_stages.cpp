@@ -98,7 +98,7 @@ std::vector<Association> FakeAssociator::associate(const std::vector<WorldMeasur
   std::vector<Association> out;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const LandmarkId id = i == 0 && !landmarks.empty() ? landmarks.front().id : LandmarkId{};
-    out.push_back({.measurement = i, .landmark = id, .probability = 1, .posterior = {{id, 1}}});
+    out.push_back({.measurement = i, .landmark = id, .probability = 0.6, .posterior = {{id, 0.6}}});
   }
   return out;
 }

@@ -66,7 +66,7 @@ class FakeProposals : public roomgraph::ProposalGenerator {
                                      const roomgraph::FrameGround& ground) override;
 };
 
-/// Takes all measurements for the first landmark, one in each frame; its model knows better.
+/// Takes all measurements for the first landmark, one in each frame, and is not sure; its model knows better.
 class FakeAssociator : public roomgraph::Associator {
   DEFINE_MRPT_OBJECT(FakeAssociator, fakes)
  public:
