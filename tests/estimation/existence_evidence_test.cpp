@@ -151,18 +151,6 @@ TEST_F(Evidence, SpreadIsTheShareOfTheLengthThatIsThere) {
   EXPECT_NEAR(evidence.crossed, 0.5, 0.1);
 }
 
-// What stands on a table fills only the upper part of what is taken for a chair.
-TEST_F(Evidence, HeightsAreTheShareOfTheHeightThatIsThere) {
-  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
-  Frame frame = frameOfDepth(0, 0, 2.9F);
-  memory_.add(frame, Pose3::Identity());
-  EXPECT_NEAR(of({sofa}).heights, 1, 1e-12);
-  memory_ = {};
-  frame.depth.rowRange(173, 240) = 6;  // below .4 m at 2.9 m, by the camera 1 m above the floor
-  memory_.add(frame, Pose3::Identity());
-  EXPECT_NEAR(of({sofa}).heights, 0.4, 0.21);
-}
-
 TEST_F(Evidence, ADoorIsInAWall) {
   const Landmark door = landmarkOf(1, "door", 3, 0);
   memory_.add(frameOfDepth(0, 0, 3), Pose3::Identity());

@@ -43,7 +43,6 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"crossed", &E::crossed},
                                                              {"filled", &E::filled},
                                                              {"spread", &E::spread},
-                                                             {"heights", &E::heights},
                                                              {"beside_crossed", &E::beside_crossed},
                                                              {"beside_filled", &E::beside_filled},
                                                              {"beams_crossed", &E::beams_crossed}};
@@ -80,8 +79,7 @@ TEST(ExistenceModel, ShippedWeightsHaveTheRightSigns) {
   using E = ExistenceEvidence;
   for (const auto kind : {ShapeKind::kCylinder, ShapeKind::kCuboid, ShapeKind::kPlanar}) {
     const double neutral = model.probability(kind, {});
-    for (const auto field :
-         {&E::sightings, &E::directions, &E::score, &E::label, &E::filled, &E::spread, &E::heights}) {
+    for (const auto field : {&E::sightings, &E::directions, &E::score, &E::label, &E::filled, &E::spread}) {
       E evidence;
       evidence.*field = 1;
       EXPECT_GE(model.probability(kind, evidence), neutral) << toString(kind);

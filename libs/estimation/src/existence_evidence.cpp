@@ -174,12 +174,12 @@ double share(const std::vector<RayCounts>& counts, bool (*is)(const RayCounts&))
          static_cast<double>(counts.size());
 }
 
-// Share of the slices across an axis, from low to high, in which enough points are filled.
+// Share of the slices across an axis in which enough points are filled.
 double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vector<RayCounts>& counts,
-                    int axis, double low_m, double high_m) {
+                    int axis, double extent_m) {
   std::array<int, kSlices> all{}, filled{};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double along = (points[i][axis] - low_m) / std::max(high_m - low_m, kInset_m);
+    const double along = points[i][axis] / std::max(extent_m - 2 * kInset_m, kInset_m) + 0.5;
     const auto slice =
         static_cast<std::size_t>(std::clamp(static_cast<int>(along * kSlices), 0, kSlices - 1));
     ++all[slice];
@@ -205,10 +205,8 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
   const auto inside = insidePoints(shape);
   const auto counts = views.byImages(inWorld(inside, world_from_object));
   evidence.filled = share(counts, mostlyFilled);
-  const double half_depth = shape.depth / 2 - kInset_m, half_width = shape.width / 2 - kInset_m;
-  evidence.spread = std::min(filledSlices(inside, counts, 0, -half_depth, half_depth),
-                             filledSlices(inside, counts, 1, -half_width, half_width));
-  evidence.heights = filledSlices(inside, counts, 2, kStep_m, shape.height - kInset_m);
+  evidence.spread =
+      std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
   std::vector<RayCounts> solid;
   for (std::size_t i = 0; i < inside.size(); ++i)
     if (solid_share == 0 || inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);

@@ -28,19 +28,18 @@ struct ExistenceEvidence {
   double crossed = 0;  ///< share of its volume (of solid classes: of the solid part) that depth rays crossed
   double filled = 0;   ///< share of its volume where they ended
   double spread = 0;   ///< share of its length or width, the lesser one, along which they ended in it
-  double heights = 0;  ///< share of its height along which they ended in it
   double beside_crossed = 0;  ///< of doors: share of the wall beside and above that depth rays crossed
   double beside_filled = 0;   ///< of doors: share of it where they ended
   double beams_crossed = 0;   ///< of solid classes: share of the footprint that lidar beams crossed
 
-  static constexpr std::array<std::string_view, 16> kNames = {
-      "filter",  "sightings",      "directions",    "score",        "label",  "scatter",
-      "turned",  "size",           "contested",     "crossed",      "filled", "spread",
-      "heights", "beside_crossed", "beside_filled", "beams_crossed"};
+  static constexpr std::array<std::string_view, 15> kNames = {
+      "filter",  "sightings", "directions",     "score",         "label",
+      "scatter", "turned",    "size",           "contested",     "crossed",
+      "filled",  "spread",    "beside_crossed", "beside_filled", "beams_crossed"};
   /// In the order of kNames.
-  std::array<double, 16> values() const {
-    return {filter,    sightings, directions, score,  label,   scatter,        turned,        size,
-            contested, crossed,   filled,     spread, heights, beside_crossed, beside_filled, beams_crossed};
+  std::array<double, 15> values() const {
+    return {filter,    sightings, directions, score,  label,          scatter,       turned,       size,
+            contested, crossed,   filled,     spread, beside_crossed, beside_filled, beams_crossed};
   }
 };
 
