@@ -142,6 +142,28 @@ TEST(Door, OpenLeafInItsFrame) {
   EXPECT_LT(std::abs(std::sin(found[0].yaw)), 0.03) << "as the wall";
 }
 
+// A leaf alone may be open; one flush with a wall, seen on one side, is closed; one turned against that wall
+// is not.
+TEST(Door, WhereALeafMayBeOpenTheDoorMayBeBesideIt) {
+  const auto sigmas = [](bool wall, double turned) {
+    Scene scene = sceneAhead();
+    scene.addBox(3.0, 0, turned, 0.9, 0.06, 0, 2.05, 1);
+    if (wall) scene.addBox(3.02, 1.0, 0, 1.0, 0.1, 0, 2.5, 2);
+    const auto found = test::hypotheses<DoorGenerator>(shadedEvidence(scene, "door"));
+    EXPECT_EQ(found.at(0).source, "depth plane");
+    const Eigen::Matrix3d& covariance = found.at(0).covariance.value();
+    return std::pair(std::sqrt(covariance(0, 0)), std::sqrt(covariance(2, 2)));
+  };
+  for (const auto& [wall, turned] : {std::pair(false, 0.0), {false, 0.5}, {true, 0.5}}) {
+    const auto [place, yaw] = sigmas(wall, turned);
+    EXPECT_NEAR(place, 0.25, 0.1);
+    EXPECT_NEAR(yaw, 0.6, 0.1);
+  }
+  const auto [place, yaw] = sigmas(true, 0);
+  EXPECT_LT(place, 0.05);
+  EXPECT_LT(yaw, 0.1);
+}
+
 // The front of a cupboard, .4 m before the wall it stands at, is not in that wall.
 TEST(Door, TheFrontOfACupboardIsNotInTheWallBehindIt) {
   Scene scene = sceneAhead();

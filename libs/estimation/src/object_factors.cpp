@@ -154,16 +154,19 @@ LandmarkFactor seenFrom(LandmarkFactor in_world, const KeyPose& node) {
   return in_world;
 }
 
-// The yaw that most sightings say, by their weights alone: one that took width for depth may claim to be
-// sure. Axes first, by doubled angles in which front and back are one. Nothing when no sighting has a yaw.
+// The yaw that most sightings say, by their weights: one that took width for depth may claim to be
+// sure, one of a leaf that may be open does not. Axes first, by doubled angles in which front and back are
+// one. Nothing when no sighting has a yaw.
+constexpr double kSurestYaw = 0.1;  // rad^2; no sighting has a louder voice than one of this variance
 std::optional<double> votedYaw(const Gathered& seen, const KeyPoses& poses) {
   std::complex<double> doubled = 0, single = 0;
   for (const auto& [id, group] : seen.sightings) {
     const double node_yaw = planarPart(poses.node(id).world_from_robot).yaw;
     for (const LandmarkFactor& s : group) {
       if (!s.has_yaw) continue;
-      doubled += std::polar(s.weight, 2 * (node_yaw + s.yaw_in_robot));
-      single += std::polar(s.weight, node_yaw + s.yaw_in_robot);
+      const double vote = s.weight / (kSurestYaw + s.covariance(3, 3));
+      doubled += std::polar(vote, 2 * (node_yaw + s.yaw_in_robot));
+      single += std::polar(vote, node_yaw + s.yaw_in_robot);
     }
   }
   if (std::abs(doubled) <= 0) return std::nullopt;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kMinHeight = 0.15;  // m; lower points may be floor
 constexpr double kInset = 0.08;      // of the box's width, at both sides: there the points are the door frame's
+constexpr double kMaybeOpen_m = 0.25,
+                 kMaybeOpen_rad = 0.6;  // standard deviations of the doorway from a leaf that may be open
 constexpr double kHeightGate = 2;    // standard deviations by which the height may differ from the usual
 
 std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
@@ -28,6 +30,12 @@ std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
     if (p.in_ground.z() > kMinHeight && p.u > e.box.u_min + inset && p.u < e.box.u_max - inset)
       points.push_back(p.in_ground.head<2>());
   return points;
+}
+
+// The points may be on an open leaf: the door is then somewhere beside it, in another direction.
+void addDoubt(PlacedShape& placed) {
+  placed.covariance->topLeftCorner<2, 2>() += std::pow(kMaybeOpen_m, 2) * Eigen::Matrix2d::Identity();
+  (*placed.covariance)(2, 2) += std::pow(kMaybeOpen_rad, 2);
 }
 
 // Adjusts the height to the box's top side when it is not cut: the top of the door's nearer side is seen there.
@@ -64,6 +72,7 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
     if (const auto placed = doorOnPlane(*leaf, evidence, evidence.model->depth_m / 4)) {
       guesses.push_back(*placed);
       guesses.back().source = "depth plane";
+      if (!isClosed(*leaf, evidence)) addDoubt(guesses.back());
     }
   } else {
     guesses = doorsFromImage(evidence);

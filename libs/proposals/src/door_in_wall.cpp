@@ -28,9 +28,9 @@ std::vector<Eigen::Vector2d> wallPoints(const BoxEvidence& e) {
   return out;
 }
 
-// Whether the plane is the wall on at least two of the three sides: left, right and above. A wall that ends
-// beside the door, or comes towards the camera there, is on one.
-bool surrounds(const VerticalPlane& wall, const BoxEvidence& e) {
+// On how many of the three sides, left, right and above, the plane is the wall. A wall that ends beside the
+// door, or comes towards the camera there, is on one.
+int sidesOn(const VerticalPlane& wall, const BoxEvidence& e) {
   int all[3] = {}, on_wall[3] = {};
   for (const auto& p : e.around.points) {
     if (p.in_ground.z() <= kLeastHeight_m) continue;
@@ -40,23 +40,29 @@ bool surrounds(const VerticalPlane& wall, const BoxEvidence& e) {
   }
   int sides = 0;
   for (int i = 0; i < 3; ++i) sides += on_wall[i] >= kLeastOnWall && on_wall[i] >= kLeastShareOnWall * all[i];
-  return sides >= 2;
+  return sides;
+}
+
+double angleBetween(const VerticalPlane& a, const VerticalPlane& b) {
+  return std::acos(std::min(1.0, a.normal.dot(b.normal)));
+}
+
+bool isFlush(const VerticalPlane& leaf, const VerticalPlane& wall) {
+  const double allowed = kSameDirection_rad + kSameSigmas * std::hypot(leaf.sigma_rad, wall.sigma_rad);
+  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
+  const double before = wall.normal.dot(middle) - wall.offset;  // of the leaf, towards the camera
+  return angleBetween(leaf, wall) <= allowed && before <= kLeafBefore_m && before >= -kLeafBehind_m;
 }
 
 bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
-  const double turned = std::acos(std::min(1.0, leaf.normal.dot(wall.normal)));
-  if (turned > kOpen_rad) return false;
-  if (turned > kSameDirection_rad + kSameSigmas * std::hypot(leaf.sigma_rad, wall.sigma_rad)) return true;
-  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
-  const double before = wall.normal.dot(middle) - wall.offset;  // of the leaf, towards the camera
-  return before > kLeafBefore_m || before < -kLeafBehind_m;
+  return angleBetween(leaf, wall) <= kOpen_rad && !isFlush(leaf, wall);
 }
 
 }  // namespace
 
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence) {
   const auto wall = fitVerticalPlane(wallPoints(evidence));
-  if (!wall || !surrounds(*wall, evidence) || (leaf && isAnotherWall(*leaf, *wall))) return std::nullopt;
+  if (!wall || sidesOn(*wall, evidence) < 2 || (leaf && isAnotherWall(*leaf, *wall))) return std::nullopt;
   auto placed = doorOnPlane(*wall, evidence, evidence.model->depth_m / 2);
   if (!placed) return std::nullopt;
   const double wrong = std::abs(placed->shape.width - evidence.model->width_m);
@@ -68,6 +74,11 @@ std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, 
   judge(*placed, box_alone);
   placed->quality *= wall->inlier_share;
   return placed;
+}
+
+bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence) {
+  const auto wall = fitVerticalPlane(wallPoints(evidence));
+  return wall && sidesOn(*wall, evidence) >= 1 && isFlush(leaf, *wall);
 }
 
 }  // namespace roomgraph

@@ -17,4 +17,7 @@ namespace roomgraph {
 /// a door.
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence);
 
+/// Whether a wall is seen on at least one side of the box and the leaf is flush with it.
+bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence);
+
 }  // namespace roomgraph
