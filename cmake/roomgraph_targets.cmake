@@ -53,11 +53,11 @@ function(roomgraph_add_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...]): one GoogleTest executable, its cases
-# listed in ctest. It sees the private headers of the library whose tests stand in this folder, and of INTERNALS:
+# roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...] [AT_ONCE suites...]): one GoogleTest
+# executable, its cases listed in ctest; those of AT_ONCE, which share what takes long to make, as one for each suite. It sees the private headers of the library whose tests stand in this folder, and of INTERNALS:
 # the parts behind the public interface are tested one by one.
 function(roomgraph_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;INTERNALS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;INTERNALS;AT_ONCE" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -73,5 +73,15 @@ function(roomgraph_add_test name)
   target_link_libraries(${name} PRIVATE roomgraph_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE ROOMGRAPH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              ROOMGRAPH_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  set(filter "*")
+  if(ARG_AT_ONCE)
+    list(TRANSFORM ARG_AT_ONCE APPEND ".*" OUTPUT_VARIABLE left_out)
+    list(JOIN left_out ":" left_out)
+    set(filter "-${left_out}")
+  endif()
+  foreach(suite ${ARG_AT_ONCE})
+    add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
+    set_tests_properties(${suite} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  endforeach()
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${filter}" PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()
