@@ -58,6 +58,18 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
   }
 }
 
+TEST(ExistenceModel, SureFromProbabilityAndSightingsOn) {
+  ExistenceOptions options;
+  options.least_probability = 0.6;
+  options.least_sightings = 4;
+  Landmark landmark;
+  for (const auto& [existence, observations] : {std::pair{0.6, 4}, {0.59, 9}, {0.9, 3}}) {
+    landmark.existence = existence;
+    landmark.observations = observations;
+    EXPECT_EQ(options.isSure(landmark), existence == 0.6) << existence;
+  }
+}
+
 TEST(ExistenceModel, WhatIsNoWeightIsNamed) {
   for (const std::string entry : {"filed 2", "filled", "filled two", "filled 2 3", ""}) {
     ExistenceOptions options;

@@ -266,20 +266,26 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   }
 }
 
-std::vector<Landmark> LandmarkMap::confirmed(const std::vector<Landmark>& judged,
-                                             std::optional<double> least_existence) const {
-  const double least = least_existence.value_or(options_.confirm_existence);
+bool LandmarkMap::isConfirmed(const Landmark& landmark) const {
+  return landmark.existence >= options_.confirm_existence &&
+         landmark.observations >= options_.confirm_observations;
+}
+
+std::vector<Landmark> LandmarkMap::confirmed() const {
   std::vector<Landmark> sure;
-  for (const auto& landmark : judged)
-    if (landmark.existence >= least && landmark.observations >= options_.confirm_observations)
-      sure.push_back(landmark);
-  // Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
-  // more evidence stays.
-  std::stable_sort(sure.begin(), sure.end(), [this](const Landmark& a, const Landmark& b) {
+  for (const auto& landmark : landmarks_)
+    if (isConfirmed(landmark)) sure.push_back(landmark);
+  return exclusive(std::move(sure));
+}
+
+// Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
+// more evidence stays.
+std::vector<Landmark> LandmarkMap::exclusive(std::vector<Landmark> landmarks) const {
+  std::stable_sort(landmarks.begin(), landmarks.end(), [this](const Landmark& a, const Landmark& b) {
     return records_.at(a.id).evidence > records_.at(b.id).evidence;
   });
   std::vector<Landmark> kept;
-  for (const auto& landmark : sure) {
+  for (const auto& landmark : landmarks) {
     const bool free = std::none_of(kept.begin(), kept.end(), [&](const Landmark& other) {
       return footprintOverlap(landmark.shape, landmark.worldFromObject(), other.shape,
                               other.worldFromObject()) > options_.exclusive_overlap;

@@ -22,14 +22,12 @@ void LandmarkOptions::declareParameters(ParameterVisitor& v) {
       "false_alarm_probability", false_alarm_probability,
       {.doc = "Probability that something is detected where there is no object.", .min = 0.001, .max = 0.99});
   v.add("confirm_existence", confirm_existence,
-        {.doc = "A landmark is confirmed, and in the map, from this "
-                "existence probability on.",
+        {.doc = "While a run goes on, a landmark is confirmed from this existence probability on; at its end "
+                "[existence] says what is in the map, if enabled.",
          .min = 0,
          .max = 1});
   v.add("confirm_observations", confirm_observations,
-        {.doc = "A landmark is confirmed, and in the map, from this number of sightings on.",
-         .min = 1,
-         .max = 1000});
+        {.doc = "The same of the number of its sightings.", .min = 1, .max = 1000});
   v.add("exclusive_overlap", exclusive_overlap,
         {.doc =
              "Of two landmarks that overlap by more than this share of the smaller one's footprint, only the one with "

@@ -29,6 +29,11 @@ void ExistenceOptions::declareParameters(ParameterVisitor& v) {
         {.doc = "At the end of a run, a landmark is in the map from this existence probability on.",
          .min = 0,
          .max = 1});
+  v.add("least_sightings", least_sightings,
+        {.doc = "At the end of a run, a landmark is in the map from this number of sightings on: the weights "
+                "were fitted to such landmarks.",
+         .min = 1,
+         .max = 1000});
   v.add("cylinder_weights", cylinder,
         {.doc = "Weights of the evidence for the existence of round objects: \"NAME VALUE\", or \"bias "
                 "VALUE\"; names that are left out have none."});

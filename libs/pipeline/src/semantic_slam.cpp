@@ -21,9 +21,10 @@ bool isMounted(const Frame& frame) {
 
 std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const LandmarkMap& map,
                             const ExistenceOptions& options) {
-  std::vector<Landmark> judged;
-  for (const auto& candidate : candidates) judged.push_back(candidate.landmark);
-  return options.enabled ? map.confirmed(judged, options.least_probability) : map.confirmed(judged);
+  std::vector<Landmark> sure;
+  for (const auto& [landmark, evidence] : candidates)
+    if (options.enabled ? options.isSure(landmark) : map.isConfirmed(landmark)) sure.push_back(landmark);
+  return map.exclusive(std::move(sure));
 }
 
 }  // namespace

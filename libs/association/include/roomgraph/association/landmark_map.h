@@ -57,12 +57,12 @@ class LandmarkMap {
   /// the sightings assigned to each landmark and, in the order of time, its recorded misses and rays.
   void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
 
-  /// Landmarks for the map: existence and number of observations reach the configured limits, and no other
-  /// confirmed landmark with more evidence overlaps them.
-  std::vector<Landmark> confirmed() const { return confirmed(landmarks_); }
-  /// The same of these copies of the landmarks, perhaps with another existence, and another limit of it.
-  std::vector<Landmark> confirmed(const std::vector<Landmark>& judged,
-                                  std::optional<double> least_existence = std::nullopt) const;
+  /// Landmarks for the map: confirmed ones, as far as they are exclusive().
+  std::vector<Landmark> confirmed() const;
+  /// Whether existence and number of observations reach the configured limits.
+  bool isConfirmed(const Landmark& landmark) const;
+  /// Without those that another one with more evidence overlaps; by id.
+  std::vector<Landmark> exclusive(std::vector<Landmark> landmarks) const;
 
  private:
   Landmark* get(LandmarkId id);

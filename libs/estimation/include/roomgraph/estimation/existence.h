@@ -55,9 +55,14 @@ struct ExistenceOptions : Configurable {
   ExistenceOptions();
   bool enabled = true;
   double least_probability = 0.5;
+  int least_sightings = 3;
   /// "NAME VALUE" for each kind of shape: weights of the evidence by kNames, and "bias".
   std::vector<std::string> cylinder, cuboid, planar;
   void declareParameters(ParameterVisitor& v) override;
+  /// Whether a landmark whose existence is that of all evidence is in the map.
+  bool isSure(const Landmark& landmark) const {
+    return landmark.existence >= least_probability && landmark.observations >= least_sightings;
+  }
 };
 
 /// Probability that a landmark exists, from evidence of the whole run: logistic regression, its log odds are
