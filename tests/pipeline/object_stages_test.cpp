@@ -70,6 +70,19 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
   EXPECT_GT(slam.graph().landmarks(), 2u) << "views";
 }
 
+TEST_F(ObjectStagesTest, WithoutLandmarksPeopleAreStillKeptOut) {
+  for (const bool enabled : {true, false}) {
+    fakes::world().objects.clear();
+    fakes::world().masked.clear();
+    place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
+    place("person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, 3.0, 0, 0);
+    SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n[landmarks]\nenabled = " +
+                                (enabled ? "true" : "false") + "\n"));
+    EXPECT_EQ(drive(slam).candidates.size(), enabled ? 1u : 0u);
+    EXPECT_EQ(fakes::world().masked.at(0).size(), 1u);
+  }
+}
+
 TEST_F(ObjectStagesTest, WhatBeamsCrossIsNotInTheMap) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 1.0}, 3.5, 1.0, 2.8);
   place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);

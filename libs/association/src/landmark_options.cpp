@@ -5,6 +5,11 @@
 namespace roomgraph {
 
 void LandmarkOptions::declareParameters(ParameterVisitor& v) {
+  v.add(
+      "enabled", enabled,
+      {.doc =
+           "Whether objects are mapped. false: they are detected, and people are kept out of odometry, scans "
+           "and grid, but there are no landmarks."});
   v.add("birth_existence", rules.birth_existence,
         {.doc = "Existence probability of a new landmark.", .min = 0.01, .max = 0.99});
   v.add("detection_probability", detection_probability,

@@ -67,7 +67,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
     mapper_.add(frame, floor, people);  // sec. 5
     objects_.look(frame, estimator_.poses().at(frame.t));
-    if (detections.current()) {
+    if (detections.current() && setup_->options.landmarks.enabled) {
       const auto measurements = select(frame, proposals, tracked.features);      // sec. 3
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
     }
