@@ -11,15 +11,15 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -16.3",  "filter 0.5",      "sightings 1.49", "directions 0.815",
-               "score 5.36",  "label 8.92",      "scatter -0.429", "turned -1.05",
-               "size -0.839", "contested -2.25", "spread 2.01",    "beams_crossed -10.5"},
-      cuboid{"bias -7.88",     "filter 0.386",   "sightings 0.601", "score 5.24",
-             "label 2.79",     "scatter -0.365", "turned -2.49",    "contested -1.39",
-             "crossed -0.366", "filled 0.345",   "spread 1.69",     "beams_crossed -15.6"},
-      planar{"bias -9.53",           "filter 0.353",       "sightings 1.22",     "directions 1.13",
-             "score 3.27",           "label 4.33",         "size -0.385",        "contested -1.51",
-             "beside_crossed -6.06", "beside_filled 3.21", "beams_crossed -10.5"} {}
+    : cylinder{"bias -17.9",  "filter 0.532",    "sightings 1.33", "directions 0.853",
+               "score 5.93",  "label 9.4",       "scatter -0.518", "turned -0.955",
+               "size -0.452", "contested -1.55", "spread 2.43",    "beams_crossed -9.52"},
+      cuboid{"bias -7.48",     "filter 0.434",   "sightings 0.277",    "score 5.93",
+             "label 3.38",     "scatter -0.209", "turned -2.33",       "contested -1.59",
+             "crossed -0.468", "spread 1",       "beams_crossed -14.2"},
+      planar{"bias -10.4",       "filter 0.383",         "sightings 0.853",    "directions 1.43",
+             "score 4.31",       "label 4.96",           "scatter -0.0893",    "size -0.0477",
+             "contested -0.426", "beside_crossed -14.2", "beside_filled 3.37", "beams_crossed -9.52"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,
