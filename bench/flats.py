@@ -8,6 +8,11 @@ Flats 1 to 99 are for choosing settings, 1000 to 1019 for reporting only: no set
 one kind, and its table says which. The variant `default` (nothing but --set) comes first; all others are compared with it, flat
 by flat: the mean difference, or for errors in metres and seconds the geometric mean of the ratios, with its 95 % interval over
 flats (percentile bootstrap, Efron 1979). An interval without 0, or without 1 for ratios, is marked with *.
+What landmarks do for the trajectory, with nothing else different (no loops; people are kept out in both):
+
+    bench/flats.py --set tracking.loop_closing=false lidar.loop_closing=false object_loop_closing.enabled=false \\
+      --variants no_landmarks=landmarks.enabled=false
+
 Simulated flats are kept in DIR/sequences and used again until the simulator changes. DIR/figures.json keeps each flat's figures.
 """
 import argparse
