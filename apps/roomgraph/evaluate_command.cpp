@@ -18,6 +18,7 @@
 #include "roomgraph/evaluation/trajectory_error.h"
 #include "roomgraph/evaluation/trajectory_file.h"
 #include "roomgraph/mapping/map_files.h"
+#include "shared_files.h"
 
 namespace roomgraph {
 namespace {
@@ -130,7 +131,7 @@ struct ObjectArguments {
 
 void runObjects(ObjectArguments& a) {
   const auto truth = readObjects(a.truth), landmarks = readObjects(a.landmarks);
-  if (!a.database.empty()) a.options.classes = classRules(ObjectDatabase::fromFile(a.database));
+  a.options.classes = classRules(ObjectDatabase::fromFile(objectsFileOf(a.landmarks, a.database)));
   if (!a.boxes.empty()) a.options.seen = readSeenObjects(a.boxes, a.rule);
   a.options.truth_from_map = truthFromMap(a.paths);
   const auto errors = evaluateObjects(truth, landmarks, a.options);
@@ -155,7 +156,9 @@ void addObjects(CLI::App& parent) {
   command->add_option("--min-existence", a->options.min_existence, "Skip landmarks that are less probable")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--database", a->database, "objects.ini: shape and yaw symmetry of each class");
+  command->add_option("--database", a->database,
+                      "Shape and yaw symmetry of each class (default: objects.ini beside the landmarks, else "
+                      "the shipped one)");
   auto* boxes = command->add_option("--truth-boxes", a->boxes,
                                     "boxes.jsonl: only objects really seen count for recall");
   command->add_option("--min-frames", a->rule.min_frames, "Seen: in so many frames")

@@ -17,4 +17,10 @@ std::filesystem::path sharedFile(const std::string& name) {
   throw ConfigError(name + ": not found in " + searched + "; name one with --config");
 }
 
+std::filesystem::path objectsFileOf(const std::filesystem::path& run_file, const std::string& asked_for) {
+  if (!asked_for.empty()) return asked_for;
+  const auto beside = run_file.parent_path() / "objects.ini";
+  return std::filesystem::is_regular_file(beside) ? beside : sharedFile("objects.ini");
+}
+
 }  // namespace roomgraph

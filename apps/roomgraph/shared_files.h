@@ -11,4 +11,7 @@ namespace roomgraph {
 /// tree when run from the build folder. Throws ConfigError naming the places searched.
 std::filesystem::path sharedFile(const std::string& name);
 
+/// The object database that was asked for; else objects.ini beside this file of a run; else the shipped one.
+std::filesystem::path objectsFileOf(const std::filesystem::path& run_file, const std::string& asked_for);
+
 }  // namespace roomgraph

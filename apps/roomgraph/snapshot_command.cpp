@@ -36,14 +36,6 @@ SnapshotOptions toOptions(const SnapshotArguments& arguments) {
   return options;
 }
 
-/// The database that was asked for; else objects.ini beside the map; else the shipped one.
-ObjectDatabase colours(const SnapshotArguments& arguments) {
-  if (!arguments.objects.empty()) return ObjectDatabase::fromFile(arguments.objects);
-  const auto beside = std::filesystem::path(arguments.map).parent_path() / "objects.ini";
-  return ObjectDatabase::fromFile(std::filesystem::is_regular_file(beside) ? beside
-                                                                           : sharedFile("objects.ini"));
-}
-
 }  // namespace
 
 void addSnapshotCommand(CLI::App& app) {
@@ -66,7 +58,8 @@ void addSnapshotCommand(CLI::App& app) {
     SnapshotOptions options = toOptions(*arguments);
     const CSemanticMap map = loadMap(arguments->map);
     if (options.title.empty()) options.title = map.origin;
-    renderSnapshot(map, colours(*arguments), options, arguments->output);
+    const auto colours = ObjectDatabase::fromFile(objectsFileOf(arguments->map, arguments->objects));
+    renderSnapshot(map, colours, options, arguments->output);
     std::cout << arguments->output << ": " << options.width << "x" << options.height << " px, "
               << describeObjects(map.landmarks) << "\n";
   });

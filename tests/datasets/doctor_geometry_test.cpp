@@ -80,8 +80,8 @@ class DoctorGeometry : public ::testing::Test {
       change(*images);
       objects.push_back(images);
     }
-    writeRawlog(folder_ / "x.rawlog", objects);
-    return inspectRawlog(folder_ / "x.rawlog");
+    writeRawlog(folder_.file("x.rawlog"), objects);
+    return inspectRawlog(folder_.file("x.rawlog"));
   }
   static const ImageSummary& imagesOf(const RawlogReport& report) {
     return *std::find_if(report.sensors.begin(), report.sensors.end(), [](const SensorReport& s) {
@@ -153,7 +153,7 @@ TEST_F(DoctorGeometry, PoseThatPutsTheFloorElsewhereIsFoundAndMended) {
                                Field(&Finding::hint, HasSubstr("--pose KINECT=")))))
         << pose;
     const Pose3 fit = imagesOf(report).floor->fitting_pose;
-    const auto mended = inspectRawlog(folder_ / "x.rawlog", nullptr, {{"KINECT", fit}});
+    const auto mended = inspectRawlog(folder_.file("x.rawlog"), nullptr, {{"KINECT", fit}});
     EXPECT_THAT(mended.findings, kNoWorseThanNotes) << pose;
   }
 }
@@ -220,8 +220,8 @@ TEST_P(DoctorOnRecordings, WrongDepthUnitIsFoundAndTheRightOneIsNot) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "missing: " << file;
   TemporaryFolder folder;
   for (const float factor : {1.f, 5.f, 0.2f}) {
-    writeRawlog(folder / "x.rawlog", recordsOf(file, 400, factor), false);
-    const auto findings = inspectRawlog(folder / "x.rawlog").findings;
+    writeRawlog(folder.file("x.rawlog"), recordsOf(file, 400, factor), false);
+    const auto findings = inspectRawlog(folder.file("x.rawlog")).findings;
     if (factor == 1)
       EXPECT_THAT(findings, kNoWorseThanNotes);
     else

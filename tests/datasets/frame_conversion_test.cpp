@@ -19,8 +19,8 @@ using testing::StartsWith;
 class FrameConversion : public testing::Test {
  protected:
   Frame readBack(const Object& object) {
-    writeRawlog(folder_ / "x.rawlog", {object});
-    RawlogReader reader(folder_ / "x.rawlog");
+    writeRawlog(folder_.file("x.rawlog"), {object});
+    RawlogReader reader(folder_.file("x.rawlog"));
     auto record = reader.next();
     statistics_ = reader.statistics();
     if (!record) throw std::runtime_error("no frame");
@@ -148,7 +148,7 @@ TEST_F(FrameConversion, IntrinsicsOfAnotherImageSizeAreScaledUnlessItsShapeDiffe
 }
 
 TEST_F(FrameConversion, ExternalImagesAreReadAndMissingOnesCounted) {
-  const auto images_folder = folder_ / "x_Images";
+  const auto images_folder = folder_.file("x_Images");
   std::filesystem::create_directory(images_folder);
   std::vector<Object> objects;
   for (int i = 0; i < 3; ++i) {
@@ -159,10 +159,10 @@ TEST_F(FrameConversion, ExternalImagesAreReadAndMissingOnesCounted) {
     images->intensityImage.setExternalStorage(name + "_color.png");
     objects.push_back(images);
   }
-  writeRawlog(folder_ / "x.rawlog", objects);
+  writeRawlog(folder_.file("x.rawlog"), objects);
   std::filesystem::remove(images_folder / "KINECT_0_color.png");
   std::filesystem::remove(images_folder / "KINECT_1_depth.bin");
-  RawlogReader reader(folder_ / "x.rawlog");
+  RawlogReader reader(folder_.file("x.rawlog"));
   const auto record = reader.next();
   ASSERT_TRUE(record) << testing::PrintToString(reader.statistics().skipped);
   const auto& frame = std::get<Frame>(*record);

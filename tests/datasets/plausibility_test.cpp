@@ -26,12 +26,12 @@ std::string reasonFor(const Make& make, const Change& change) {
   TemporaryFolder folder;
   const auto victim = make(2);
   change(*victim);
-  writeRawlog(folder / "x.rawlog", {make(1), victim, make(3)});
-  RawlogReader reader(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {make(1), victim, make(3)});
+  RawlogReader reader(folder.file("x.rawlog"));
   int used = 0;
   while (reader.next()) ++used;
   EXPECT_EQ(used, 2);
-  const auto report = inspectRawlog(folder / "x.rawlog");
+  const auto report = inspectRawlog(folder.file("x.rawlog"));
   EXPECT_EQ(report.skipped, reader.statistics().skipped);
   EXPECT_THAT(reader.statistics().skipped, SizeIs(1));
   return reader.statistics().skipped.empty() ? "" : reader.statistics().skipped.begin()->first;
@@ -108,10 +108,10 @@ TEST(Plausibility, TimesAndTheirNeighbours) {
 TEST(Plausibility, ABadStepOfActionsIsLeftOut) {
   TemporaryFolder folder;
   for (const double bad : {kNan, 1e12, 5000.0}) {
-    writeRawlog(folder / "x.rawlog",
+    writeRawlog(folder.file("x.rawlog"),
                 {makeAction(1, 1, 0, 0), makeSensoryFrame({makeScan(1)}), makeAction(2, bad, 0, 0),
                  makeSensoryFrame({makeScan(2)}), makeAction(3, 1, 0, 0), makeSensoryFrame({makeScan(3)})});
-    RawlogReader reader(folder / "x.rawlog");
+    RawlogReader reader(folder.file("x.rawlog"));
     std::vector<double> x;
     while (const auto record = reader.next())
       if (const auto* reading = std::get_if<OdometryReading>(&*record))
@@ -119,7 +119,7 @@ TEST(Plausibility, ABadStepOfActionsIsLeftOut) {
     EXPECT_THAT(x, testing::ElementsAre(1, 2)) << bad;
     ASSERT_THAT(reader.statistics().skipped, SizeIs(1)) << bad;
     EXPECT_THAT(reader.statistics().skipped.begin()->first, HasSubstr("CActionCollection: movement"));
-    EXPECT_EQ(inspectRawlog(folder / "x.rawlog").skipped, reader.statistics().skipped);
+    EXPECT_EQ(inspectRawlog(folder.file("x.rawlog")).skipped, reader.statistics().skipped);
   }
 }
 
@@ -131,8 +131,8 @@ TEST(Plausibility, LargeButPossibleValuesAreUsed) {
   far->sensorPose.x(9e5);
   const auto single = makeScan(3, 2, 1);
   single->aperture = 0;
-  writeRawlog(folder / "x.rawlog", {circle, far, single, makeOdometry(4, 9e5, 0, 1000)});
-  RawlogReader reader(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {circle, far, single, makeOdometry(4, 9e5, 0, 1000)});
+  RawlogReader reader(folder.file("x.rawlog"));
   int used = 0;
   while (reader.next()) ++used;
   EXPECT_EQ(used, 4);

@@ -46,7 +46,7 @@ std::string joined(const std::vector<Object>& objects) {
 class RawlogCopyTest : public ::testing::Test {
  protected:
   TemporaryFolder folder;
-  std::filesystem::path in = folder / "x.rawlog", out = folder / "y.rawlog";
+  std::filesystem::path in = folder.file("x.rawlog"), out = folder.file("y.rawlog");
 };
 
 TEST_F(RawlogCopyTest, BytesStayAndDetectionsComeBeforeTheirImage) {
@@ -101,12 +101,12 @@ TEST_F(RawlogCopyTest, SensoryFramesWithMissingObjects) {
 }
 
 TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {
-  std::filesystem::create_directories(folder / "x_Images");
+  std::filesystem::create_directories(folder.file("x_Images"));
   auto images = makeImages(1);
-  images->rangeImage_convertToExternalStorage("depth.bin", (folder / "x_Images").string() + "/");
+  images->rangeImage_convertToExternalStorage("depth.bin", folder.file("x_Images").string() + "/");
   writeRawlog(in, {images});
-  std::filesystem::create_directories(folder / "elsewhere");
-  for (const auto& copy : {out, folder / "elsewhere" / "z.rawlog.gz"}) {
+  std::filesystem::create_directories(folder.file("elsewhere"));
+  for (const auto& copy : {out, folder.file("elsewhere") / "z.rawlog.gz"}) {
     RawlogCopy(in, copy).finish();
     RawlogReader reader(copy);
     const auto record = reader.next();
@@ -119,8 +119,8 @@ TEST_F(RawlogCopyTest, ExternalImagesAreFoundFromElsewhere) {
 TEST_F(RawlogCopyTest, WrongFilesAreRefused) {
   writeRawlog(in, {makeScan(1)});
   EXPECT_THROW(RawlogCopy(in, in), ConfigError);
-  EXPECT_THROW(RawlogCopy(folder / "none.rawlog", out), InputError);
-  EXPECT_THROW(RawlogCopy(in, folder / "no" / "such" / "folder.rawlog"), RunError);
+  EXPECT_THROW(RawlogCopy(folder.file("none.rawlog"), out), InputError);
+  EXPECT_THROW(RawlogCopy(in, folder.file("no") / "such" / "folder.rawlog"), RunError);
   RawlogReader reader(in);
   EXPECT_TRUE(reader.next()) << "the input is as it was";
 }

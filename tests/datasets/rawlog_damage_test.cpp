@@ -36,7 +36,7 @@ TEST(RawlogDamage, CutAtEveryByteAllCompleteRecordsAreUsed) {
   std::string bytes;
   std::vector<std::size_t> ends;
   for (const auto& object : objects) ends.push_back((bytes += bytesOf(object)).size());
-  const auto file = folder / "x.rawlog";
+  const auto file = folder.file("x.rawlog");
   for (std::size_t size = 60; size <= bytes.size(); ++size) {
     writeBytes(file, bytes.substr(0, size));
     const auto complete =
@@ -56,12 +56,12 @@ TEST(RawlogDamage, CutGzipGivesTheRecordsBeforeTheCut) {
   TemporaryFolder folder;
   std::vector<Object> objects;
   for (int i = 0; i < 50; ++i) objects.push_back(makeScan(i, 1.f + 0.01f * static_cast<float>(i * i), 40));
-  writeRawlog(folder / "whole.rawlog", objects);
-  const std::string bytes = readBytes(folder / "whole.rawlog");
+  writeRawlog(folder.file("whole.rawlog"), objects);
+  const std::string bytes = readBytes(folder.file("whole.rawlog"));
   int before = 0;
   for (std::size_t share = 2; share <= 10; ++share) {
-    writeBytes(folder / "cut.rawlog", bytes.substr(0, (bytes.size() - 1) * share / 10));
-    const auto result = read(folder / "cut.rawlog");
+    writeBytes(folder.file("cut.rawlog"), bytes.substr(0, (bytes.size() - 1) * share / 10));
+    const auto result = read(folder.file("cut.rawlog"));
     EXPECT_GE(result.records, before);
     EXPECT_THAT(result.statistics.warning, HasSubstr("gzip")) << "share " << share;
     EXPECT_THAT(result.statistics.warning, HasSubstr("byte"));
@@ -78,8 +78,8 @@ TEST(RawlogDamage, UnknownClassInTheMiddleIsSteppedOver) {
   const auto at = strange.find("CObservation2DRangeScan");
   ASSERT_NE(at, std::string::npos);
   strange.replace(at, 23, "CObservationFromTheMoon");
-  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + strange + bytesOf(makeScan(3)));
-  const auto result = read(folder / "x.rawlog");
+  writeBytes(folder.file("x.rawlog"), bytesOf(makeScan(1)) + strange + bytesOf(makeScan(3)));
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 2);
   ASSERT_EQ(result.statistics.skipped.size(), 1u);
   EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("CObservationFromTheMoon"));
@@ -91,9 +91,9 @@ TEST(RawlogDamage, BrokenBytesCostOnlyTheirRecord) {
   for (const auto& victim : {Object(makeScan(2)), Object(makeImages(2)), Object(makeOdometry(2, 0, 0, 0))}) {
     std::string broken = bytesOf(victim);
     broken.erase(broken.size() / 2, 3);  // what follows is shifted: the end flag is not where it should be
-    writeBytes(folder / "x.rawlog",
+    writeBytes(folder.file("x.rawlog"),
                bytesOf(makeScan(1)) + broken + bytesOf(makeOdometry(3, 0, 0, 0)) + bytesOf(makeScan(4)));
-    const auto result = read(folder / "x.rawlog");
+    const auto result = read(folder.file("x.rawlog"));
     EXPECT_GE(result.records, 2) << victim->GetRuntimeClass()->className;
     EXPECT_THAT(result.statistics.skipped, Not(IsEmpty())) << victim->GetRuntimeClass()->className;
     EXPECT_THAT(result.statistics.warning, IsEmpty());
@@ -104,11 +104,11 @@ TEST(RawlogDamage, BrokenSensoryFrameIsLeftOutAsAWhole) {
   TemporaryFolder folder;
   std::string broken = bytesOf(makeSensoryFrame({makeScan(2), makeScan(2.1)}));
   broken.erase(100, 5);
-  writeBytes(folder / "x.rawlog", bytesOf(makeAction(1, 1, 0, 0)) + bytesOf(makeSensoryFrame({makeScan(1)})) +
-                                      bytesOf(makeAction(2, 1, 0, 0)) + broken +
-                                      bytesOf(makeAction(3, 1, 0, 0)) +
-                                      bytesOf(makeSensoryFrame({makeScan(3)})));
-  const auto result = read(folder / "x.rawlog");
+  writeBytes(folder.file("x.rawlog"),
+             bytesOf(makeAction(1, 1, 0, 0)) + bytesOf(makeSensoryFrame({makeScan(1)})) +
+                 bytesOf(makeAction(2, 1, 0, 0)) + broken + bytesOf(makeAction(3, 1, 0, 0)) +
+                 bytesOf(makeSensoryFrame({makeScan(3)})));
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 5);
   EXPECT_EQ(result.statistics.used.at("CActionCollection"), 3);
 }
@@ -128,8 +128,8 @@ TEST(RawlogDamage, ImpossibleSizesCostOnlyTheirRecordAndNoMemory) {
       for (const std::uint32_t size : {0xffffffffu, 0x80000000u, 0x40000000u}) {
         std::string broken = good;
         overwrite(broken, at, size);
-        writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
-        const auto result = read(folder / "x.rawlog");
+        writeBytes(folder.file("x.rawlog"), bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+        const auto result = read(folder.file("x.rawlog"));
         ASSERT_GE(result.records, 2) << victim->GetRuntimeClass()->className << " byte " << at;
       }
   }
@@ -144,8 +144,8 @@ TEST(RawlogDamage, SizeOfAScanThatDoesNotFitItsBytesIsNamed) {
   at = broken.find(std::string(reinterpret_cast<const char*>(&count), sizeof count));
   ASSERT_NE(at, std::string::npos);
   overwrite(broken, at, 0x7fffffff);
-  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
-  const auto result = read(folder / "x.rawlog");
+  writeBytes(folder.file("x.rawlog"), bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 2);
   ASSERT_EQ(result.statistics.skipped.size(), 1u);
   EXPECT_THAT(result.statistics.skipped.begin()->first,
@@ -167,8 +167,8 @@ TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
   const auto at = broken.find("\xff\xc0");
   ASSERT_NE(at, std::string::npos);
   for (std::size_t i = 5; i < 9; ++i) broken[at + i] = static_cast<char>(i % 2 ? 0x7f : 0xff);
-  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
-  const auto result = read(folder / "x.rawlog");
+  writeBytes(folder.file("x.rawlog"), bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 2);
   EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("does not fit its length"));
   EXPECT_LT(test::peakMegabytes(), 700);
@@ -181,9 +181,9 @@ TEST(RawlogDamage, JpegWithoutItsDataCostsOnlyItsRecord) {
   const auto scan = broken.find("\xff\xda");
   ASSERT_NE(scan, std::string::npos);
   broken[scan + 1] = '\xd9';  // the end of the image instead of the start of its data
-  writeBytes(folder / "x.rawlog", bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
+  writeBytes(folder.file("x.rawlog"), bytesOf(makeScan(1)) + broken + bytesOf(makeScan(3)));
   ::testing::internal::CaptureStderr();
-  const auto result = read(folder / "x.rawlog");
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(result.records, 2);
   ASSERT_EQ(result.statistics.skipped.size(), 1u);
@@ -195,8 +195,8 @@ TEST(RawlogDamage, LongRecordsAmongOthersOfAPairAreParsedWhole) {
   // Mixed formats: the observations in a sensory frame are not taken for the next record.
   std::vector<mrpt::obs::CObservation::Ptr> many;
   for (int i = 0; i < 50; ++i) many.push_back(makeScan(2 + 0.01 * i, 2, 5000));
-  writeRawlog(folder / "x.rawlog", {makeScan(1), makeSensoryFrame(many), makeScan(3)});
-  const auto result = read(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {makeScan(1), makeSensoryFrame(many), makeScan(3)});
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 52);
   EXPECT_THAT(result.statistics.skipped, IsEmpty());
 }
@@ -208,8 +208,8 @@ TEST(RawlogDamage, LongRecordingsOfSmallAndLargeRecordsAreReadWhole) {
   for (int i = 0; i < 300; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
   objects.push_back(makeImages(31, 1280, 720));
   for (int i = 320; i < 600; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
-  writeRawlog(folder / "x.rawlog", objects);
-  const auto result = read(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), objects);
+  const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 581);
   EXPECT_THAT(result.statistics.skipped, IsEmpty());
 }
@@ -218,10 +218,10 @@ TEST(RawlogDamage, SkippedImagesAtTheEndAreCheckedForCompleteness) {
   TemporaryFolder folder;
   const std::string bytes = bytesOf(makeScan(1)) + bytesOf(makeImages(2));
   const ReadOptions scans_only{.frames = false};
-  writeBytes(folder / "x.rawlog", bytes);
-  EXPECT_THAT(read(folder / "x.rawlog", scans_only).statistics.warning, IsEmpty());
-  writeBytes(folder / "x.rawlog", bytes.substr(0, bytes.size() - 40));
-  const auto result = read(folder / "x.rawlog", scans_only);
+  writeBytes(folder.file("x.rawlog"), bytes);
+  EXPECT_THAT(read(folder.file("x.rawlog"), scans_only).statistics.warning, IsEmpty());
+  writeBytes(folder.file("x.rawlog"), bytes.substr(0, bytes.size() - 40));
+  const auto result = read(folder.file("x.rawlog"), scans_only);
   EXPECT_EQ(result.records, 1);
   EXPECT_THAT(result.statistics.warning, HasSubstr("byte"));
 }

@@ -27,7 +27,7 @@ std::vector<Record> readAll(RawlogReader& reader) {
 class BothStorages : public testing::TestWithParam<bool> {
  protected:
   TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_ / "x.rawlog";
+  std::filesystem::path file_ = folder_.file("x.rawlog");
 };
 INSTANTIATE_TEST_SUITE_P(Storage, BothStorages, testing::Bool(),
                          [](const auto& storage) { return storage.param ? "Gzip" : "Plain"; });
@@ -95,8 +95,8 @@ TEST(RawlogReader, PoseChangeAndSpatialMovementCountAsOdometry) {
   first->insert(matched);
   second->insert(spatial);
   const auto empty = mrpt::obs::CActionCollection::Create();
-  writeRawlog(folder / "x.rawlog", {first, makeSensoryFrame({}), second, makeSensoryFrame({}), empty});
-  RawlogReader reader(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {first, makeSensoryFrame({}), second, makeSensoryFrame({}), empty});
+  RawlogReader reader(folder.file("x.rawlog"));
   const auto records = readAll(reader);
   ASSERT_EQ(records.size(), 2u);
   EXPECT_NEAR(std::get<OdometryReading>(records[1]).odom_from_robot.x, 0.75, 1e-9);
@@ -116,8 +116,8 @@ TEST(RawlogReader, WheelsArePreferredToAScanMatcherWhateverComesFirst) {
     actions->insert(wheels_first ? wheels : matched);
     actions->insert(wheels_first ? matched : wheels);
     TemporaryFolder folder;
-    writeRawlog(folder / "x.rawlog", {actions, makeSensoryFrame({makeScan(1)})});
-    RawlogReader reader(folder / "x.rawlog");
+    writeRawlog(folder.file("x.rawlog"), {actions, makeSensoryFrame({makeScan(1)})});
+    RawlogReader reader(folder.file("x.rawlog"));
     const auto records = readAll(reader);
     ASSERT_FALSE(records.empty());
     EXPECT_NEAR(std::get<OdometryReading>(records[0]).odom_from_robot.x, 1, 1e-9) << wheels_first;
@@ -126,24 +126,24 @@ TEST(RawlogReader, WheelsArePreferredToAScanMatcherWhateverComesFirst) {
 
 TEST(RawlogReader, LastActionWithoutTimeIsCounted) {
   TemporaryFolder folder;
-  writeRawlog(folder / "x.rawlog", {makeSensoryFrame({makeScan(1)}), makeAction(-1, 1, 0, 0)});
-  RawlogReader reader(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {makeSensoryFrame({makeScan(1)}), makeAction(-1, 1, 0, 0)});
+  RawlogReader reader(folder.file("x.rawlog"));
   EXPECT_EQ(readAll(reader).size(), 1u);
   EXPECT_THAT(reader.statistics().skipped, ElementsAre(Pair(HasSubstr("no observation after it"), 1)));
 }
 
 TEST(RawlogReader, WhatIsNotWantedIsSteppedOver) {
   TemporaryFolder folder;
-  writeRawlog(folder / "x.rawlog",
+  writeRawlog(folder.file("x.rawlog"),
               {makeImages(1), makeScan(2), makeImages(3), makeOdometry(4, 0, 0, 0), makeImages(5)});
-  RawlogReader scans(folder / "x.rawlog", {.frames = false, .scans = true, .odometry = false});
+  RawlogReader scans(folder.file("x.rawlog"), {.frames = false, .scans = true, .odometry = false});
   const auto records = readAll(scans);
   ASSERT_EQ(records.size(), 1u);
   EXPECT_NEAR(timeOf(records[0]), 2, 1e-6);
   EXPECT_THAT(scans.statistics().skipped, ElementsAre(Pair("CObservation3DRangeScan: not asked for", 3),
                                                       Pair("CObservationOdometry: not asked for", 1)));
   EXPECT_THAT(scans.statistics().warning, IsEmpty());
-  RawlogReader frames(folder / "x.rawlog", {.frames = true, .scans = false, .odometry = false});
+  RawlogReader frames(folder.file("x.rawlog"), {.frames = true, .scans = false, .odometry = false});
   EXPECT_EQ(readAll(frames).size(), 3u);
 }
 
@@ -153,8 +153,8 @@ TEST(RawlogReader, OtherClassesAndInvalidTimesAreCounted) {
   comment->timestamp = mrpt::Clock::fromDouble(1);
   auto timeless = makeScan(1);
   timeless->timestamp = INVALID_TIMESTAMP;
-  writeRawlog(folder / "x.rawlog", {comment, timeless, makeScan(3)});
-  RawlogReader reader(folder / "x.rawlog");
+  writeRawlog(folder.file("x.rawlog"), {comment, timeless, makeScan(3)});
+  RawlogReader reader(folder.file("x.rawlog"));
   EXPECT_EQ(readAll(reader).size(), 1u);
   EXPECT_THAT(reader.statistics().skipped, ElementsAre(Pair("CObservation2DRangeScan: invalid time stamp", 1),
                                                        Pair("CObservationComment: not used", 1)));
@@ -171,17 +171,18 @@ std::string openError(const std::filesystem::path& file) {
 
 TEST(RawlogReader, UnusableFilesAreRefusedInOneLine) {
   TemporaryFolder folder;
-  EXPECT_THAT(openError(folder / "none.rawlog"), HasSubstr("none.rawlog: no such file"));
+  EXPECT_THAT(openError(folder.file("none.rawlog")), HasSubstr("none.rawlog: no such file"));
   EXPECT_THAT(openError(folder.path()), HasSubstr("directory"));
-  writeBytes(folder / "empty.rawlog", "");
-  EXPECT_THAT(openError(folder / "empty.rawlog"), HasSubstr("empty"));
-  writeBytes(folder / "text.rawlog", "timestamp,x,y\n1,2,3\n");
-  EXPECT_THAT(openError(folder / "text.rawlog"), HasSubstr("not a rawlog"));
-  writeBytes(folder / "gz.rawlog", std::string("\x1f\x8b\x08\x00", 4) + "garbage that is no deflate stream");
-  EXPECT_THAT(openError(folder / "gz.rawlog"), HasSubstr("not a rawlog"));
-  writeRawlog(folder / "pose.rawlog", {std::make_shared<mrpt::poses::CPose3D>()});
-  EXPECT_THAT(openError(folder / "pose.rawlog"), HasSubstr("CPose3D"));
-  EXPECT_THAT(openError(folder / "pose.rawlog"), testing::Not(HasSubstr("\n")));
+  writeBytes(folder.file("empty.rawlog"), "");
+  EXPECT_THAT(openError(folder.file("empty.rawlog")), HasSubstr("empty"));
+  writeBytes(folder.file("text.rawlog"), "timestamp,x,y\n1,2,3\n");
+  EXPECT_THAT(openError(folder.file("text.rawlog")), HasSubstr("not a rawlog"));
+  writeBytes(folder.file("gz.rawlog"),
+             std::string("\x1f\x8b\x08\x00", 4) + "garbage that is no deflate stream");
+  EXPECT_THAT(openError(folder.file("gz.rawlog")), HasSubstr("not a rawlog"));
+  writeRawlog(folder.file("pose.rawlog"), {std::make_shared<mrpt::poses::CPose3D>()});
+  EXPECT_THAT(openError(folder.file("pose.rawlog")), HasSubstr("CPose3D"));
+  EXPECT_THAT(openError(folder.file("pose.rawlog")), testing::Not(HasSubstr("\n")));
 }
 
 }  // namespace

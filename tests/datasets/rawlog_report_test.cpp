@@ -27,8 +27,8 @@ testing::Matcher<Finding> findingOf(Severity severity, const std::string& text) 
 class Doctor : public testing::Test {
  protected:
   RawlogReport inspect(const std::vector<Object>& objects) {
-    writeRawlog(folder_ / "x.rawlog", objects);
-    return inspectRawlog(folder_ / "x.rawlog");
+    writeRawlog(folder_.file("x.rawlog"), objects);
+    return inspectRawlog(folder_.file("x.rawlog"));
   }
   std::vector<Finding> findings(const std::vector<Object>& objects) { return inspect(objects).findings; }
   TemporaryFolder folder_;
@@ -149,10 +149,11 @@ TEST_F(Doctor, SensorsThatNeverRanTogether) {
 }
 
 TEST_F(Doctor, PosesCanBeTried) {
-  writeRawlog(folder_ / "x.rawlog", {makeScan(1)});
-  const auto report = inspectRawlog(folder_ / "x.rawlog", nullptr, parseSensorPoses("LASER=1,2,3,0,0,0", ""));
+  writeRawlog(folder_.file("x.rawlog"), {makeScan(1)});
+  const auto report =
+      inspectRawlog(folder_.file("x.rawlog"), nullptr, parseSensorPoses("LASER=1,2,3,0,0,0", ""));
   EXPECT_NEAR(report.sensors.at(0).robot_from_sensor->translation().z(), 3, 1e-9);
-  EXPECT_THROW(inspectRawlog(folder_ / "x.rawlog", nullptr, parseSensorPoses("LASR=1,2,3,0,0,0", "")),
+  EXPECT_THROW(inspectRawlog(folder_.file("x.rawlog"), nullptr, parseSensorPoses("LASR=1,2,3,0,0,0", "")),
                ConfigError);
 }
 
@@ -239,10 +240,10 @@ TEST_F(Doctor, WholeFile) {
               Contains(findingOf(Severity::kNote, "pose on the robot changes")));
 
   const std::string bytes = bytesOf(makeScan(1)) + bytesOf(makeScan(2));
-  writeBytes(folder_ / "cut.rawlog", bytes.substr(0, bytes.size() - 9));
-  EXPECT_THAT(inspectRawlog(folder_ / "cut.rawlog").findings,
+  writeBytes(folder_.file("cut.rawlog"), bytes.substr(0, bytes.size() - 9));
+  EXPECT_THAT(inspectRawlog(folder_.file("cut.rawlog")).findings,
               Contains(findingOf(Severity::kWarning, "ends in the middle")));
-  EXPECT_THROW(inspectRawlog(folder_ / "none.rawlog"), InputError);
+  EXPECT_THROW(inspectRawlog(folder_.file("none.rawlog")), InputError);
 }
 
 TEST_F(Doctor, ActionFormat) {

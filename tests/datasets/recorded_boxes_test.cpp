@@ -45,7 +45,7 @@ CObservationComment::Ptr remarkAt(double t) {
 class RecordedBoxes : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
-  std::filesystem::path file_ = folder_ / "x.rawlog";
+  std::filesystem::path file_ = folder_.file("x.rawlog");
   const std::string broken_ = "broken record: CObservationComment: its text is no valid record of detections";
 };
 
@@ -105,7 +105,7 @@ TEST_F(RecordedBoxes, AGlanceAtTheBeginning) {
             P(true, true));
   EXPECT_EQ(peek({makeScan(1), makeScan(1e9), makeImages(1.1), makeImages(40), plainCommentAt(40)}), P(true, true))
       << "a wrong stamp, and boxes that start late";
-  EXPECT_THROW(peekRawlog(folder_ / "none.rawlog"), InputError);
+  EXPECT_THROW(peekRawlog(folder_.file("none.rawlog")), InputError);
 }
 
 TEST_F(RecordedBoxes, AGlanceHasAnEnd) {

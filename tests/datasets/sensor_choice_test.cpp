@@ -74,7 +74,7 @@ class SensorChoiceTest : public ::testing::Test {
   }
 
   TemporaryFolder folder;
-  std::filesystem::path file = folder / "x.rawlog";
+  std::filesystem::path file = folder.file("x.rawlog");
 };
 
 TEST_F(SensorChoiceTest, FirstOfEachKindIsUsedAndBothAreNamed) {

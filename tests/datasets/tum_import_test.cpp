@@ -26,23 +26,24 @@ using ::testing::IsEmpty;
 class TumImport : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder_ / "rgb");
-    std::filesystem::create_directories(folder_ / "depth");
-    writeBytes(folder_ / "camera.json", R"({"width": 8, "height": 6, "fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5,
+    std::filesystem::create_directories(folder_.file("rgb"));
+    std::filesystem::create_directories(folder_.file("depth"));
+    writeBytes(folder_.file("camera.json"),
+               R"({"width": 8, "height": 6, "fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5,
                                             "distortion": [0, 0, 0, 0, 0], "depth_scale": 5000})");
   }
   /// Image pair `name`, all of whose depth pixels have the given value.
   void addImages(const std::string& name, std::uint16_t depth) {
-    cv::imwrite((folder_ / ("rgb/" + name + ".png")).string(),
+    cv::imwrite(folder_.file("rgb/" + name + ".png").string(),
                 cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 120, 230)));
-    cv::imwrite((folder_ / ("depth/" + name + ".png")).string(), cv::Mat(6, 8, CV_16UC1, cv::Scalar(depth)));
+    cv::imwrite(folder_.file("depth/" + name + ".png").string(), cv::Mat(6, 8, CV_16UC1, cv::Scalar(depth)));
   }
   TumImportResult convert(const TumImportOptions& options = {}) {
-    return importTum(folder_.path(), folder_ / "out.rawlog", options);
+    return importTum(folder_.path(), folder_.file("out.rawlog"), options);
   }
   std::vector<Frame> frames() {
     std::vector<Frame> out;
-    RawlogReader reader(folder_ / "out.rawlog");
+    RawlogReader reader(folder_.file("out.rawlog"));
     while (auto record = reader.next()) out.push_back(std::get<Frame>(std::move(*record)));
     return out;
   }
@@ -65,7 +66,7 @@ TEST_F(TumImport, AssociationsInEitherColumnOrder) {
       "# comment\n1.50 rgb/a.png 1.51 depth/a.png\n2.50 rgb/b.png 2.51 depth/b.png\n",
       "1.51 depth/a.png 1.50 rgb/a.png\n2.51 depth/b.png 2.50 rgb/b.png\n"};
   for (const auto& text : rows) {
-    writeBytes(folder_ / "associations.txt", text);
+    writeBytes(folder_.file("associations.txt"), text);
     const auto result = convert();
     EXPECT_EQ(result.written, 2);
     EXPECT_THAT(result.warnings, IsEmpty());
@@ -83,9 +84,9 @@ TEST_F(TumImport, AssociationsInEitherColumnOrder) {
 
 TEST_F(TumImport, ColumnsAreToldApartByTheImagesNotTheirNames) {
   addImages("a", 5000);
-  std::filesystem::rename(folder_ / "depth/a.png", folder_ / "x.png");
-  std::filesystem::rename(folder_ / "rgb/a.png", folder_ / "depth_of_field.png");
-  writeBytes(folder_ / "associations.txt", "1 depth_of_field.png 1 x.png\n");
+  std::filesystem::rename(folder_.file("depth/a.png"), folder_.file("x.png"));
+  std::filesystem::rename(folder_.file("rgb/a.png"), folder_.file("depth_of_field.png"));
+  writeBytes(folder_.file("associations.txt"), "1 depth_of_field.png 1 x.png\n");
   EXPECT_EQ(convert().written, 1);
 }
 
@@ -95,8 +96,8 @@ TEST_F(TumImport, NearestStampsArePairedOneToOne) {
   for (const char* name : {"a", "b", "c"}) addImages(name, 1000);
   addImages("near", 2000);
   addImages("far", 3000);
-  writeBytes(folder_ / "rgb.txt", "0.025 rgb/a.png\n0.030 rgb/b.png\n0.100 rgb/c.png\n");
-  writeBytes(folder_ / "depth.txt", "0.031 depth/near.png\n0.010 depth/far.png\n0.1205 depth/c.png\n");
+  writeBytes(folder_.file("rgb.txt"), "0.025 rgb/a.png\n0.030 rgb/b.png\n0.100 rgb/c.png\n");
+  writeBytes(folder_.file("depth.txt"), "0.031 depth/near.png\n0.010 depth/far.png\n0.1205 depth/c.png\n");
   const auto result = convert();
   EXPECT_EQ(result.written, 2);
   EXPECT_THAT(result.warnings, Contains(HasSubstr("1 of 3 colour images left out")));
@@ -107,7 +108,7 @@ TEST_F(TumImport, NearestStampsArePairedOneToOne) {
   EXPECT_EQ(convert({.max_time_difference_s = 0.021}).written, 3);
 
   // Alone, colour .025 takes the nearer one, which is not the first.
-  writeBytes(folder_ / "rgb.txt", "0.025 rgb/a.png\n");
+  writeBytes(folder_.file("rgb.txt"), "0.025 rgb/a.png\n");
   EXPECT_EQ(convert().written, 1);
   EXPECT_NEAR(frames().at(0).depth.at<float>(0, 0), 0.4, 1e-6);
 }
@@ -115,34 +116,34 @@ TEST_F(TumImport, NearestStampsArePairedOneToOne) {
 TEST_F(TumImport, MissingFilesAreCountedAndNothingLeftIsAnError) {
   addImages("a", 5000);
   writeBytes(
-      folder_ / "associations.txt",
+      folder_.file("associations.txt"),
       "1 rgb/a.png 1 depth/a.png\n2 rgb/none.png 2 depth/a.png\n3 rgb/a.png 3 depth/none.png\nodd line\n");
   const auto result = convert();
   EXPECT_EQ(result.written, 1);
   EXPECT_EQ(result.missing, 2);
   EXPECT_THAT(result.warnings, Contains(HasSubstr("rgb/none.png")));
   EXPECT_THAT(result.warnings, Contains(HasSubstr("1 lines left out")));
-  writeBytes(folder_ / "associations.txt", "2 rgb/none.png 2 depth/a.png\n");
-  const std::string former = readBytes(folder_ / "out.rawlog");
+  writeBytes(folder_.file("associations.txt"), "2 rgb/none.png 2 depth/a.png\n");
+  const std::string former = readBytes(folder_.file("out.rawlog"));
   EXPECT_THROW(convert(), InputError);
-  EXPECT_EQ(readBytes(folder_ / "out.rawlog"), former) << "what was imported before";
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.rawlog.unfinished"));
+  EXPECT_EQ(readBytes(folder_.file("out.rawlog")), former) << "what was imported before";
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("out.rawlog.unfinished")));
 }
 
 TEST_F(TumImport, UnusableFoldersAreRefused) {
   EXPECT_THROW(convert(), InputError) << "no list";
-  writeBytes(folder_ / "associations.txt", "# nothing\n");
+  writeBytes(folder_.file("associations.txt"), "# nothing\n");
   EXPECT_THROW(convert(), InputError) << "empty list";
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   EXPECT_THROW(importTum(folder_.path(), "/nonexistent/out.rawlog"), RunError);
-  EXPECT_THROW(importTum(folder_ / "none", folder_ / "out.rawlog"), InputError);
-  writeBytes(folder_ / "camera.json", "{");
+  EXPECT_THROW(importTum(folder_.file("none"), folder_.file("out.rawlog")), InputError);
+  writeBytes(folder_.file("camera.json"), "{");
   EXPECT_THROW(convert(), InputError) << "broken camera.json";
-  writeBytes(folder_ / "camera.json",
+  writeBytes(folder_.file("camera.json"),
              R"({"width": 9, "height": 6, "fx": 1, "fy": 1, "cx": 1, "cy": 1, "depth_scale": 1000})");
   EXPECT_THROW(convert(), InputError) << "size differs";
-  std::filesystem::remove(folder_ / "camera.json");
+  std::filesystem::remove(folder_.file("camera.json"));
   EXPECT_THROW(convert(), ConfigError) << "no intrinsics";
   const auto result = convert({.fx = 10, .fy = 10, .cx = 3, .cy = 2, .depth_scale = 1000});
   EXPECT_EQ(result.camera.width, 8) << "size from the images";
@@ -151,7 +152,7 @@ TEST_F(TumImport, UnusableFoldersAreRefused) {
 
 TEST_F(TumImport, PublishedCameras) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   for (const auto& preset : cameraPresets()) {
     EXPECT_THAT(messageOf<InputError>([&] { convert({.preset = preset.name}); }),
                 HasSubstr("the camera 640x480"))
@@ -166,11 +167,11 @@ TEST_F(TumImport, PublishedCameras) {
 }
 
 TEST_F(TumImport, PresetGivesWhatTheOptionsLeaveOpen) {
-  cv::imwrite((folder_ / "rgb/a.png").string(), cv::Mat(480, 640, CV_8UC3, cv::Scalar(10, 120, 230)));
+  cv::imwrite(folder_.file("rgb/a.png").string(), cv::Mat(480, 640, CV_8UC3, cv::Scalar(10, 120, 230)));
   cv::Mat depth(480, 640, CV_16UC1, cv::Scalar(2000));
   depth.at<std::uint16_t>(7, 9) = 65535;
-  cv::imwrite((folder_ / "depth/a.png").string(), depth);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  cv::imwrite(folder_.file("depth/a.png").string(), depth);
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   const auto result = convert({.preset = "7scenes", .fx = 580});
   EXPECT_DOUBLE_EQ(result.camera.fx, 580);
   EXPECT_DOUBLE_EQ(result.camera.fy, 585);
@@ -180,11 +181,11 @@ TEST_F(TumImport, PresetGivesWhatTheOptionsLeaveOpen) {
 }
 
 TEST_F(TumImport, EverythingThatIsMissingIsNamedAtOnce) {
-  const auto folder = folder_ / "rgbd_dataset_freiburg2_desk";
+  const auto folder = folder_.file("rgbd_dataset_freiburg2_desk");
   std::filesystem::create_directories(folder);
   writeBytes(folder / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
   const auto refusal = [&](const TumImportOptions& options) {
-    return messageOf<ConfigError>([&] { importTum(folder, folder_ / "out.rawlog", options); });
+    return messageOf<ConfigError>([&] { importTum(folder, folder_.file("out.rawlog"), options); });
   };
   EXPECT_THAT(refusal({}),
               AllOf(HasSubstr("no fx, fy, cx, cy, depth_scale"), HasSubstr("speaks for --camera freiburg2"),
@@ -196,7 +197,7 @@ TEST_F(TumImport, EverythingThatIsMissingIsNamedAtOnce) {
 
 TEST_F(TumImport, CameraOnARobot) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   Pose3 pose = parsePose("0.1,0,0.9,0,10,0", "test");
   convert({.robot_from_sensor = pose});
   pose.linear() = pose.linear() * bodyFromOptical();
@@ -205,7 +206,7 @@ TEST_F(TumImport, CameraOnARobot) {
 
 TEST_F(TumImport, PrincipalPointOutsideTheImageIsWarnedAbout) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   EXPECT_THAT(convert().warnings, IsEmpty());
   EXPECT_THAT(convert({.cx = 9999}).warnings,
               Contains(AllOf(HasSubstr("principal point (9999, 2.5)"), HasSubstr("8x6"))));
@@ -213,17 +214,17 @@ TEST_F(TumImport, PrincipalPointOutsideTheImageIsWarnedAbout) {
 
 TEST_F(TumImport, OutputMustBeAFile) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   const auto refusal = [&](const std::filesystem::path& out) {
     return messageOf<RunError>([&] { importTum(folder_.path(), out); });
   };
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("is a folder; name the rawlog to write"));
-  EXPECT_THAT(refusal(folder_ / "none/out.rawlog"), HasSubstr("there is no folder"));
+  EXPECT_THAT(refusal(folder_.file("none/out.rawlog")), HasSubstr("there is no folder"));
 }
 
 TEST_F(TumImport, ExternalImagesStayLossless) {
   addImages("a", 5001);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   for (const char* name : {"out.rawlog", "zipped.rawlog.gz"}) {
     const auto file = other_ / name;
     EXPECT_EQ(importTum(folder_.path(), file, {.external_images = true}).written, 1);
@@ -241,12 +242,12 @@ TEST_F(TumImport, AFormerImportStaysWholeUntilTheNewOneIs) {
   const auto import = [&](const std::function<void(std::size_t, std::size_t)>& progress) {
     return importTum(folder_.path(), other_ / "x.rawlog", {.external_images = true}, progress);
   };
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
-  writeBytes(folder_ / "groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("groundtruth.txt"), "1 0 0 0 0 0 0 1\n");
   import(nullptr);
   const auto former = namesIn(other_ / "x_Images");
-  writeBytes(folder_ / "associations.txt", "2 rgb/b.png 2 depth/b.png\n");
-  writeBytes(folder_ / "groundtruth.txt", "2 0 0 0 0 0 0 1\n");
+  writeBytes(folder_.file("associations.txt"), "2 rgb/b.png 2 depth/b.png\n");
+  writeBytes(folder_.file("groundtruth.txt"), "2 0 0 0 0 0 0 1\n");
   // A folder in its place is what the last step of writing a rawlog fails at.
   const auto place = other_ / "x.rawlog", aside = other_ / "aside";
   EXPECT_THROW(import([&](std::size_t, std::size_t) {
@@ -273,11 +274,11 @@ TEST_F(TumImport, AFormerImportStaysWholeUntilTheNewOneIs) {
 
 TEST_F(TumImport, NothingOfAFormerImportIsLeftBesideANewOne) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
-  writeBytes(folder_ / "groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("groundtruth.txt"), "1 0 0 0 0 0 0 1\n");
   const auto file = other_ / "x.rawlog";
   importTum(folder_.path(), file, {.external_images = true});
-  std::filesystem::remove(folder_ / "groundtruth.txt");
+  std::filesystem::remove(folder_.file("groundtruth.txt"));
   const auto result = importTum(folder_.path(), file);
   EXPECT_THAT(namesIn(other_), ElementsAre("x.rawlog"));
   EXPECT_THAT(result.warnings, ElementsAre(HasSubstr("x.groundtruth.txt of the former import was removed"),
@@ -297,13 +298,13 @@ TEST_F(TumImport, NothingOfAFormerImportIsLeftBesideANewOne) {
 
 TEST_F(TumImport, WhatIsReadIsNotReplaced) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   for (const char* name : {"associations.txt", "camera.json", "rgb/a.png", "depth/a.png"}) {
-    const std::string before = readBytes(folder_ / name);
-    EXPECT_THAT(messageOf<ConfigError>([&] { importTum(folder_.path(), folder_ / name); }),
+    const std::string before = readBytes(folder_.file(name));
+    EXPECT_THAT(messageOf<ConfigError>([&] { importTum(folder_.path(), folder_.file(name)); }),
                 HasSubstr("is read by this import"))
         << name;
-    EXPECT_EQ(readBytes(folder_ / name), before);
+    EXPECT_EQ(readBytes(folder_.file(name)), before);
   }
   const auto refusal = [&](const std::filesystem::path& folder, const std::filesystem::path& rawlog) {
     return messageOf<ConfigError>([&] { importTum(folder, rawlog, {.external_images = true}); });
@@ -317,7 +318,7 @@ TEST_F(TumImport, WhatIsReadIsNotReplaced) {
   std::filesystem::create_directories(other_ / "y_Images");
   std::filesystem::rename(input, other_ / "y_Images/desk");
   EXPECT_THAT(refusal(other_ / "y_Images/desk", other_ / "y.rawlog"), HasSubstr("is read")) << "around it";
-  writeBytes(folder_ / "associations.txt",
+  writeBytes(folder_.file("associations.txt"),
              "1 " + (other_ / "y_Images/desk/rgb/a.png").string() + " 1 depth/a.png\n");
   EXPECT_THAT(refusal(folder_.path(), other_ / "y.rawlog"), HasSubstr("is read")) << "an image elsewhere";
   EXPECT_TRUE(std::filesystem::exists(other_ / "y_Images/desk/rgb/a.png"));
@@ -326,14 +327,14 @@ TEST_F(TumImport, WhatIsReadIsNotReplaced) {
 TEST_F(TumImport, NegativeFocalLengthMirrorsTheWorldOnly) {
   addImages("0", 5000);
   addImages("1", 5000);
-  writeBytes(folder_ / "associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  writeBytes(folder_.file("associations.txt"), "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
   EXPECT_THAT(convert().warnings, Contains(HasSubstr("frame numbers")));
   // A pose of ICL-NUIM's left-handed world, and a point in its camera frame (y up).
   const Eigen::Quaterniond q = Eigen::Quaterniond(0.8, 0.1, -0.5, 0.3).normalized();
   const Eigen::Vector3d position(1, 2, 3), point(0.2, 0.1, 2);
   char line[200];
   std::snprintf(line, sizeof line, "30 1 2 3 %.9f %.9f %.9f %.9f\n", q.x(), q.y(), q.z(), q.w());
-  writeBytes(folder_ / "livingRoom0.gt.freiburg", line);
+  writeBytes(folder_.file("livingRoom0.gt.freiburg"), line);
   const auto result = convert({.fy = -11, .frame_rate_hz = 30});
   EXPECT_TRUE(result.mirrored);
   EXPECT_DOUBLE_EQ(result.camera.fy, 11);
@@ -355,11 +356,11 @@ TEST_F(TumImport, NegativeFocalLengthMirrorsTheWorldOnly) {
 
 TEST_F(TumImport, GroundTruthIsCopiedAsItIs) {
   addImages("a", 5000);
-  writeBytes(folder_ / "associations.txt", "1 rgb/a.png 1 depth/a.png\n");
+  writeBytes(folder_.file("associations.txt"), "1 rgb/a.png 1 depth/a.png\n");
   const std::string truth = "# timestamp tx ty tz qx qy qz qw\n1.000000 0.1 0.2 0.3 0 0 0 1\n";
-  writeBytes(folder_ / "groundtruth.txt", truth);
+  writeBytes(folder_.file("groundtruth.txt"), truth);
   const auto result = convert();
-  EXPECT_EQ(result.ground_truth, folder_ / "out.groundtruth.txt");
+  EXPECT_EQ(result.ground_truth, folder_.file("out.groundtruth.txt"));
   EXPECT_EQ(readBytes(result.ground_truth), truth);
 }
 

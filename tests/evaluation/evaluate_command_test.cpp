@@ -86,6 +86,23 @@ TEST(EvaluateCommand, ObjectsAlignedByTrajectories) {
   EXPECT_NEAR(figures.at("yaw_error_mean_deg").get<double>(), 0, 1e-6);
 }
 
+TEST(EvaluateCommand, ClassesAreThoseOfTheRun) {
+  const TemporaryFolder folder;
+  const std::string bed =
+      R"({"id": 1, "class": "bed", "x": 2, "y": 0, "z": 0, "yaw": 0, "size_wdh": [1, 1, 1]})";
+  folder.write("t.json", R"({"objects": [)" + bed + "]}");
+  folder.write("m.json", R"({"landmarks": [)" + bed + "]}");
+  const auto correct = [&](const std::string& more) {
+    run(folder, "objects t.json m.json --json o.json" + more);
+    return nlohmann::json::parse(folder.read("o.json")).at("correct");
+  };
+  EXPECT_EQ(correct(""), 0) << "a class that the shipped database does not hold";
+  folder.write("objects_here.ini", "[bed]\nshape = cuboid\n");
+  EXPECT_EQ(correct(" --database objects_here.ini"), 1);
+  folder.write("objects.ini", "[bed]\nshape = cuboid\n");
+  EXPECT_EQ(correct(""), 1) << "the database beside the landmarks";
+}
+
 TEST(EvaluateCommand, ObjectsWithAssociations) {
   const TemporaryFolder folder;
   folder.write(

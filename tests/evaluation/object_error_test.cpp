@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "random_poses.h"
+#include "usual_classes.h"
 
 namespace roomgraph {
 namespace {
@@ -26,6 +27,11 @@ EvaluatedObject object(int id, const std::string& name, double x, double y, doub
   return out;
 }
 
+ObjectErrors errorsOf(const Objects& truth, const Objects& map, ObjectOptions options = {}) {
+  options.classes = test::usualClasses();
+  return evaluateObjects(truth, map, options);
+}
+
 EvaluatedObject distractor(int id, const std::string& kind, double x, double y) {
   auto out = object(id, "other", x, y);
   out.kind = kind;
@@ -41,7 +47,7 @@ Verdict verdictOf(const ObjectErrors& errors, int landmark) {
 TEST(ObjectError, PerfectMap) {
   const Objects truth = {object(1, "swivel_chair", 0, 0), object(2, "sofa", 3, 1, 0.5),
                          object(3, "door", 5, 5, 1)};
-  const auto errors = evaluateObjects(truth, truth);
+  const auto errors = errorsOf(truth, truth);
   EXPECT_EQ(errors.all.correct, 3);
   EXPECT_EQ(errors.all.precision, 1);
   EXPECT_EQ(errors.all.recall, 1);
@@ -60,7 +66,7 @@ TEST(ObjectError, HandComputedMixedMap) {
                        object(12, "swivel_chair", 2.2, 0),    // second one on 2
                        object(13, "sofa", 4, 0),              // wrong class
                        object(14, "swivel_chair", 9, 9)};     // nothing there
-  const auto errors = evaluateObjects(truth, map);
+  const auto errors = errorsOf(truth, map);
   EXPECT_EQ(verdictOf(errors, 10), Verdict::kCorrect);
   EXPECT_EQ(verdictOf(errors, 11), Verdict::kCorrect);
   EXPECT_EQ(verdictOf(errors, 12), Verdict::kDuplicate);
@@ -83,14 +89,14 @@ TEST(ObjectError, HandComputedMixedMap) {
 
 TEST(ObjectError, EmptySides) {
   const Objects some = {object(1, "sofa", 0, 0)};
-  const auto nothing_mapped = evaluateObjects(some, {});
+  const auto nothing_mapped = errorsOf(some, {});
   EXPECT_EQ(nothing_mapped.all.missed, 1);
   EXPECT_EQ(nothing_mapped.all.recall, 0);
   EXPECT_EQ(nothing_mapped.all.precision, 0);
-  const auto nothing_there = evaluateObjects({}, some);
+  const auto nothing_there = errorsOf({}, some);
   EXPECT_EQ(nothing_there.all.false_alarms, 1);
   EXPECT_EQ(nothing_there.all.precision, 0);
-  EXPECT_EQ(evaluateObjects({}, {}).all.correct, 0);
+  EXPECT_EQ(errorsOf({}, {}).all.correct, 0);
 }
 
 TEST(ObjectError, OrderOfObjectsDoesNotMatter) {
@@ -101,11 +107,11 @@ TEST(ObjectError, OrderOfObjectsDoesNotMatter) {
   for (int i = 0; i < 12; ++i)
     map.push_back(
         object(100 + i, i % 3 ? "sofa" : "swivel_chair", random.uniform(0, 3), random.uniform(0, 3)));
-  const auto reference = evaluateObjects(truth, map);
+  const auto reference = errorsOf(truth, map);
   for (int round = 0; round < 10; ++round) {
     std::rotate(truth.begin(), truth.begin() + 5, truth.end());
     std::reverse(map.begin(), map.begin() + 7);
-    const auto errors = evaluateObjects(truth, map);
+    const auto errors = errorsOf(truth, map);
     EXPECT_EQ(errors.all.correct, reference.all.correct);
     EXPECT_NEAR(errors.all.position_m.mean, reference.all.position_m.mean, 1e-12);
     for (const auto& v : reference.verdicts) EXPECT_EQ(verdictOf(errors, v.landmark), v.verdict);
@@ -116,7 +122,7 @@ TEST(ObjectError, MatchingIsOptimalNotGreedy) {
   const Objects truth = {object(1, "sofa", 0, 0), object(2, "sofa", 0.5, 0)};
   const Objects map = {object(10, "sofa", 0.3, 0), object(11, "sofa", 0.9, 0)};
   // Greedy takes 10-2 (.2 m) and leaves 1 and 11 (.9 m apart) alone.
-  const auto errors = evaluateObjects(truth, map);
+  const auto errors = errorsOf(truth, map);
   EXPECT_EQ(errors.all.correct, 2);
   EXPECT_NEAR(errors.all.position_m.mean, 0.35, 1e-12);
 }
@@ -124,8 +130,8 @@ TEST(ObjectError, MatchingIsOptimalNotGreedy) {
 TEST(ObjectError, YawModuloSymmetry) {
   const double degree = std::numbers::pi / 180;
   const auto yaw_error = [&](const std::string& name, double truth_deg, double map_deg) {
-    const auto errors = evaluateObjects({object(1, name, 0, 0, truth_deg * degree)},
-                                        {object(2, name, 0, 0, map_deg * degree)});
+    const auto errors =
+        errorsOf({object(1, name, 0, 0, truth_deg * degree)}, {object(2, name, 0, 0, map_deg * degree)});
     return errors.verdicts[0].yaw_error_deg;
   };
   EXPECT_NEAR(yaw_error("sofa", 10, 40), 30, 1e-9);
@@ -137,7 +143,7 @@ TEST(ObjectError, YawModuloSymmetry) {
   EXPECT_EQ(yaw_error("swivel_chair", 0, 90), -1);
   auto unknown = object(2, "sofa", 0, 0);
   unknown.has_yaw = false;
-  EXPECT_EQ(evaluateObjects({object(1, "sofa", 0, 0)}, {unknown}).all.yaw_deg.count, 0);
+  EXPECT_EQ(errorsOf({object(1, "sofa", 0, 0)}, {unknown}).all.yaw_deg.count, 0);
 }
 
 TEST(ObjectError, SizeErrorAndIou) {
@@ -149,7 +155,7 @@ TEST(ObjectError, SizeErrorAndIou) {
   landmark.depth = 1;
   landmark.height = 1;
   landmark.position.y() = 0.5;  // inside the true box: |y| <= 1, landmark covers [0, 1]
-  const auto errors = evaluateObjects({truth}, {landmark});
+  const auto errors = errorsOf({truth}, {landmark});
   EXPECT_NEAR(errors.all.size_m.mean, 1.0 / 3, 1e-12);
   EXPECT_NEAR(errors.all.iou3d_mean, 0.5, 1e-9);
   EXPECT_NEAR(errors.all.position_m.mean, 0.5, 1e-12);
@@ -161,7 +167,7 @@ TEST(ObjectError, DistractorsAndPersons) {
   const Objects map = {object(10, "swivel_chair", 0.2, 0), object(11, "swivel_chair", 2, 0),
                        object(12, "swivel_chair", 4, 0),   object(13, "sofa", 0, 0),
                        object(14, "person", 4, 0),         object(15, "bookcase", 0, 0)};
-  const auto errors = evaluateObjects(truth, map);
+  const auto errors = errorsOf(truth, map);
   EXPECT_EQ(verdictOf(errors, 10), Verdict::kUncounted) << "a chair of another kind";
   EXPECT_EQ(verdictOf(errors, 11), Verdict::kFalseAlarm);
   EXPECT_EQ(verdictOf(errors, 12), Verdict::kFalseAlarm) << "persons are no objects";
@@ -176,7 +182,7 @@ TEST(ObjectError, SeenObjectsOnlyCountForRecall) {
   const Objects truth = {object(1, "sofa", 0, 0), object(2, "sofa", 5, 0), object(3, "sofa", 10, 0)};
   ObjectOptions options;
   options.seen = std::set<int>{1};
-  const auto errors = evaluateObjects(truth, {object(10, "sofa", 5, 0)}, options);
+  const auto errors = errorsOf(truth, {object(10, "sofa", 5, 0)}, options);
   EXPECT_EQ(errors.all.uncounted, 1);
   EXPECT_EQ(errors.all.false_alarms, 0);
   EXPECT_EQ(errors.all.correct, 0);
@@ -192,9 +198,9 @@ TEST(ObjectError, MapIsMovedIntoTheTruthsWorld) {
     landmark.yaw += back.yaw;
   }
   ObjectOptions options;
-  EXPECT_EQ(evaluateObjects(truth, map, options).all.correct, 0);
+  EXPECT_EQ(errorsOf(truth, map, options).all.correct, 0);
   options.truth_from_map = truth_from_map;
-  const auto errors = evaluateObjects(truth, map, options);
+  const auto errors = errorsOf(truth, map, options);
   EXPECT_EQ(errors.all.correct, 2);
   EXPECT_NEAR(errors.all.position_m.max, 0, 1e-12);
   EXPECT_NEAR(errors.all.yaw_deg.max, 0, 1e-9);
@@ -205,9 +211,9 @@ TEST(ObjectError, ImprobableLandmarksAreSkippedOnRequest) {
   auto faint = object(10, "sofa", 9, 9);
   faint.existence = 0.2;
   ObjectOptions options;
-  EXPECT_EQ(evaluateObjects({}, {faint}, options).all.false_alarms, 1);
+  EXPECT_EQ(errorsOf({}, {faint}, options).all.false_alarms, 1);
   options.min_existence = 0.5;
-  EXPECT_EQ(evaluateObjects({}, {faint}, options).all.false_alarms, 0);
+  EXPECT_EQ(errorsOf({}, {faint}, options).all.false_alarms, 0);
 }
 
 TEST(ObjectError, RulesComeFromTheObjectDatabase) {

@@ -9,6 +9,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/evaluation/object_error.h"
 #include "temporary_folder.h"
+#include "usual_classes.h"
 
 namespace roomgraph {
 namespace {
@@ -98,6 +99,7 @@ TEST(ObjectFiles, LabHasTheObjectsItsReadmeNames) {
   if (!std::filesystem::exists(lab / "boxes.jsonl")) GTEST_SKIP() << "needs " << lab / "boxes.jsonl";
   const auto truth = readObjects(lab / "objects.json");
   ObjectOptions options;
+  options.classes = test::usualClasses();
   options.seen = readSeenObjects(lab / "boxes.jsonl");
   const auto errors = evaluateObjects(truth, {}, options);
   EXPECT_EQ(errors.per_class.at("swivel_chair").missed, 7);

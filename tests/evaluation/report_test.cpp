@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "usual_classes.h"
+
 namespace roomgraph {
 namespace {
 
@@ -74,7 +76,9 @@ TEST(Report, ObjectFiguresAndVerdicts) {
   auto elsewhere = sofa;
   elsewhere.id = 8;
   elsewhere.position.x() = 9;
-  const auto errors = evaluateObjects({sofa}, {sofa, elsewhere});
+  ObjectOptions options;
+  options.classes = test::usualClasses();
+  const auto errors = evaluateObjects({sofa}, {sofa, elsewhere}, options);
   const json o = json::parse(toJson(errors));
   EXPECT_EQ(o.at("precision"), 0.5);
   EXPECT_EQ(o.at("recall"), 1.0);

@@ -18,9 +18,7 @@ namespace roomgraph {
 struct ObjectOptions {
   double gate_m = 0.5;       ///< largest distance of the centres on the ground
   double min_existence = 0;  ///< landmarks below are left out
-  std::map<std::string, ClassRule> classes = {{"swivel_chair", {ShapeKind::kCylinder, 0}},
-                                              {"sofa", {ShapeKind::kCuboid, 1}},
-                                              {"door", {ShapeKind::kPlanar, 2}}};
+  std::map<std::string, ClassRule> classes;  ///< those to evaluate
   ForgivenKinds forgiven_kinds = forgivenChairs();
   std::optional<std::set<int>> seen;  ///< ids that count for recall; nothing: all do
   Pose2 truth_from_map;               ///< moves the landmarks before they are compared
