@@ -10,7 +10,8 @@ namespace roomgraph::test {
 inline constexpr int kNodes = 40;
 
 // As shipped for wheels and for scans.
-inline constexpr MotionNoise kWheelNoise{0.01, 0.10, 0.01, 0.15, 0.10}, kScanNoise{0.004, 0.01, 0.002, 0.01, 0.003};
+inline constexpr MotionNoise kWheelNoise{0.01, 0.10, 0.01, 0.15, 0.10},
+    kScanNoise{0.001, 0.01, 0.0005, 0.01, 0.003};
 
 // Once round a circle of 1.5 m radius in kNodes seconds.
 inline Pose3 truthAt(double t) {

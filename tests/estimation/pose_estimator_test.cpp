@@ -79,6 +79,24 @@ TEST(PoseEstimator, WindowWithItsPriorEndsWhereTheWholeGraphDoes) {
   }
 }
 
+// Scans that are matched to local maps, whose poses stay variables of the window as long as they hold one of
+// its key poses, and leave it with the last.
+TEST(PoseEstimator, WindowWithLocalMapsEndsWhereTheWholeGraphDoes) {
+  for (const int nodes : {4, 8, 100}) {
+    Estimation open(nodes), closed(nodes);
+    for (Estimation* run : {&open, &closed}) {
+      run->motion.lidar = drifting(1.03, 1.06, {0.001, 0.04, 0.0005, 0.04, 0.02});
+      run->options.local_map_nodes = 6;
+      run->options.local_map_drift_share = 1;
+    }
+    open.drive(false);
+    closed.drive(true);
+    EXPECT_LT(distance(open.last(), open.lastOfBatch()), 0.002) << "window of " << nodes;
+    ASSERT_GT(distance(open.last(), closed.last()), 0.08) << "a closure that changes nothing proves nothing";
+    EXPECT_LT(distance(closed.last(), closed.lastOfBatch()), 0.01) << "window of " << nodes;
+  }
+}
+
 TEST(PoseEstimator, PosesThatLeftTheWindowStay) {
   Estimation run(5);
   run.drive(false);

@@ -134,10 +134,12 @@ TEST_F(RecordedBoxesRun, PosesOfTheGraphAreOnTheTrajectory) {
 
 // The graph in the plane has the optimum of the one in space, and keeps times and names when it is optimised.
 TEST_F(RecordedBoxesRun, PlanarGraph) {
-  ASSERT_EQ(run(kRoomWithBoxes).exit_code, 0);
+  // Where scans were lost, stiff local maps of images turn tilts, which only space has, into places.
+  const std::string steps = "backend.local_map_nodes=0";
+  ASSERT_EQ(run(kRoomWithBoxes, {steps}).exit_code, 0);
   auto spatial = std::move(std::get<FactorGraph>(loadG2o(out / "graph.g2o").graph));
   ASSERT_TRUE(spatial.optimize(SolveOptions{100, 1e-12}).usable);
-  ASSERT_EQ(run(kRoomWithBoxes, {"backend.planar_graph=true"}).exit_code, 0);
+  ASSERT_EQ(run(kRoomWithBoxes, {steps, "backend.planar_graph=true"}).exit_code, 0);
   const CallResult optimized = call(folder.path(), {"optimize", (out / "graph.g2o").string(), "-o",
                                                     folder.file("best.g2o").string(), "--quiet"});
   ASSERT_EQ(optimized.exit_code, 0) << optimized.err;

@@ -45,6 +45,23 @@ TEST(SensorPath, TurnsNoFasterWhereItGoesBackTheSameWay) {
   EXPECT_GT(turned, 1.5 * std::numbers::pi) << "180 degrees at (2, 0), then 45 and 90";
 }
 
+TEST(SensorPath, TurnsOnTheSpotWhereAStraightWayEnds) {
+  RobotPathSpec spec;
+  spec.path_m = {{0, 0}, {1, 0}, {2, 0}, {1, 0}, {0, 0}};
+  const SensorPath path(spec);
+  double turned = 0;
+  for (double t = 0; t + 0.03 < path.duration(); t += 0.03) {
+    const Pose3 step = path.at(t).inverse() * path.at(t + 0.03);
+    EXPECT_LT(rotationAngle(step) / 0.03, spec.max_turn_rad_s * 1.05) << t;
+    EXPECT_LT(step.translation().norm() / 0.03, spec.max_speed_m_s * 1.05) << t;
+    const bool turns = rotationAngle(step) > 0.003;
+    EXPECT_TRUE(!turns || step.translation().norm() < 0.003) << t;
+    turned += rotationAngle(step);
+  }
+  EXPECT_NEAR(turned, std::numbers::pi, 0.05);
+  EXPECT_GT(path.duration(), 4 / spec.max_speed_m_s + std::numbers::pi / spec.max_turn_rad_s);
+}
+
 TEST(SensorPath, PassesNearItsPointsFromTheFirstToTheLast) {
   const RobotPathSpec spec = lShape();
   const SensorPath path(spec);

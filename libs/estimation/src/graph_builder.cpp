@@ -6,11 +6,12 @@
 #include <map>
 #include <set>
 
+#include "local_maps.h"
+
 namespace roomgraph {
 namespace {
 
 const NodeId kAnchor{1'000'000'000};
-constexpr double kLidarGap_s = 0.25;
 
 // No source of motion covers the movement: a weak prior that bounds it by the speed of a walk or a drive.
 Movement unknownMovement(double seconds) {
@@ -20,15 +21,14 @@ Movement unknownMovement(double seconds) {
   return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
 }
 
-void addMovements(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion) {
-  bool any = false;
+// Steps of wheels add up their errors; so do those of images and scans when no local maps are wanted.
+void addSteps(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion, bool local_maps) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar}) {
-    const auto seen = source->between(a.t, b.t, kLidarGap_s);
-    if (!seen) continue;
-    any = true;
-    graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
+    if (local_maps && source != &motion.odometry) continue;
+    if (const auto seen = source->between(a.t, b.t, kSourceGap_s))
+      graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
   }
-  if (any) return;
+  if (connected(motion, a, b)) return;
   const Movement unknown = unknownMovement(b.t - a.t);
   graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
 }
@@ -88,7 +88,10 @@ void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
   for (std::size_t i = first; i < nodes.size(); ++i)
     graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && hold && !loose);
   if (loose) addLooseAnchor(graph, nodes[first]);
-  for (std::size_t i = first; i + 1 < nodes.size(); ++i) addMovements(graph, nodes[i], nodes[i + 1], motion);
+  const bool local_maps = options.local_map_nodes > 0;
+  for (std::size_t i = first; i + 1 < nodes.size(); ++i)
+    addSteps(graph, nodes[i], nodes[i + 1], motion, local_maps);
+  if (local_maps) addLocalMaps(graph, poses, motion, first, options);
   if (measurements.planar)
     for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
       graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
@@ -102,7 +105,7 @@ void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
 
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})
-    if (source->between(a.t, b.t, kLidarGap_s)) return true;
+    if (source->between(a.t, b.t, kSourceGap_s)) return true;
   return false;
 }
 

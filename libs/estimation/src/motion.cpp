@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/geometry/covariance.h"
+
 namespace roomgraph {
 namespace {
 
@@ -46,6 +48,30 @@ std::optional<Movement> MotionSource::between(double t_a, double t_b, double hor
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;
   return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b)};
+}
+
+// Of the step that ends at t or as the first one after it.
+Matrix6d MotionSource::stepAt(double t) const {
+  auto step = std::lower_bound(summed_.begin(), summed_.end(), t,
+                               [](const auto& entry, double time) { return entry.first < time; });
+  if (step == summed_.end()) --step;
+  return step == summed_.begin() ? step->second : Matrix6d(step->second - std::prev(step)->second);
+}
+
+std::optional<Movement> MotionSource::inLocalMap(double t_a, double t_b, double horizon_s) const {
+  return betweenLocalMaps(t_a, t_b, horizon_s, 0);
+}
+
+std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, double horizon_s,
+                                                       double drift_share) const {
+  if (poses_.empty()) return std::nullopt;
+  const auto movement = poses_.between(t_a, t_b, horizon_s);
+  if (!movement) return std::nullopt;
+  // A match is told in the frame of the robot, the movement in that of its beginning.
+  const Matrix6d match =
+      modelCovariance(noise_, Pose3::Identity(), planar_) + rotateCovariance(stepAt(t_b), movement->linear());
+  const Matrix6d steps = modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b);
+  return Movement{*movement, match + drift_share * steps};
 }
 
 std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {

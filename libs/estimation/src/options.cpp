@@ -41,6 +41,17 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
         {.doc = "Key poses in the sliding window, which is optimised with every new one.",
          .min = 2,
          .max = 100});
+  v.add(
+      "local_map_nodes", o.local_map_nodes,
+      {.doc =
+           "Key poses that images, and scans, measure against one local map, whose pose is a variable: their "
+           "errors do not add up within it. 0: each movement is measured for itself.",
+       .min = 0,
+       .max = 1000});
+  v.add("local_map_drift_share", o.local_map_drift_share,
+        {.doc = "Share of the variance of single movements that adds up from one local map to the next.",
+         .min = 0,
+         .max = 1});
   v.add("optimize_every_nodes", o.optimize_every_nodes,
         {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
   v.add("urgent_closure_m", o.urgent_closure_m,

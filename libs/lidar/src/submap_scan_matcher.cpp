@@ -214,7 +214,9 @@ ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, c
   out.odom_from_robot = pose;
   out.segment = segment_;
   out.score = 1;
-  out.step_covariance = Eigen::Matrix3d::Identity();
+  // The map begins with this scan: its place in it is only as unsure as any match.
+  out.step_covariance =
+      Eigen::Vector3d(floor_sigma_m_, floor_sigma_m_, floor_sigma_rad_).cwiseAbs2().asDiagonal();
   return out;
 }
 

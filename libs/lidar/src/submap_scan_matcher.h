@@ -45,7 +45,7 @@ class SubmapScanMatcher : public ScanMatcher {
   double min_score_ = 0.1;
   int max_lost_scans_ = 10;
   double covariance_inflation_ = 1;
-  double floor_sigma_m_ = 0.005, floor_sigma_rad_ = 0.0017453;
+  double floor_sigma_m_ = 0.0035, floor_sigma_rad_ = 0.0012;
 
   std::unique_ptr<ActiveSubmaps> submaps_;
   ScorePyramid pyramid_;  ///< of the submap matched against

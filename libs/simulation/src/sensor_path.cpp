@@ -119,21 +119,32 @@ std::vector<Pose3> timed(const std::vector<Pose3>& poses, const std::vector<doub
 }  // namespace
 
 SensorPath::SensorPath(const RobotPathSpec& spec) {
+  constexpr double kCusp_rad = 0.3, kTurnStep_rad = 0.02, kHalt_m_s = 0.02;
   const std::vector<Vector> points(spec.path_m.begin(), spec.path_m.end());
   const auto curve = evenAndSmooth(spline(points, spec.closed, 2), 2, 0.15);
-  std::vector<Pose3> poses;
-  std::vector<double> lengths, limits, yaw;
+  std::vector<double> yaw;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vector along = curve[std::min(i + 1, curve.size() - 1)] - curve[i == 0 ? 0 : i - 1];
     yaw.push_back(std::atan2(along.y(), along.x()));
-    poses.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw.back(), 0, 0));
   }
-  for (std::size_t i = 0; i + 1 < curve.size(); ++i)
-    lengths.push_back(std::max(1e-6, (curve[i + 1] - curve[i]).norm()));
+  std::vector<Pose3> poses;
+  std::vector<double> lengths, limits;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, curve.size() - 1);
     const double curvature = std::abs(wrapAngle(yaw[b] - yaw[a])) / span(curve, a, b);
+    poses.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i], 0, 0));
     limits.push_back(std::min(spec.max_speed_m_s, spec.max_turn_rad_s / std::max(1e-6, curvature)));
+    if (i == b) break;
+    // Where the curve turns back on itself the robot halts and turns on the spot, an angle for a length.
+    const double turn = wrapAngle(yaw[b] - yaw[i]);
+    const int steps = std::abs(turn) > kCusp_rad ? static_cast<int>(std::abs(turn) / kTurnStep_rad) : 0;
+    if (steps > 0) limits.back() = std::min(limits.back(), kHalt_m_s);
+    for (int k = 1; k <= steps; ++k) {
+      lengths.push_back(kTurnStep_rad * spec.max_speed_m_s / spec.max_turn_rad_s);
+      limits.push_back(k < steps ? spec.max_speed_m_s : kHalt_m_s);
+      poses.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i] + turn * k / steps, 0, 0));
+    }
+    lengths.push_back(std::max(1e-6, (curve[b] - curve[i]).norm()));
   }
   states_ = timed(poses, lengths, speeds(lengths, limits, spec.acceleration_m_s2), step_s_);
 }

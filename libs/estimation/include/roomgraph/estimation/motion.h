@@ -28,10 +28,19 @@ class MotionSource {
   void refine(const Trajectory& poses) { poses_ = poses; }
 
   const Trajectory& poses() const { return poses_; }
+  /// Covariance: noise model and sum of the steps.
   std::optional<Movement> between(double t_a, double t_b, double horizon_s) const;
+  /// As seen in a local map that begins at `t_a`: the covariance is that of the match at `t_b`, and does not
+  /// grow with the movement.
+  std::optional<Movement> inLocalMap(double t_a, double t_b, double horizon_s) const;
+  /// Between the beginnings of two local maps: that, and a share of the covariance of `between`, for the
+  /// drift.
+  std::optional<Movement> betweenLocalMaps(double t_a, double t_b, double horizon_s,
+                                           double drift_share) const;
 
  private:
   Matrix6d stepSum(double t_a, double t_b) const;
+  Matrix6d stepAt(double t) const;
 
   MotionNoise noise_;
   bool planar_;

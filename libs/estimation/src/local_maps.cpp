@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Division of the key poses into local maps, and the factors of these.
+#include "local_maps.h"
+
+#include <algorithm>
+
+namespace roomgraph {
+namespace {
+
+const NodeId kFirstOfImages{10'000'000}, kFirstOfScans{20'000'000};
+constexpr double kMatchRobustWidth = 3;  // Cauchy, in standard deviations: a wrong match is rare
+
+void addFactors(FactorGraph& graph, const KeyPoses& poses, const MotionSource& source,
+                const std::vector<LocalMap>& maps, std::size_t since, const BackendOptions& options) {
+  const auto& nodes = poses.nodes();
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    const LocalMap& map = maps[k];
+    const double begin_t = nodes[map.first].t;
+    graph.addPose(map.id, nodes[map.first].world_from_robot);
+    if (k > 0 && map.follows) {
+      const Movement moved = source
+                                 .betweenLocalMaps(nodes[maps[k - 1].first].t, begin_t, kSourceGap_s,
+                                                   options.local_map_drift_share)
+                                 .value();
+      graph.add(BetweenFactor{maps[k - 1].id, map.id, moved.a_from_b, moved.covariance, kMatchRobustWidth});
+    }
+    for (std::size_t i = std::max(map.first, since); i < map.end; ++i) {
+      const Movement seen = source.inLocalMap(begin_t, nodes[i].t, kSourceGap_s).value();
+      graph.add(BetweenFactor{map.id, nodes[i].id, seen.a_from_b, seen.covariance, kMatchRobustWidth});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& source, NodeId first_id,
+                                std::size_t since, const BackendOptions& options) {
+  const auto& nodes = poses.nodes();
+  const auto length = static_cast<std::size_t>(options.local_map_nodes);
+  const auto covers = [&](std::size_t a, std::size_t b) {
+    return source.between(nodes[a].t, nodes[b].t, kSourceGap_s).has_value();
+  };
+  std::vector<LocalMap> maps;
+  bool open = false;  // the last one goes on
+  for (std::size_t i = since - since % length; i < nodes.size(); ++i) {
+    const bool follows = open && covers(maps.back().first, i);
+    open = follows || covers(i, i);
+    if (!open) continue;
+    if (!follows || i % length == 0)
+      maps.push_back({NodeId{first_id.value + nodes[i].id.value}, i, i, follows});
+    maps.back().end = i + 1;
+  }
+  maps.erase(maps.begin(),
+             std::find_if(maps.begin(), maps.end(), [&](const LocalMap& map) { return map.end > since; }));
+  return maps;
+}
+
+std::vector<NodeId> localMapIds(const KeyPoses& poses, const Motion& motion, std::size_t since,
+                                std::size_t end, const BackendOptions& options) {
+  std::vector<NodeId> ids;
+  for (const auto& [source, first_id] :
+       {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}})
+    for (const LocalMap& map : localMaps(poses, *source, first_id, since, options))
+      if (map.first < end) ids.push_back(map.id);
+  return ids;
+}
+
+void addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion, std::size_t since,
+                  const BackendOptions& options) {
+  for (const auto& [source, first_id] :
+       {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}})
+    addFactors(graph, poses, *source, localMaps(poses, *source, first_id, since, options), since, options);
+}
+
+}  // namespace roomgraph
