@@ -207,12 +207,12 @@ TEST(CrfSelector, FormerFramesDecideBetweenLikeProposals) {
     FrameContext context = viewFrom(0, 0, 0);
     crf.select(seenFrom(context, chair, 1, 0, random), context);
   }
-  // A sofa comes into view: the codes differ, beta = 1/2, so the pairwise term counts.
+  // A sofa comes into view: the codes differ, beta = 1/2.
   FrameContext context = viewFrom(0, 0, 0);
   FrameProposals frame = seenFrom(context, {chair[0], sofaAt(4, 1.5, 0)}, 1, 0, random);
   Proposal wrong = frame.proposals[0];
-  wrong.projected.visible = {wrong.projected.visible.u_min, wrong.projected.visible.v_min + 40,
-                             wrong.projected.visible.u_max, wrong.projected.visible.v_max + 40};
+  wrong.projected.full.v_min += 40;
+  wrong.projected.full.v_max += 40;
   frame.proposals[0].box_iou = 0.7;
   wrong.box_iou = 0.9;
   wrong.score = frame.proposals[0].score = 1;
@@ -237,7 +237,7 @@ struct Displaced {
 
   Displaced(const std::vector<RoomObject>& objects, Random& random) {
     frame = seenFrom(context, objects, 1, 0, random);
-    Box2& area = frame.proposals[0].projected.visible;
+    Box2& area = frame.proposals[0].projected.full;
     const Box2 before = area;
     area.v_min += 40;
     area.v_max += 40;
@@ -247,8 +247,9 @@ struct Displaced {
 
 TEST(CrfSelector, ALinkCostsAsMuchAsTheFramesDiffer) {
   const RoomObject chair = chairAt(3, 0), sofa = sofaAt(4, 1.5, 0);
-  for (const bool sofa_comes : {false, true}) {
+  for (const auto& [sofa_comes, constant] : {std::pair(false, 0.0), {true, 0.0}, {false, 0.4}, {true, 1.0}}) {
     CrfSelector crf;
+    configure(crf, "link_weight = " + std::to_string(constant));
     Random random(2);
     FrameContext first = viewFrom(0, 0, 0);
     crf.select(seenFrom(first, {chair}, 1, 0, random), first);
@@ -256,7 +257,7 @@ TEST(CrfSelector, ALinkCostsAsMuchAsTheFramesDiffer) {
     ASSERT_GT(now.potential, 0.2);
     const auto chosen = crf.select(now.frame, now.context);
     ASSERT_FALSE(chosen.empty());
-    EXPECT_NEAR(chosen[0].energy.pairwise, sofa_comes ? 0.5 * now.potential : 0, 1e-9)
+    EXPECT_NEAR(chosen[0].energy.pairwise, (constant + (sofa_comes ? 0.5 : 0)) * now.potential, 1e-9)
         << "beta is " << (sofa_comes ? "1/2" : "1");
   }
 }
@@ -265,6 +266,7 @@ TEST(CrfSelector, ALinkCostsAsMuchAsTheFramesDiffer) {
 TEST(CrfSelector, AcrossAGapTheWindowIsComparedNotTheFrameBefore) {
   const RoomObject chair = chairAt(3, 0), sofa = sofaAt(4, 1.5, 0);
   CrfSelector crf;
+  configure(crf, "link_weight = 0");
   Random random(2);
   for (const std::vector<RoomObject>& seen : {std::vector{chair}, std::vector{sofa}}) {
     FrameContext context = viewFrom(0, 0, 0);

@@ -22,6 +22,10 @@ Proposal onlyProposal(FrameContext& context, const RoomObject& object) {
   return frame.proposals.at(0);
 }
 
+Box2 areaSeen(FrameContext& context, const RoomObject& object) {
+  return areaInImage(onlyProposal(context, object).projected, context.camera);
+}
+
 // Independent of projectShape: bounds of points all over the model's surface, seen by the second camera.
 Box2 boundsOfSamples(const RoomObject& object, const Viewpoint& view) {
   Box2 box{1e9, 1e9, -1e9, -1e9};
@@ -58,7 +62,7 @@ TEST(CarriedArea, IsWhereTheObjectIsSeenAfterTheCameraMoved) {
     cut += visible.area() < expected.area();
     EXPECT_GT(iou(carried->visible, visible), 0.99);
     // Seen again at the same place: nothing to pay.
-    EXPECT_NEAR(pairwisePotential(onlyProposal(now, object).projected, carried), 0, 1e-9);
+    EXPECT_NEAR(pairwisePotential(areaSeen(now, object), carried), 0, 1e-9);
   }
   EXPECT_GT(cut, 10);
 }
@@ -67,12 +71,12 @@ TEST(CarriedArea, IsNothingOutsideTheImageAndBehind) {
   FrameContext before = viewFrom(0, 0, 0);
   const auto placed = shapeInWorld(onlyProposal(before, chairAt(3, 0)), before.world_from_camera);
   for (const double yaw : {1.2, -1.2, 3.1}) EXPECT_FALSE(carriedArea(placed, viewOf(viewFrom(0, 0, yaw))));
-  EXPECT_EQ(pairwisePotential(onlyProposal(before, chairAt(3, 0)).projected, std::nullopt), 1);
+  EXPECT_EQ(pairwisePotential(areaSeen(before, chairAt(3, 0)), std::nullopt), 1);
 }
 
 TEST(PairwisePotential, IsOneLessTheOverlap) {
-  ProjectedShape a, b;
-  a.visible = {0, 0, 20, 10};
+  const Box2 a{0, 0, 20, 10};
+  ProjectedShape b;
   b.visible = {10, 0, 30, 10};
   EXPECT_DOUBLE_EQ(pairwisePotential(a, b), 1 - 100.0 / 300);
   b.visible = {20, 0, 30, 10};
@@ -86,11 +90,25 @@ TEST(PairwisePotential, GrowsWithTheDistanceOfTwoProposals) {
       carriedArea(shapeInWorld(onlyProposal(before, chairAt(3, 0)), before.world_from_camera), viewOf(now));
   double last = -1;
   for (const double y : {0.0, 0.1, 0.2, 0.4, 0.6}) {
-    const double potential = pairwisePotential(onlyProposal(now, chairAt(3, y)).projected, carried);
+    const double potential = pairwisePotential(areaSeen(now, chairAt(3, y)), carried);
     EXPECT_GT(potential, last);
     last = potential;
   }
   EXPECT_GT(last, 0.9);
+}
+
+// Where a table hides the lower half, a chair keeps its area: two depths with one visible part stay apart.
+TEST(PairwisePotential, IsOfTheWholeAreaAlsoWhereTheObjectIsHidden) {
+  FrameContext context = viewFrom(0, 0, 0);
+  Proposal hidden = onlyProposal(context, chairAt(3, 0));
+  const Box2 whole = hidden.projected.visible;
+  hidden.projected.visible.v_max = hidden.projected.visible.center().y();
+  EXPECT_EQ(areaInImage(hidden.projected, context.camera), whole);
+  const Box2 cut = areaSeen(context, chairAt(1, 0));
+  EXPECT_EQ(cut.v_max, 480) << "the image's border does cut it";
+  const auto carried = carriedArea(shapeInWorld(hidden, context.world_from_camera), viewOf(context));
+  EXPECT_NEAR(pairwisePotential(areaInImage(hidden.projected, context.camera), carried), 0, 1e-9);
+  EXPECT_GT(pairwisePotential(areaSeen(context, chairAt(2, 0)), carried), 0.4);
 }
 
 TEST(FeatureShare, AgreesWithSets) {

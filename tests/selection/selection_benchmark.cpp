@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Time of one frame's selection, with codes and window, measured by Google Benchmark; not a test.
+// Time of one frame's selection, and what each selector chooses in scenes with known truth, by Google
+// Benchmark; not a test. Choices are counters: `selection_benchmark --benchmark_filter=Scene
+// --benchmark_counters_tabular=true`.
 #include <benchmark/benchmark.h>
+
+#include <array>
 
 #include "best_score_selector.h"
 #include "crf_selector.h"
 #include "made_up_room.h"
+#include "selection_scenes.h"
 #include "unary_selector.h"
 
 namespace roomgraph::test {
@@ -39,7 +44,45 @@ BENCHMARK(selectEightObjects<BestScoreSelector>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(selectEightObjects<UnarySelector>)->Unit(benchmark::kMicrosecond);
 BENCHMARK(selectEightObjects<CrfSelector>)->Unit(benchmark::kMicrosecond);
 
+// Right and wrong choices over 200 scenes, and how good the confidences are.
+void scene(benchmark::State& state, Scene (*made)(unsigned), const std::string& selector,
+           const std::string& keys) {
+  SceneCounts counts;
+  for (auto _ : state) counts = countOver(made, selector, keys, 1001, 200);
+  state.counters["right"] = counts.rightShare();
+  state.counters["identity"] = counts.identityShare();
+  state.counters["false"] = counts.falseShare();
+  state.counters["brier"] = counts.brierScore();
+}
+
+void registerScenes() {
+  const std::pair<const char*, Scene (*)(unsigned)> scenes[] = {{"occluder_enters", occluderEnters},
+                                                                {"occluder_leaves", occluderLeaves},
+                                                                {"box_flickers", boxFlickers},
+                                                                {"two_depths", twoDepthsCompete},
+                                                                {"change_order", chairsChangeOrder},
+                                                                {"chair_moved", chairIsMoved},
+                                                                {"jerky_row", jerkyRow},
+                                                                {"weak_object", weakObject}};
+  const std::array<const char*, 3> arms[] = {{"unary", "UnarySelector", ""},
+                                             {"paper", "CrfSelector", "link_weight = 0"},
+                                             {"half", "CrfSelector", "link_weight = 0.5"},
+                                             {"crf", "CrfSelector", ""},
+                                             {"no_order", "CrfSelector", "order_bonus = 0"},
+                                             {"none_competes", "CrfSelector", "none_competes = true"}};
+  for (const auto& [name, made] : scenes)
+    for (const auto& [arm, selector, keys] : arms)
+      benchmark::RegisterBenchmark((std::string("Scene/") + name + "/" + arm).c_str(), scene, made, selector,
+                                   keys)
+          ->Iterations(1)
+          ->Unit(benchmark::kMillisecond);
+}
+
 }  // namespace
 }  // namespace roomgraph::test
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  roomgraph::test::registerScenes();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -142,13 +142,24 @@ TEST(IdentityLinks, FollowTheMotionWhereTwoObjectsChangePlaces) {
   const CodeMatch match = matchCodes(a, b, overlap);
   EXPECT_EQ(match.gamma, (std::vector<int>{0, 1})) << "the longest common subsequence cannot cross";
   EXPECT_EQ(match.beta, 1);
-  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2), (std::vector<int>{1, 0}));
+  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2, 0.1), (std::vector<int>{1, 0}));
 }
 
 TEST(IdentityLinks, FollowTheOrderWhereTheMotionSaysNothing) {
   const Eigen::MatrixXd overlap = Eigen::MatrixXd::Constant(2, 2, 0.3);
   const SemanticCode a = codeOf({7, 7}), b = codeOf({7, 7});
-  EXPECT_EQ(identityLinks(a, b, matchCodes(a, b, overlap), overlap, 0.2), (std::vector<int>{0, 1}));
+  EXPECT_EQ(identityLinks(a, b, matchCodes(a, b, overlap), overlap, 0.2, 0.1), (std::vector<int>{0, 1}));
+}
+
+// The more gamma's word weighs, the more overlap speaks against it in vain.
+TEST(IdentityLinks, TheBonusOfTheOrderIsWeighedAgainstTheOverlap) {
+  Eigen::MatrixXd overlap(2, 2);
+  overlap << 0.3, 0.45, 0.45, 0.3;
+  const SemanticCode a = codeOf({7, 7}), b = codeOf({7, 7});
+  const CodeMatch match = matchCodes(a, b, overlap);
+  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2, 0), (std::vector<int>{1, 0}));
+  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2, 0.1), (std::vector<int>{1, 0}));
+  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2, 0.2), (std::vector<int>{0, 1}));
 }
 
 TEST(IdentityLinks, NeedOverlapAndTheSameLabel) {
@@ -157,7 +168,7 @@ TEST(IdentityLinks, NeedOverlapAndTheSameLabel) {
   const SemanticCode a = codeOf({7, 8}), b = codeOf({7, 8});
   const CodeMatch match = matchCodes(a, b, overlap);
   EXPECT_EQ(match.gamma, (std::vector<int>{0, 1}));
-  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2), (std::vector<int>{-1, -1}));
+  EXPECT_EQ(identityLinks(a, b, match, overlap, 0.2, 0.1), (std::vector<int>{-1, -1}));
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <limits>
 
-#include "object_window.h"
-
 namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(CrfSelector, ProposalSelector, roomgraph)
@@ -35,14 +33,27 @@ CrfSelector::~CrfSelector() = default;
 
 void CrfSelector::declareParameters(ParameterVisitor& v) {
   options_.declare(v);
-  v.add("window_frames", window_frames_,
+  v.add("window_frames", window_options_.frames,
         {.doc = "Number N of frames in the window. An object that was missed for as many gets a new track.",
          .min = 2,
          .max = 100});
-  v.add("min_link_overlap", min_link_overlap_,
+  v.add("min_link_overlap", window_options_.min_overlap,
         {.doc = "A box continues a track only when its IoU with the predicted box is at least this.",
          .min = 0.01,
          .max = 1});
+  v.add("order_bonus", window_options_.order_bonus,
+        {.doc = "Added to the IoU of a box with a predicted one where the codes' index map gamma links them.",
+         .min = 0,
+         .max = 1});
+  v.add("link_weight", window_options_.link_weight,
+        {.doc = "The pairwise term (Eq. 6) weighs s * (this + 1 - beta). 0: the paper's weight, which is 0 "
+                "while the labels in view stay the same.",
+         .min = 0,
+         .max = 1});
+  v.add(
+      "none_competes", none_competes_,
+      {.doc = "Selecting nothing has the energy max_energy, so that an object followed for a whole window is "
+              "selected though weak (Eq. 7). no: every proposal must reach max_energy by itself."});
 }
 
 std::vector<ObjectMeasurement> CrfSelector::select(const FrameProposals& frame, const FrameContext& context) {
@@ -54,15 +65,15 @@ std::vector<ObjectMeasurement> CrfSelector::select(const FrameProposals& frame, 
     sightings.push_back(makeSighting(frame.detections[j], proposals[j], view, context.features));
     labels.push_back(window_->codes.of(frame.detections[j].class_name));
   }
-  const WindowStep step =
-      advance(*window_, std::move(sightings), labels, view, window_frames_, min_link_overlap_);
+  const WindowStep step = advance(*window_, std::move(sightings), labels, view, window_options_);
 
   std::vector<ObjectMeasurement> selected;
   for (std::size_t j = 0; j < frame.detections.size(); ++j) {
     const ObjectChain& object = window_->objects[static_cast<std::size_t>(step.objects[j])];
-    const bool whole_window = window_->frame - object.born + 1 >= window_frames_;
-    const ChainProblem chain = chainProblem(object, whole_window);
-    const ChainSolution solution = minimizeReportable(chain, options_.max_energy);
+    const bool whole_window = window_->frame - object.born + 1 >= window_options_.frames;
+    const ChainProblem chain = chainProblem(object, whole_window, none_competes_ ? options_.max_energy : 0);
+    const ChainSolution solution =
+        none_competes_ ? minimize(chain) : minimizeReportable(chain, options_.max_energy);
     if (solution.states.empty() || solution.states.back() == 0) continue;
     const int state = solution.states.back();
     const Proposal& proposal = *proposals[j][static_cast<std::size_t>(state - 1)];

@@ -58,8 +58,8 @@ Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, do
     const auto carried = carriedArea(before.shapes[static_cast<std::size_t>(x - 1)], now.view);
     energies(x, 0) = weight;
     for (Eigen::Index y = 1; y < columns; ++y) {
-      const auto& area = now.shapes[static_cast<std::size_t>(y - 1)].projected;
-      energies(x, y) = weight * pairwisePotential(area, carried);
+      const auto& shape = now.shapes[static_cast<std::size_t>(y - 1)].projected;
+      energies(x, y) = weight * pairwisePotential(areaInImage(shape, now.view.camera), carried);
     }
   }
   return energies;
@@ -81,12 +81,13 @@ std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view
   return visible;
 }
 
-ChainProblem chainProblem(const ObjectChain& chain, bool must_appear) {
+ChainProblem chainProblem(const ObjectChain& chain, bool must_appear, double none) {
   ChainProblem problem;
   problem.must_appear = must_appear;
   for (const auto& sighting : chain.sightings) {
     if (!problem.unary.empty()) problem.pairwise.push_back(sighting.pairwise);
     problem.unary.push_back(sighting.unary);
+    problem.unary.back()[0] = none;
   }
   return problem;
 }

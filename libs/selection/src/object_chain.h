@@ -33,11 +33,11 @@ struct ObjectChain {
 Sighting makeSighting(const Detection& detection, const std::vector<const Proposal*>& proposals,
                       const Viewpoint& view, const std::vector<FeatureTrack>& features);
 
-/// Pairwise energies w P between the states of two sightings, w = s (1 - beta) (Eq. 3, 6). The state "none"
-/// has no area: after a proposal its overlap is 0 and it costs w (unless the sighting has no proposals);
-/// before a proposal, or before another "none", it costs nothing. So a bad link, whose P is at most 1, never
-/// makes "none" cheaper than a proposal in the newest frame, and an earlier sighting without proposals adds
-/// no cost to a proposal now.
+/// Pairwise energies w P between the states of two sightings, w = s (c + 1 - beta) (Eq. 3, 6). The state
+/// "none" has no area: after a proposal its overlap is 0 and it costs w (unless the sighting has no
+/// proposals); before a proposal, or before another "none", it costs nothing. So a bad link, whose P is at
+/// most 1, never makes "none" cheaper than a proposal in the newest frame, and an earlier sighting without
+/// proposals adds no cost to a proposal now.
 Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, double weight);
 
 /// Predicted box of the detection in another view, cut by the image border: moved and scaled like the
@@ -46,6 +46,7 @@ Eigen::MatrixXd pairwiseEnergies(const Sighting& before, const Sighting& now, do
 std::optional<Box2> predictedBox(const Sighting& sighting, const Viewpoint& view);
 
 /// The chain of one object over its sightings (frames without one are left out: their only state is "none").
-ChainProblem chainProblem(const ObjectChain& chain, bool must_appear);
+/// `none`: energy of not selecting any proposal of a frame.
+ChainProblem chainProblem(const ObjectChain& chain, bool must_appear, double none);
 
 }  // namespace roomgraph

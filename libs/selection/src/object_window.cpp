@@ -37,10 +37,10 @@ double likeness(const SemanticCode& a, const SemanticCode& b) {
   return matchCodes(a, b, Eigen::MatrixXd::Zero(a.labels.size(), b.labels.size())).beta;
 }
 
-void extend(ObjectChain& object, Sighting sighting, const WindowStep& step) {
+void extend(ObjectChain& object, Sighting sighting, const WindowStep& step, double link_weight) {
   const Sighting& before = object.sightings.back();
   const double likeness = before.frame + 1 == sighting.frame ? step.beta : step.beta_star;
-  const double weight = featureShare(before.features, sighting.features) * (1 - likeness);
+  const double weight = featureShare(before.features, sighting.features) * (link_weight + 1 - likeness);
   sighting.pairwise = pairwiseEnergies(before, sighting, weight);
   object.sightings.push_back(std::move(sighting));
 }
@@ -48,14 +48,14 @@ void extend(ObjectChain& object, Sighting sighting, const WindowStep& step) {
 }  // namespace
 
 WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
-                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames,
-                   double min_overlap) {
+                   const std::vector<std::uint8_t>& labels, const Viewpoint& view,
+                   const WindowOptions& options) {
   WindowStep step;
   std::vector<LabelledBox> seen;
   for (std::size_t k = 0; k < sightings.size(); ++k) seen.push_back({sightings[k].box, labels[k]});
   const SemanticCode code = semanticCode(seen);
   if (window.frame > 0) step.beta = likeness(window.code, code);
-  forget(window.objects, ++window.frame - frames + 1);
+  forget(window.objects, ++window.frame - options.frames + 1);
 
   std::vector<int> places;
   const std::vector<LabelledBox> boxes = expected(window.objects, view, places);
@@ -63,14 +63,16 @@ WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
   const Eigen::MatrixXd overlap = overlaps(boxes, seen);
   const CodeMatch match = matchCodes(together, code, overlap);
   step.beta_star = match.beta;
-  const std::vector<int> links = identityLinks(together, code, match, overlap, min_overlap);
+  const std::vector<int> links =
+      identityLinks(together, code, match, overlap, options.min_overlap, options.order_bonus);
 
   for (std::size_t k = 0; k < sightings.size(); ++k) {
     Sighting& sighting = sightings[k];
     sighting.frame = window.frame;
     if (links[k] >= 0) {
       step.objects.push_back(places[static_cast<std::size_t>(links[k])]);
-      extend(window.objects[static_cast<std::size_t>(step.objects.back())], std::move(sighting), step);
+      extend(window.objects[static_cast<std::size_t>(step.objects.back())], std::move(sighting), step,
+             options.link_weight);
     } else {
       step.objects.push_back(static_cast<int>(window.objects.size()));
       window.objects.push_back({TrackId{window.next_track++}, labels[k], window.frame, {}});

@@ -22,11 +22,19 @@ struct WindowStep {
   std::vector<int> objects;  ///< per detection its place in ObjectWindow::objects
 };
 
+/// Length of the window and what links objects over it.
+struct WindowOptions {
+  int frames = 5;            ///< N
+  double min_overlap = 0.2;  ///< of a box with the predicted one
+  double order_bonus = 0.1;  ///< bonus of a pair of gamma (identityLinks)
+  double link_weight = 1;    ///< links weigh s (this + 1 - beta); 0: the paper's weight
+};
+
 /// Advances the window by a frame: drops sightings that are `frames` or more old, links the frame's sightings
 /// (one per detection, with their `labels`) to the objects of the window, and starts new objects for the
 /// rest.
 WindowStep advance(ObjectWindow& window, std::vector<Sighting> sightings,
-                   const std::vector<std::uint8_t>& labels, const Viewpoint& view, int frames,
-                   double min_overlap);
+                   const std::vector<std::uint8_t>& labels, const Viewpoint& view,
+                   const WindowOptions& options);
 
 }  // namespace roomgraph

@@ -39,8 +39,12 @@ std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewp
   return projectShape(shape.shape, view.world_from_camera.inverse() * shape.world_from_object, view.camera);
 }
 
-double pairwisePotential(const ProjectedShape& area, const std::optional<ProjectedShape>& carried) {
-  return carried ? 1 - iou(area.visible, carried->visible) : 1;
+Box2 areaInImage(const ProjectedShape& projected, const PinholeCamera& camera) {
+  return clipped(projected.full, camera.width, camera.height);
+}
+
+double pairwisePotential(const Box2& area, const std::optional<ProjectedShape>& carried) {
+  return carried ? 1 - iou(area, carried->visible) : 1;
 }
 
 double featureShare(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {

@@ -39,9 +39,13 @@ ShapeInWorld shapeInWorld(const Proposal& proposal, const Pose3& world_from_came
 /// H A(x): the shape's area projected into another view, px; nothing when it is outside that image or behind.
 std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewpoint& view);
 
+/// A(x): the shape's whole area inside the image, px. Unlike `visible` it does not end where something nearer
+/// hides a side of the box: there all proposals would have the box's own area, whatever their depth.
+Box2 areaInImage(const ProjectedShape& projected, const PinholeCamera& camera);
+
 /// Pairwise potential of two proposals (paper Eq. 6): P = 1 - IoU(A(x_t), H A(x_{t-1})), in [0, 1]; of the
 /// areas inside the image. 1 when the former proposal is out of view.
-double pairwisePotential(const ProjectedShape& area, const std::optional<ProjectedShape>& carried);
+double pairwisePotential(const Box2& area, const std::optional<ProjectedShape>& carried);
 
 /// s of Eq. 3: of the features inside either box (ids, ascending), the share inside both. 0 without features.
 double featureShare(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b);

@@ -71,14 +71,14 @@ CodeMatch matchCodes(const SemanticCode& a, const SemanticCode& b, const Eigen::
 }
 
 std::vector<int> identityLinks(const SemanticCode& a, const SemanticCode& b, const CodeMatch& match,
-                               const Eigen::MatrixXd& overlap, double min_overlap) {
+                               const Eigen::MatrixXd& overlap, double min_overlap, double order_bonus) {
   std::vector<std::tuple<double, int, int>> candidates;  // (-support, object of a, object of b)
   for (std::size_t p = 0; p < a.labels.size(); ++p)
     for (std::size_t q = 0; q < b.labels.size(); ++q) {
       const int i = a.objects[p], k = b.objects[q];
       if (a.labels[p] != b.labels[q] || overlap(i, k) < min_overlap) continue;
       const bool agreed = match.gamma[static_cast<std::size_t>(k)] == i;
-      candidates.emplace_back(-overlap(i, k) - (agreed ? kOrderVoice : 0), i, k);
+      candidates.emplace_back(-overlap(i, k) - (agreed ? order_bonus : 0), i, k);
     }
   std::sort(candidates.begin(), candidates.end());
   std::vector<int> links(b.labels.size(), -1);

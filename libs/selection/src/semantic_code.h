@@ -53,9 +53,8 @@ CodeMatch matchCodes(const SemanticCode& a, const SemanticCode& b, const Eigen::
 /// Data association of objects from a to b; per object of b the object of a, -1: none. Gamma alone does not
 /// suffice: it swaps two chairs that change their reading order, and links any two chairs when no others are
 /// left. So only pairs of one label with an overlap of at least `min_overlap` (> 0) are linked, the largest
-/// first; pairs that gamma links get a bonus of kOrderVoice, which decides between similar overlaps.
+/// first; pairs that gamma links get the bonus `order_bonus`, which decides between similar overlaps.
 std::vector<int> identityLinks(const SemanticCode& a, const SemanticCode& b, const CodeMatch& match,
-                               const Eigen::MatrixXd& overlap, double min_overlap);
-inline constexpr double kOrderVoice = 0.1;
+                               const Eigen::MatrixXd& overlap, double min_overlap, double order_bonus);
 
 }  // namespace roomgraph

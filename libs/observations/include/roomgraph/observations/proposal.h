@@ -76,7 +76,7 @@ struct FrameProposals {
 /// Energy of one selected proposal (paper Eq. 3), as it entered the sum.
 struct EnergyTerms {
   double unary = 0;       ///< alpha U
-  double pairwise = 0;    ///< s (1 - beta) P, with the object's proposal in the frame before
+  double pairwise = 0;    ///< s (c + 1 - beta) P, with the object's proposal in the frame before
   double high_order = 0;  ///< (1 - beta*) H
 };
 
