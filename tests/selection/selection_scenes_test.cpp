@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 namespace roomgraph::test {
 namespace {
 
@@ -34,6 +36,9 @@ struct Gain {
   Scene (*scene)(unsigned);
   double margin;
 };
+void PrintTo(const Gain& gain, std::ostream* out) {
+  *out << gain.name;
+}
 class PairwiseTerm : public ::testing::TestWithParam<Gain> {};
 
 TEST_P(PairwiseTerm, BeatsTheUnaryChoice) {
