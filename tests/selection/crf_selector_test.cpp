@@ -304,6 +304,26 @@ TEST(CrfSelector, InAWholeWindowTheObjectWasSeenForSure) {
   }
 }
 
+// An energy of -.15 at most is asked for, and no frame reaches it: "at least once" asks for one of the
+// window.
+TEST(CrfSelector, WhereNoneCompetesAWeakObjectIsSelectedOnceFollowedForAWindow) {
+  for (const bool competes : {false, true}) {
+    CrfSelector crf;
+    configure(crf, std::string("window_frames = 3\nnone_competes = ") + (competes ? "true" : "false"));
+    Random random(5);
+    std::vector<std::size_t> selected;
+    for (int f = 0; f < 4; ++f) {
+      FrameContext context = viewFrom(0, 0, 0);
+      FrameProposals frame = seenFrom(context, {chairAt(3, 0)}, 1, 0, random);
+      frame.detections[0].score = 0.14;
+      const auto chosen = crf.select(frame, context);
+      selected.push_back(chosen.size());
+      for (const auto& measurement : chosen) EXPECT_GT(measurement.energy.unary, -0.15);
+    }
+    EXPECT_EQ(selected, competes ? (std::vector<std::size_t>{0, 0, 1, 1}) : std::vector<std::size_t>(4, 0));
+  }
+}
+
 TEST(CrfSelector, CopesWithFramesWithoutDetectionsOrProposals) {
   CrfSelector selector;
   Random random(4);
