@@ -70,14 +70,15 @@ def errors(run, truth):
 
 def compare(arguments):
     first = errors(arguments.runs[0], arguments.truth)
-    print("| run | choices | changed | nearer | farther | more | of these beyond .3 m |\n|" + " --- |" * 7)
+    print("| run | choices | changed | nearer | farther | mean gain, m | more | of these beyond .3 m |\n|" + " --- |" * 8)
     for run in arguments.runs[1:]:
         now = errors(run, arguments.truth)
         changed = [key for key in now.keys() & first.keys() if math.dist(now[key][0], first[key][0]) > CHANGED_M]
         gains = [first[key][1] - now[key][1] for key in changed]
         more = [now[key][1] for key in now.keys() - first.keys()]
+        mean = sum(gains) / max(1, len(gains))
         print(f"| {run.name} | {len(now)} | {len(changed)} | {sum(gain > FARTHER_M for gain in gains)} "
-              f"| {sum(gain < -FARTHER_M for gain in gains)} | {len(more)} | {sum(error > 0.3 for error in more)} |")
+              f"| {sum(gain < -FARTHER_M for gain in gains)} | {mean:.2f} | {len(more)} | {sum(error > 0.3 for error in more)} |")
 
 
 def main():
