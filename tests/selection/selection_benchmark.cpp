@@ -64,12 +64,15 @@ void registerScenes() {
                                                                 {"chair_moved", chairIsMoved},
                                                                 {"jerky_row", jerkyRow},
                                                                 {"weak_object", weakObject}};
-  const std::array<const char*, 3> arms[] = {{"unary", "UnarySelector", ""},
-                                             {"paper", "CrfSelector", "link_weight = 0"},
-                                             {"half", "CrfSelector", "link_weight = 0.5"},
-                                             {"crf", "CrfSelector", ""},
-                                             {"no_order", "CrfSelector", "order_bonus = 0"},
-                                             {"none_competes", "CrfSelector", "none_competes = true"}};
+  const std::array<const char*, 3> arms[] = {
+      {"unary", "UnarySelector", ""},
+      {"paper", "CrfSelector", "link_weight = 0"},
+      {"half", "CrfSelector", "link_weight = 0.5"},
+      {"crf", "CrfSelector", ""},
+      {"no_order", "CrfSelector", "order_bonus = 0"},
+      {"none_competes", "CrfSelector", "none_competes = true"},
+      {"never_binds", "CrfSelector", "none_competes = true\nwindow_frames = 100"},
+      {"loose", "UnarySelector", "max_energy = -0.1"}};
   for (const auto& [name, made] : scenes)
     for (const auto& [arm, selector, keys] : arms)
       benchmark::RegisterBenchmark((std::string("Scene/") + name + "/" + arm).c_str(), scene, made, selector,
