@@ -39,4 +39,9 @@ int removeDynamicReturns(Scan& scan, const std::vector<DynamicWedge>& wedges) {
   return removed;
 }
 
+Scan withoutBeams(Scan scan, const std::vector<std::size_t>& beams) {
+  for (const std::size_t beam : beams) scan.valid[beam] = 0;
+  return scan;
+}
+
 }  // namespace roomgraph

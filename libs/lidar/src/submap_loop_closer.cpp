@@ -170,7 +170,7 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   here.path_m += length;
   graph_.addNode(connected, step, length);
   way_.push_back(here);
-  const PlanarScan planar = toPlanarScan(scan, submap_settings_.min_range_m, submap_settings_.max_range_m);
+  const PlanarScan planar = submap_settings_.planar(scan);
   scans_.push_back({scan.t, submap_settings_.points(planar)});
   waiting_.push_back(static_cast<int>(scans_.size()) - 1);
   store(active_->insert(planar, match.odom_from_robot));

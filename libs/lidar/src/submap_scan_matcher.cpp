@@ -7,6 +7,7 @@
 
 #include "correlative_search.h"
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/lidar/dynamic_return_filter.h"
 
 namespace roomgraph {
 
@@ -74,6 +75,7 @@ void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
 void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
   submap_settings_.declare(v);
   declareSearch(v);
+  free_space_options_.declare(v);
   v.add("min_score", min_score_,
         {.doc = "Least share of the returns that the local map must explain.", .min = 0, .max = 1});
   v.add("max_lost_scans", max_lost_scans_,
@@ -93,6 +95,7 @@ void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
 void SubmapScanMatcher::prepare() {
   submaps_ = submap_settings_.emptySubmaps();
   pyramid_stale_ = true;
+  free_space_ = FreeSpaceMemory(free_space_options_);
   trajectory_ = Trajectory();
   segment_ = lost_scans_ = 0;
   last_t_.reset();
@@ -101,7 +104,7 @@ void SubmapScanMatcher::prepare() {
 
 ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
   if (!submaps_) prepare();
-  const PlanarScan planar = toPlanarScan(scan, submap_settings_.min_range_m, submap_settings_.max_range_m);
+  const PlanarScan planar = submap_settings_.planar(scan);
   const Points2 points = submap_settings_.points(planar);
   const bool has_prior = previous_from_current.has_value();
   const Pose2 predicted = predict(scan.t, previous_from_current);
@@ -114,7 +117,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   }
   if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
-  if (!submaps_->oldest()) return start(scan, planar, predicted);
+  if (!submaps_->oldest()) return start(scan, predicted);
 
   GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
   if (has_prior && jumps(scan.t, predicted)) {
@@ -125,7 +128,8 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     if (lost_scans_ < max_lost_scans_) return lose(scan.t, predicted, has_prior, "no overlap");
     ++segment_;
     submaps_->finishAll();
-    return start(scan, planar, predicted);
+    free_space_.clear();
+    return start(scan, predicted);
   }
   ScanMatch out;
   out.matched = true;
@@ -133,7 +137,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   out.segment = segment_;
   out.score = found.explained;
   out.step_covariance = stepCovariance(found);
-  accept(scan, planar, found.grid_from_scan);
+  out.moving = accept(scan, found.grid_from_scan);
   return out;
 }
 
@@ -187,7 +191,7 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   return rotateCovariance(in_odom, -last_pose_.yaw);
 }
 
-void SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
+std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Pose2& pose) {
   if (last_t_ && lost_scans_ == 0) {
     const double dt = scan.t - *last_t_;
     const Pose2 step = last_pose_.inverse() * pose;
@@ -197,18 +201,21 @@ void SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const
   last_pose_ = pose;
   lost_scans_ = 0;
   trajectory_.add(scan.t, toPose3(pose), segment_);
+  std::vector<std::size_t> moving;
+  if (free_space_options_.enabled) moving = free_space_.observe(scan, pose, submap_settings_.min_range_m);
   const MotionFilter filter = submap_settings_.filter();
-  if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return;
+  if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return moving;
   kept_t_ = scan.t;
   kept_pose_ = pose;
-  submaps_->insert(planar, pose);
+  submaps_->insert(submap_settings_.planar(withoutBeams(scan, moving)), pose);
   pyramid_stale_ = true;
+  return moving;
 }
 
-ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
+ScanMatch SubmapScanMatcher::start(const Scan& scan, const Pose2& pose) {
   velocity_ = {};
   lost_scans_ = 1;  // no movement can be derived from what came before
-  accept(scan, planar, pose);
+  accept(scan, pose);
   ScanMatch out;
   out.matched = true;
   out.odom_from_robot = pose;

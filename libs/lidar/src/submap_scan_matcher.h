@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "free_space_memory.h"
 #include "grid_refinement.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
@@ -31,12 +32,14 @@ class SubmapScanMatcher : public ScanMatcher {
   /// Whether the prediction lies beyond the search window around the steady pose.
   bool jumps(double t, const Pose2& predicted) const;
   GridRefinement matchTo(const Submap& submap, const Points2& points, const Pose2& predicted, bool has_prior);
-  void accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  /// Takes the scan over; returns the beams on what moves, which are not.
+  std::vector<std::size_t> accept(const Scan& scan, const Pose2& pose);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
-  ScanMatch start(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  ScanMatch start(const Scan& scan, const Pose2& pose);
   Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
 
   SubmapSettings submap_settings_;
+  FreeSpaceOptions free_space_options_;
   double window_m_ = 0.15, window_rad_ = 0.20944;
   double free_window_m_ = 0.4, free_window_rad_ = 0.43633;
   double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
@@ -50,6 +53,7 @@ class SubmapScanMatcher : public ScanMatcher {
   std::unique_ptr<ActiveSubmaps> submaps_;
   ScorePyramid pyramid_;  ///< of the submap matched against
   bool pyramid_stale_ = true;
+  FreeSpaceMemory free_space_;
   Trajectory trajectory_;
   int segment_ = 0, lost_scans_ = 0;
   std::optional<double> last_t_;  ///< of the last scan, matched or predicted

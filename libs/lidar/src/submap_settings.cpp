@@ -45,6 +45,10 @@ MotionFilter SubmapSettings::filter() const {
   return {keep_distance_m, keep_angle_rad, keep_time_s};
 }
 
+PlanarScan SubmapSettings::planar(const Scan& scan) const {
+  return toPlanarScan(scan, min_range_m, max_range_m);
+}
+
 Points2 SubmapSettings::points(const PlanarScan& scan) const {
   return thinnedTo(scan.points, thinning_m, max_points);
 }

@@ -21,6 +21,7 @@ struct SubmapSettings {
   void declare(ParameterVisitor& v);
   std::unique_ptr<ActiveSubmaps> emptySubmaps() const;
   MotionFilter filter() const;
+  PlanarScan planar(const Scan& scan) const;
   /// Returns to match, robot frame.
   Points2 points(const PlanarScan& scan) const;
 };

@@ -20,4 +20,7 @@ struct DynamicWedge {
 /// Marks the valid returns inside any wedge as invalid. Returns how many.
 int removeDynamicReturns(Scan& scan, const std::vector<DynamicWedge>& wedges);
 
+/// The scan with the returns of these beams marked as invalid.
+Scan withoutBeams(Scan scan, const std::vector<std::size_t>& beams);
+
 }  // namespace roomgraph

@@ -21,6 +21,9 @@ struct ScanMatch {
   Eigen::Matrix3d step_covariance =
       Eigen::Matrix3d::Identity();  ///< of the movement since the last scan: m, rad
   double score = 0;                 ///< share of returns explained by the local map, [0, 1]
+  /// Beams with returns on what moves by itself, as the scans before show; ascending. The local map is
+  /// without them.
+  std::vector<std::size_t> moving;
 };
 
 /// Matches each scan against a local map made of the scans before it.
