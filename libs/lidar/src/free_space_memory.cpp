@@ -14,7 +14,9 @@ constexpr double kLevelCosine = 0.99619;  // 5 degrees
 constexpr double kSamePlane_m = 0.05;     // scans at different heights see different things
 constexpr double kSurfaceGap_m = 1;       // neighbouring returns nearer than this may lie on one surface
 constexpr float kEdgeFactor = 2.5F;       // next to what is not free, a return soon counts as static
+constexpr float kHeldAgainst_s = 3;       // a return outweighs beams of this time; thin things are seldom hit
 constexpr float kForgetPerSecond = 0.1F;  // of contradiction, while beams go through again
+constexpr double kPersonGap_m = 0.2;      // between returns of one thing
 constexpr double kFarthest_m = 1e6;       // numbers of cells must fit an int
 constexpr int kFewestReturns = 10;        // of fewer, a share says nothing
 
@@ -67,6 +69,11 @@ void FreeSpaceOptions::declare(ParameterVisitor& v) {
          .unit = "s",
          .min = 0.1,
          .max = 1000});
+  v.add("least_moving_width_m", least_width_m,
+        {.doc = "Narrower things, such as legs of furniture, are not taken as moving.",
+         .unit = "m",
+         .min = 0,
+         .max = 1});
   v.add("max_moving_share", max_share,
         {.doc = "When a larger share of the returns contradicts free space, the pose is wrong and none is "
                 "left out.",
@@ -102,6 +109,7 @@ std::vector<std::size_t> FreeSpaceMemory::observe(const Scan& scan, const Pose2&
   roll(cellOf(origin_));
 
   std::vector<Return> returns = returnsOf(scan, odom_from_robot, min_range_m);
+  dropThin(returns, std::abs(scan.angle_step_rad));
   std::vector<std::size_t> moving;
   for (const Return& r : returns)
     if (r.moving) moving.push_back(r.beam);
@@ -178,8 +186,23 @@ std::vector<FreeSpaceMemory::Return> FreeSpaceMemory::returnsOf(const Scan& scan
   return out;
 }
 
-// Until a cell is free any return in it starts the count again; a free one has to be contradicted for a
-// while, so that somebody who walks through leaves it free.
+// Legs of furniture are thin: beams pass by on both sides, and from elsewhere one hits.
+void FreeSpaceMemory::dropThin(std::vector<Return>& returns, double beam_step_rad) const {
+  for (std::size_t first = 0, end = 0; first < returns.size(); first = end) {
+    end = first + 1;
+    if (!returns[first].moving) continue;
+    while (end < returns.size() && returns[end].moving && returns[end].beam <= returns[end - 1].beam + 2 &&
+           (returns[end].point - returns[end - 1].point).norm() < kPersonGap_m)
+      ++end;
+    const double between_beams = (returns[first].point - origin_).norm() * beam_step_rad;
+    const double width = (returns[end - 1].point - returns[first].point).norm() + between_beams;
+    if (width >= options_.least_width_m) continue;
+    for (std::size_t i = first; i < end; ++i) returns[i].moving = false;
+  }
+}
+
+// Until a cell is free any return in it starts the count again, from below; a free one has to be contradicted
+// for a while, so that somebody who walks through leaves it free.
 void FreeSpaceMemory::hit(const std::vector<Return>& returns) {
   for (const Return& r : returns) {
     if ((r.point - origin_).squaredNorm() > options_.reach_m * options_.reach_m) continue;
@@ -188,7 +211,7 @@ void FreeSpaceMemory::hit(const std::vector<Return>& returns) {
     cell.scan = scan_;
     cell.contradicted_s += step_s_ * (r.moving ? 1.F : kEdgeFactor);
     if (!isFree(cell) || cell.contradicted_s >= static_cast<float>(options_.settle_s))
-      cell.free_s = cell.contradicted_s = 0;
+      cell.free_s = -kHeldAgainst_s, cell.contradicted_s = 0;
   }
 }
 

@@ -20,6 +20,7 @@ struct FreeSpaceOptions {
   double settle_s = 5;
   double memory_s = 30;
   double max_share = 0.35;
+  double least_width_m = 0.1;
 
   void declare(ParameterVisitor& v);
 };
@@ -41,7 +42,7 @@ class FreeSpaceMemory {
 
  private:
   struct Cell {
-    float free_s = 0;          ///< for how long beams have gone through, up to `free_after_s`
+    float free_s = 0;  ///< for how long beams have gone through, up to `free_after_s`; < 0 after a return
     float contradicted_s = 0;  ///< for how long returns have lain in it since it was free
     float passed_s = -1e9F;    ///< time of the last beam through it
     std::uint32_t scan = 0;    ///< number of the last scan that changed it or was not to change it
@@ -57,6 +58,7 @@ class FreeSpaceMemory {
   bool isFree(const Cell& cell) const;
   bool isFreeAround(const Eigen::Vector2i& cell);
   void roll(const Eigen::Vector2i& center);
+  void dropThin(std::vector<Return>& returns, double beam_step_rad) const;
   std::vector<Return> returnsOf(const Scan& scan, const Pose2& odom_from_robot, double min_range_m);
   void hit(const std::vector<Return>& returns);
   void keepSurfaces(const std::vector<Return>& returns);
