@@ -2,6 +2,7 @@
 // A person who sits in a robot's view for minutes, all the way: scan matcher, grid and landmarks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "drive.h"
@@ -144,6 +145,47 @@ TEST(PeopleMap, DepthImagesLeavePeopleOut) {
   EXPECT_FALSE(occupiedWithin(left_out, front, 0.4));
   EXPECT_TRUE(occupiedWithin(drawn, wall, 0.1));
   EXPECT_TRUE(occupiedWithin(left_out, wall, 0.1));
+}
+
+constexpr double kFollowsFrom_s = 4, kStops_s = 8.5;
+
+// Somebody goes after the robot on its lap, a metre behind its back, where no camera looks, and stops in the
+// end.
+Eigen::Vector2d follower(double t) {
+  const Pose2 place = Drive::truth(std::min(t, kStops_s) - 2);
+  return {place.x, place.y};
+}
+
+SlamResult lapWithFollower(const std::string& lidar_keys) {
+  registerAllClasses();
+  SemanticSlam slam(
+      setupWith("[tracking]\nenabled = false\n[detection]\nenabled = false\n[lidar]\n" + lidar_keys));
+  Drive drive;
+  for (int i = 0; i < 120; ++i) {
+    const double t = 0.1 * i;
+    auto walls = asymmetricRoom();
+    if (t > kFollowsFrom_s)
+      for (const Wall& side : boxAt(follower(t).x() - 0.15, follower(t).y() - 0.15, 0.3, 0.3))
+        walls.push_back(side);
+    slam.process(drive.odometry(t));
+    slam.process(castScan(walls, Drive::truth(t), t + 0.001, drive.random, 0.01, 720));
+  }
+  return slam.finish();
+}
+
+TEST(PeopleMap, WhoeverFollowsTheRobotLeavesNoTrace) {
+  const SlamResult with = lapWithFollower("");
+  const SlamResult without = lapWithFollower("leave_out_moving = false\n");
+  ASSERT_TRUE(with.map.occupancy && without.map.occupancy);
+  EXPECT_GT(without.counts.scans, 100);
+  EXPECT_EQ(without.counts.returns_in_free_space, 0);
+  EXPECT_TRUE(occupiedWithin(*without.map.occupancy, follower(Drive::kLap_s), 0.2))
+      << "else the test shows nothing";
+  EXPECT_GT(with.counts.returns_in_free_space, 500);
+  for (double t = kFollowsFrom_s; t < kStops_s; t += 0.1)
+    EXPECT_FALSE(occupiedWithin(*with.map.occupancy, follower(t), 0.35)) << t;
+  EXPECT_EQ(with.counts.returns_on_people, 0) << "no image showed anybody";
+  EXPECT_TRUE(occupiedWithin(*with.map.occupancy, {5, 0}, 0.1)) << "the walls stay";
 }
 
 }  // namespace

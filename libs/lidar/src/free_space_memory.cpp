@@ -51,9 +51,9 @@ void FreeSpaceOptions::declare(ParameterVisitor& v) {
            "Whether returns in space that earlier beams went through are taken as on people and left out."});
   v.add(
       "free_cell_m", cell_m,
-      {.doc = "Cell size of the memory of free space around the robot.", .unit = "m", .min = 0.02, .max = 1});
+      {.doc = "Cell size of the memory of free space around the robot.", .unit = "m", .min = 0.05, .max = 1});
   v.add("free_reach_m", reach_m,
-        {.doc = "Distance up to which space is kept in mind as free.", .unit = "m", .min = 1, .max = 50});
+        {.doc = "Distance up to which space is kept in mind as free.", .unit = "m", .min = 1, .max = 30});
   v.add("free_after_s", free_after_s,
         {.doc = "Space is free when beams have gone through for this time.",
          .unit = "s",

@@ -101,6 +101,7 @@ ordered_json countsJson(const SlamResult& result) {
           {"scans", counts.scans},
           {"scans_unmatched", counts.scans_unmatched},
           {"returns_on_people", counts.returns_on_people},
+          {"returns_in_free_space", counts.returns_in_free_space},
           {"odometry", counts.odometry},
           {"recorded_detections", counts.detections},
           {"key_poses", counts.key_poses},

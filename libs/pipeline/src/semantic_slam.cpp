@@ -96,6 +96,8 @@ StepReport SemanticSlam::step(const Scan& scan) {
   Scan clean = scan;
   counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
   const ScanMatch matched = match(clean);
+  clean = withoutBeams(std::move(clean), matched.moving);
+  counts_.returns_in_free_space += static_cast<int>(matched.moving.size());
   if (!matched.matched) {
     ++counts_.scans_unmatched;
     ++counts_.reasons["lidar: " + matched.reason];

@@ -25,7 +25,9 @@ namespace roomgraph {
 /// Numbers that a run ends with.
 struct RunCounts {
   int frames = 0, scans = 0, odometry = 0, detections = 0;
-  int frames_lost = 0, scans_unmatched = 0, returns_on_people = 0;
+  int frames_lost = 0, scans_unmatched = 0;
+  int returns_on_people = 0;      ///< left out, as images show somebody there
+  int returns_in_free_space = 0;  ///< left out, as the scans before show that nothing was there
   int key_poses = 0, loop_closures = 0;
   std::map<std::string, int> reasons;  ///< expected failures by reason
 };
