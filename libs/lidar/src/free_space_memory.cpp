@@ -34,11 +34,15 @@ void crossCells(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Visit vi
     delta[k] = 1 / std::max(1e-12, std::abs(way[k]));
     next[k] = (way[k] >= 0 ? cell[k] + 1 - from[k] : from[k] - cell[k]) * delta[k];
   }
+  double next_x = next.x(), next_y = next.y();  // scalars: this loop takes most of a scan's time
+  const double delta_x = delta.x(), delta_y = delta.y();
+  int x = cell.x(), y = cell.y();
   for (int left = (last - cell).cwiseAbs().sum(); left > 0; --left) {
-    visit(cell);
-    const int axis = next.x() < next.y() ? 0 : 1;
-    cell[axis] += step[axis];
-    next[axis] += delta[axis];
+    visit(x, y);
+    if (next_x < next_y)
+      x += step.x(), next_x += delta_x;
+    else
+      y += step.y(), next_y += delta_y;
   }
 }
 
@@ -222,28 +226,31 @@ void FreeSpaceMemory::keepSurfaces(const std::vector<Return>& returns) {
     if (b.beam != a.beam + 1 || (b.point - a.point).norm() > kSurfaceGap_m) continue;
     if ((a.point - origin_).norm() > options_.reach_m || (b.point - origin_).norm() > options_.reach_m)
       continue;
-    crossCells(a.point / options_.cell_m, b.point / options_.cell_m,
-               [&](const Eigen::Vector2i& cell) { at(cell).scan = scan_; });
+    crossCells(a.point / options_.cell_m, b.point / options_.cell_m, [&](int x, int y) {
+      at({x, y}).scan = scan_;
+    });
   }
+}
+
+void FreeSpaceMemory::pass(Cell& cell) {
+  cell.scan = scan_;
+  if (now_s_ - cell.passed_s > static_cast<float>(options_.memory_s)) cell.free_s = cell.contradicted_s = 0;
+  cell.passed_s = now_s_;
+  cell.free_s = std::min(static_cast<float>(options_.free_after_s), cell.free_s + step_s_);
+  cell.contradicted_s = std::max(0.F, cell.contradicted_s - kForgetPerSecond * step_s_);
 }
 
 // As far as neighbouring beams are closer than a cell: farther on, something in a cell may lie between them.
 void FreeSpaceMemory::pass(const std::vector<Return>& returns, double beam_step_rad) {
   const double reach =
       beam_step_rad > 0 ? std::min(options_.reach_m, options_.cell_m / beam_step_rad) : options_.reach_m;
-  const auto memory_s = static_cast<float>(options_.memory_s),
-             enough_s = static_cast<float>(options_.free_after_s);
+  const std::uint32_t scan = scan_;
   for (const Return& r : returns) {
     const Eigen::Vector2d ray = r.point - origin_;
     const Eigen::Vector2d end = origin_ + ray * std::min(1.0, reach / std::max(1e-9, ray.norm()));
-    crossCells(origin_ / options_.cell_m, end / options_.cell_m, [&](const Eigen::Vector2i& where) {
-      Cell& cell = at(where);
-      if (cell.scan == scan_) return;
-      cell.scan = scan_;
-      if (now_s_ - cell.passed_s > memory_s) cell.free_s = cell.contradicted_s = 0;
-      cell.passed_s = now_s_;
-      cell.free_s = std::min(enough_s, cell.free_s + step_s_);
-      cell.contradicted_s = std::max(0.F, cell.contradicted_s - kForgetPerSecond * step_s_);
+    crossCells(origin_ / options_.cell_m, end / options_.cell_m, [&](int x, int y) {
+      Cell& cell = at({x, y});
+      if (cell.scan != scan) pass(cell);
     });
   }
 }

@@ -62,6 +62,7 @@ class FreeSpaceMemory {
   std::vector<Return> returnsOf(const Scan& scan, const Pose2& odom_from_robot, double min_range_m);
   void hit(const std::vector<Return>& returns);
   void keepSurfaces(const std::vector<Return>& returns);
+  void pass(Cell& cell);
   void pass(const std::vector<Return>& returns, double beam_step_rad);
 
   FreeSpaceOptions options_;
