@@ -113,12 +113,13 @@ std::vector<ObjectFrame> framesOf(const KeyPoses& poses) {
   return frames;
 }
 
-// The variance of .01 m^2 is divided between what both visits to the front share and what each has for itself.
+// The variance of (.2 x .1 m)^2 is divided between what both visits to the front share and what each has for itself.
 TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
   const MotionSource none(MotionNoise{}, true);
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
   BackendOptions options;
+  options.landmark_sigma_share = 0.2;
   options.landmark_repeating_share = 0.7;
   const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);
   ASSERT_EQ(factors.views.size(), 2u) << "from the front, and from behind";
@@ -127,7 +128,7 @@ TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
     EXPECT_EQ(shared.landmark, LandmarkId{4});
     EXPECT_TRUE(factors.views.contains(shared.view));
     EXPECT_NEAR(shared.weight, 0.8, 1e-12);
-    EXPECT_TRUE(shared.covariance.isApprox(0.007 * Eigen::Matrix4d::Identity(), 1e-9));
+    EXPECT_TRUE(shared.covariance.isApprox(0.04 * 0.007 * Eigen::Matrix4d::Identity(), 1e-9));
   }
   std::map<LandmarkId, std::vector<std::int64_t>> nodes;
   for (const auto& sighting : factors.sightings) {
@@ -136,7 +137,7 @@ TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
     const double error = sighting.node.value == 3 ? -0.1 : 0.1;
     EXPECT_LT((pose * sighting.position_in_robot - kChair - error * Eigen::Vector3d::UnitX()).norm(), 1e-9);
     EXPECT_NEAR(sighting.weight, 0.8, 1e-12);
-    EXPECT_TRUE(sighting.covariance.isApprox(0.003 * Eigen::Matrix4d::Identity(), 1e-9));
+    EXPECT_TRUE(sighting.covariance.isApprox(0.04 * 0.003 * Eigen::Matrix4d::Identity(), 1e-9));
   }
   std::set<std::vector<std::int64_t>> by_view;
   for (const auto& [view, seen_from] : nodes) by_view.insert(seen_from);
@@ -150,6 +151,7 @@ TEST(ObjectFactors, ViewsAreAveragedNotSightings) {
   const Motion motion{none, none, none};
   const KeyPoses poses = twoVisits(motion);
   BackendOptions options;
+  options.landmark_sigma_share = 1;
   options.landmark_repeating_share = 0.999;
   options.landmark_robust_width = 0;
   const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, options);

@@ -67,7 +67,7 @@ void registerScenes() {
   const std::array<const char*, 3> arms[] = {
       {"unary", "UnarySelector", ""},
       {"paper", "CrfSelector", "link_weight = 0"},
-      {"half", "CrfSelector", "link_weight = 0.5"},
+      {"whole", "CrfSelector", "link_weight = 1"},
       {"crf", "CrfSelector", ""},
       {"no_order", "CrfSelector", "order_bonus = 0"},
       {"none_competes", "CrfSelector", "none_competes = true"},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "roomgraph/geometry/covariance.h"
 
@@ -106,16 +107,16 @@ void LandmarkMap::weigh(Landmark& landmark, double ratio) const {
   landmark.existence = std::clamp(exists / (exists + 1 - landmark.existence), 0.01, 1 - 1e-9);
 }
 
-void LandmarkMap::updateExistence(LandmarkId id, double log_ratio) {
+void LandmarkMap::updateExistence(LandmarkId id, double log_ratio, FrameId missed_in) {
   Landmark* landmark = get(id);
   if (!landmark) return;
   weigh(*landmark, std::exp(log_ratio));
-  records_[id].existence_updates.push_back({frame_, log_ratio});
+  records_[id].existence_updates.push_back({frame_, log_ratio, missed_in});
 }
 
-void LandmarkMap::miss(LandmarkId id) {
-  updateExistence(id,
-                  std::log((1 - options_.detection_probability) / (1 - options_.false_alarm_probability)));
+void LandmarkMap::miss(LandmarkId id, FrameId frame) {
+  updateExistence(id, std::log((1 - options_.detection_probability) / (1 - options_.false_alarm_probability)),
+                  frame);
 }
 
 void LandmarkMap::seenThrough(LandmarkId id, int rays) {
@@ -223,6 +224,20 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::splitMixed() {
   return split_pairs;
 }
 
+namespace {
+
+// Landmarks with the frames that show them, as decided at last.
+std::set<std::pair<LandmarkId, FrameId>> seenIn(const std::vector<std::vector<WorldMeasurement>>& by_frame,
+                                                const Reassociation& result) {
+  std::set<std::pair<LandmarkId, FrameId>> seen;
+  for (std::size_t f = 0; f < by_frame.size(); ++f)
+    for (std::size_t k = 0; k < by_frame[f].size(); ++k)
+      seen.emplace(result.decisions[f][k].landmark, by_frame[f][k].measurement.frame);
+  return seen;
+}
+
+}  // namespace
+
 void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
                         const Reassociation& result) {
   const std::size_t known_changes = identity_.changes().size();
@@ -232,10 +247,14 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
     if (kind == IdentityChange::Kind::kMerge && records_.contains(removed))
       joinRecords(records_[kept], records_[removed], false);
   }
-  std::multimap<FrameId, std::pair<LandmarkId, double>> existence_updates;
+  // Whoever is now said to be seen in a frame was not missed in it, though another one was taken for it then;
+  // and of landmarks that were merged only one was missed.
+  auto not_missed = seenIn(by_frame, result);
+  std::multimap<FrameId, std::pair<LandmarkId, ExistenceUpdate>> existence_updates;
   for (const auto& landmark : result.landmarks)
-    for (const auto& [after, log_ratio] : records_[landmark.id].existence_updates)
-      existence_updates.emplace(after, std::pair{landmark.id, log_ratio});
+    for (const ExistenceUpdate& update : records_[landmark.id].existence_updates)
+      if (!update.missed_in.valid() || not_missed.emplace(landmark.id, update.missed_in).second)
+        existence_updates.emplace(update.after, std::pair{landmark.id, update});
   // The sightings are fused again from the beginning, for existence and votes; then place and size are set to
   // those of the re-association.
   landmarks_ = result.landmarks;
@@ -247,7 +266,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   auto next = existence_updates.begin();
   const auto weighUntil = [&](FrameId frame) {
     for (; next != existence_updates.end() && next->first < frame; ++next)
-      updateExistence(next->second.first, next->second.second);
+      updateExistence(next->second.first, next->second.second.log_ratio, next->second.second.missed_in);
   };
   for (std::size_t f = 0; f < by_frame.size(); ++f) {
     if (!by_frame[f].empty()) weighUntil(by_frame[f].front().measurement.frame);

@@ -102,6 +102,7 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
             Gathered& out) {
   LandmarkFactor sighting = sightingOf(decision, landmark.id, node, node_from_camera);
   sighting.weight *= trust;
+  sighting.covariance *= options.landmark_sigma_share * options.landmark_sigma_share;
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
   out.sizes[node.id].push_back({&measurement.proposal, sighting.yaw_in_robot,

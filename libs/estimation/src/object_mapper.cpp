@@ -78,7 +78,7 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   for (const auto& landmark : landmarks_.landmarks())
     if (!seen.contains(landmark.id) && shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
-  for (const auto id : missed) landmarks_.miss(id);
+  for (const auto id : missed) landmarks_.miss(id, frame.id);
 }
 
 void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot) {

@@ -85,6 +85,12 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
                 "because those in a row share their errors.",
          .min = 1e-4,
          .max = 1});
+  v.add("landmark_sigma_share", o.landmark_sigma_share,
+        {.doc = "Standard deviation of a sighting in the graph, as a share of its proposal's, which also "
+                "allows for "
+                "the gross errors that the robust loss takes.",
+         .min = 0.01,
+         .max = 10});
   v.add("landmark_repeating_share", o.landmark_repeating_share,
         {.doc = "Share of a sighting's variance that all sightings of the object from one direction have in common.",
          .min = 0.01,

@@ -27,7 +27,7 @@ struct WindowOptions {
   int frames = 5;            ///< N
   double min_overlap = 0.2;  ///< of a box with the predicted one
   double order_bonus = 0.1;  ///< bonus of a pair of gamma (identityLinks)
-  double link_weight = 1;    ///< links weigh s (this + 1 - beta); 0: the paper's weight
+  double link_weight = 0.5;  ///< links weigh s (this + 1 - beta); 0: the paper's weight
 };
 
 /// Advances the window by a frame: drops sightings that are `frames` or more old, links the frame's sightings

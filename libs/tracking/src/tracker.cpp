@@ -89,8 +89,6 @@ TrackingResult Tracker::start(View view) {
   lost_frames_ = 0;
   last_covariance_.setZero();
   result.keyframe = true;
-  // The map begins with this frame: its place in it is only as unsure as any.
-  result.step_covariance = floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
   result.inliers = result.matches = static_cast<int>(last_points_.size());
   report(view.features, map_.keyframe(reference_).points, result);
   return result;

@@ -23,6 +23,7 @@ struct PlaceSketch {
 struct ExistenceUpdate {
   FrameId after;         ///< the last frame with measurements before it
   double log_ratio = 0;  ///< added to the log odds of existence
+  FrameId missed_in;     ///< of a miss: the frame that should have shown it
 };
 
 /// Record of a landmark beside its estimate.

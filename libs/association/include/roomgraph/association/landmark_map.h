@@ -32,7 +32,7 @@ class LandmarkMap {
   LandmarkId update(const WorldMeasurement& measurement, const Association& association);
 
   /// Lowers the existence of a landmark that should have been detected and was not.
-  void miss(LandmarkId id);
+  void miss(LandmarkId id, FrameId frame = {});
 
   /// Number of rays of one scan that passed through the landmark's volume (evidence against it), or ended
   /// inside its footprint (evidence for it). Rays of a scan are not independent: their number is limited.
@@ -67,7 +67,7 @@ class LandmarkMap {
  private:
   Landmark* get(LandmarkId id);
   void weigh(Landmark& landmark, double ratio) const;
-  void updateExistence(LandmarkId id, double log_ratio);
+  void updateExistence(LandmarkId id, double log_ratio, FrameId missed_in = {});
   double likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const;
   void countTogether(FrameId frame, LandmarkId id);
   void join(Landmark& kept, const Landmark& removed);

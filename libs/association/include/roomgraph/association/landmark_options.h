@@ -12,7 +12,7 @@ struct LandmarkOptions : Configurable {
   bool enabled = true;
   LandmarkRules rules;
   double detection_probability = 0.6, false_alarm_probability = 0.15;
-  double score_gain = 5, neutral_score = 0.3, ray_gain = 0.1;
+  double score_gain = 5, neutral_score = 0.2, ray_gain = 0.1;
   double confirm_existence = 0.9, exclusive_overlap = 0.15;
   int confirm_observations = 6;
   void declareParameters(ParameterVisitor& v) override;

@@ -28,6 +28,7 @@ struct BackendOptions : Configurable {
   double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
   double landmark_information_share = 0.01;
+  double landmark_sigma_share = 0.5;
   double landmark_repeating_share = 0.5;
   double landmark_view_rad = 0.26;
   bool object_boxes = true;
