@@ -295,11 +295,11 @@ ScanMatch afterSomebodyStopped(bool leave_out) {
   return last;
 }
 
-TEST(SubmapScanMatcher, WhatMovesStaysOutOfItsMap) {
-  const ScanMatch with = afterSomebodyStopped(false), without = afterSomebodyStopped(true);
-  EXPECT_TRUE(with.moving.empty());
-  EXPECT_GT(without.moving.size(), 8U);
-  EXPECT_GT(with.score, without.score + 0.03) << "the map explains whom it holds";
+TEST(SubmapScanMatcher, WhatMovesIsTold) {
+  const ScanMatch off = afterSomebodyStopped(false), on = afterSomebodyStopped(true);
+  EXPECT_TRUE(off.moving.empty());
+  EXPECT_GT(on.moving.size(), 8U);
+  EXPECT_EQ(on.score, off.score) << "its own map holds all returns";
 }
 
 // Wheels that slip move the prediction, not the scan's pose, from which free space is told.

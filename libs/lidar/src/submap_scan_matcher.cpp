@@ -7,7 +7,6 @@
 
 #include "correlative_search.h"
 #include "roomgraph/geometry/covariance.h"
-#include "roomgraph/lidar/dynamic_return_filter.h"
 
 namespace roomgraph {
 
@@ -207,7 +206,7 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Pose2
   if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return moving;
   kept_t_ = scan.t;
   kept_pose_ = pose;
-  submaps_->insert(submap_settings_.planar(withoutBeams(scan, moving)), pose);
+  submaps_->insert(submap_settings_.planar(scan), pose);
   pyramid_stale_ = true;
   return moving;
 }

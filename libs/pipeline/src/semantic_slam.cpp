@@ -96,8 +96,6 @@ StepReport SemanticSlam::step(const Scan& scan) {
   Scan clean = scan;
   counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
   const ScanMatch matched = match(clean);
-  clean = withoutBeams(std::move(clean), matched.moving);
-  counts_.returns_in_free_space += static_cast<int>(matched.moving.size());
   if (!matched.matched) {
     ++counts_.scans_unmatched;
     ++counts_.reasons["lidar: " + matched.reason];
@@ -105,6 +103,8 @@ StepReport SemanticSlam::step(const Scan& scan) {
   } else if (setup_->stages.scan_loop_closer) {
     setup_->stages.scan_loop_closer->add(clean, matched);
   }
+  clean = withoutBeams(std::move(clean), matched.moving);
+  counts_.returns_in_free_space += static_cast<int>(matched.moving.size());
   mapper_.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t), setup_->database);
