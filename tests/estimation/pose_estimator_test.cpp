@@ -97,6 +97,28 @@ TEST(PoseEstimator, WindowWithLocalMapsEndsWhereTheWholeGraphDoes) {
   }
 }
 
+// Images are lost while a local map would begin, and come back in the same segment: poses between are
+// interpolated from then on, so that the local maps are others than those the window was built with.
+TEST(PoseEstimator, ImagesThatComeBackChangeTheLocalMapsOfTheWindow) {
+  for (const int lost : {3, 5, 8}) {
+    Estimation run(5);
+    run.options.local_map_nodes = 4;
+    for (int t = 0; t < kNodes; ++t) {
+      const bool seen = t < 10 || t >= 10 + lost;
+      if (seen) run.motion.visual.add(t, truthAt(t), 0, 1e-6 * Matrix6d::Identity());
+      ASSERT_TRUE(run.estimator.advance(t));
+      ASSERT_NO_THROW(run.estimator.optimizeWindow()) << "lost for " << lost << " s, at " << t;
+    }
+    // Over what is longer than the window wheels alone carry it; afterwards images hold it again.
+    if (lost < 5) {
+      EXPECT_LT(distance(run.last(), run.lastOfBatch()), 0.05);
+    }
+    const Pose3 back = run.estimator.poses().nodes()[static_cast<std::size_t>(10 + lost)].world_from_robot;
+    EXPECT_LT(distance(back.inverse() * run.last(), truthAt(10 + lost).inverse() * truthAt(kNodes - 1)),
+              0.02);
+  }
+}
+
 TEST(PoseEstimator, PosesThatLeftTheWindowStay) {
   Estimation run(5);
   run.drive(false);

@@ -81,8 +81,9 @@ void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
 
 // Key poses from `first` on, with the factors between neighbours and of the floor. `hold`: the gauge is fixed at the
 // first one.
-void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
-              const Measurements& measurements, const BackendOptions& options, std::size_t first, bool hold) {
+std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
+                               const Measurements& measurements, const BackendOptions& options,
+                               std::size_t first, bool hold) {
   const auto& nodes = poses.nodes();
   const bool loose = hold && first == 0 && !measurements.planar && !measurements.grounds.empty();
   for (std::size_t i = first; i < nodes.size(); ++i)
@@ -91,7 +92,6 @@ void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
   const bool local_maps = options.local_map_nodes > 0;
   for (std::size_t i = first; i + 1 < nodes.size(); ++i)
     addSteps(graph, nodes[i], nodes[i + 1], motion, local_maps);
-  if (local_maps) addLocalMaps(graph, poses, motion, first, options);
   if (measurements.planar)
     for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
       graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
@@ -99,6 +99,17 @@ void addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
   for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
+  return local_maps ? addLocalMaps(graph, poses, motion, first, options) : std::vector<LocalMap>();
+}
+
+// Local maps that the prior knows and that later data of their source have replaced: the prior needs their
+// poses.
+void addReplacedMaps(Window& window, const MarginalPrior& prior) {
+  std::set<NodeId> there;
+  for (const LocalMap& map : window.local_maps) there.insert(map.id);
+  for (std::size_t i = 0; i < prior.variables.nodes.size(); ++i)
+    if (const NodeId id = prior.variables.nodes[i]; isLocalMap(id) && !there.contains(id))
+      window.graph.addPose(id, prior.poses[i]);
 }
 
 }  // namespace
@@ -123,8 +134,11 @@ Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measuremen
                    const BackendOptions& options, std::size_t first,
                    const std::optional<MarginalPrior>& prior) {
   Window window;
-  addPoses(window.graph, poses, motion, measurements, options, first, !prior);
-  if (prior) window.graph.add(*prior);
+  window.local_maps = addPoses(window.graph, poses, motion, measurements, options, first, !prior);
+  if (prior) {
+    addReplacedMaps(window, *prior);
+    window.graph.add(*prior);
+  }
   const KeyPose& oldest = poses.nodes()[first];
   const double before = first > 0 ? poses.nodes()[first - 1].t : oldest.t;
   std::set<NodeId> held;

@@ -33,6 +33,10 @@ void addFactors(FactorGraph& graph, const KeyPoses& poses, const MotionSource& s
 
 }  // namespace
 
+bool isLocalMap(NodeId id) {
+  return id >= kFirstOfImages && id.value < 2 * kFirstOfScans.value;
+}
+
 std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& source, NodeId first_id,
                                 std::size_t since, const BackendOptions& options) {
   const auto& nodes = poses.nodes();
@@ -55,21 +59,16 @@ std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& sourc
   return maps;
 }
 
-std::vector<NodeId> localMapIds(const KeyPoses& poses, const Motion& motion, std::size_t since,
-                                std::size_t end, const BackendOptions& options) {
-  std::vector<NodeId> ids;
+std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
+                                   std::size_t since, const BackendOptions& options) {
+  std::vector<LocalMap> all;
   for (const auto& [source, first_id] :
-       {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}})
-    for (const LocalMap& map : localMaps(poses, *source, first_id, since, options))
-      if (map.first < end) ids.push_back(map.id);
-  return ids;
-}
-
-void addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion, std::size_t since,
-                  const BackendOptions& options) {
-  for (const auto& [source, first_id] :
-       {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}})
-    addFactors(graph, poses, *source, localMaps(poses, *source, first_id, since, options), since, options);
+       {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}}) {
+    const std::vector<LocalMap> maps = localMaps(poses, *source, first_id, since, options);
+    addFactors(graph, poses, *source, maps, since, options);
+    all.insert(all.end(), maps.begin(), maps.end());
+  }
+  return all;
 }
 
 }  // namespace roomgraph

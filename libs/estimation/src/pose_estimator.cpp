@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "local_maps.h"
-
 namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
@@ -108,10 +106,8 @@ void PoseEstimator::slideWindow() {
   if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
   Variables keep{.nodes = window_.held};  // closures to them are added to the next window again
   for (std::size_t i = first_ + 1; i + 1 < nodes.size(); ++i) keep.nodes.push_back(nodes[i].id);
-  if (options_.local_map_nodes > 0) {
-    const auto maps = localMapIds(poses_, motion_, first_ + 1, nodes.size() - 1, options_);
-    keep.nodes.insert(keep.nodes.end(), maps.begin(), maps.end());
-  }
+  for (const LocalMap& map : window_.local_maps)
+    if (map.end > first_ + 1) keep.nodes.push_back(map.id);
   prior_ = window_.graph.marginalize(keep);
   ++first_;
 }

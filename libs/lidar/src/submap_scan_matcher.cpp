@@ -116,7 +116,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   }
   if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
-  if (!submaps_->oldest()) return start(scan, predicted);
+  if (!submaps_->oldest()) return start(scan, planar, predicted);
 
   GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
   if (has_prior && jumps(scan.t, predicted)) {
@@ -128,7 +128,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     ++segment_;
     submaps_->finishAll();
     free_space_.clear();
-    return start(scan, predicted);
+    return start(scan, planar, predicted);
   }
   ScanMatch out;
   out.matched = true;
@@ -136,7 +136,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   out.segment = segment_;
   out.score = found.explained;
   out.step_covariance = stepCovariance(found);
-  out.moving = accept(scan, found.grid_from_scan);
+  out.moving = accept(scan, planar, found.grid_from_scan);
   return out;
 }
 
@@ -190,7 +190,8 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   return rotateCovariance(in_odom, -last_pose_.yaw);
 }
 
-std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Pose2& pose) {
+std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar,
+                                                   const Pose2& pose) {
   if (last_t_ && lost_scans_ == 0) {
     const double dt = scan.t - *last_t_;
     const Pose2 step = last_pose_.inverse() * pose;
@@ -206,15 +207,15 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Pose2
   if (submaps_->oldest() && !filter.moved(kept_t_, kept_pose_, scan.t, pose)) return moving;
   kept_t_ = scan.t;
   kept_pose_ = pose;
-  submaps_->insert(submap_settings_.planar(scan), pose);
+  submaps_->insert(planar, pose);
   pyramid_stale_ = true;
   return moving;
 }
 
-ScanMatch SubmapScanMatcher::start(const Scan& scan, const Pose2& pose) {
+ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
   velocity_ = {};
   lost_scans_ = 1;  // no movement can be derived from what came before
-  accept(scan, pose);
+  accept(scan, planar, pose);
   ScanMatch out;
   out.matched = true;
   out.odom_from_robot = pose;

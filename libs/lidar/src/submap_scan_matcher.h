@@ -32,10 +32,10 @@ class SubmapScanMatcher : public ScanMatcher {
   /// Whether the prediction lies beyond the search window around the steady pose.
   bool jumps(double t, const Pose2& predicted) const;
   GridRefinement matchTo(const Submap& submap, const Points2& points, const Pose2& predicted, bool has_prior);
-  /// Takes the scan over; returns the beams on what moves, which are not.
-  std::vector<std::size_t> accept(const Scan& scan, const Pose2& pose);
+  /// Takes the scan over; returns the beams on what moves.
+  std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
-  ScanMatch start(const Scan& scan, const Pose2& pose);
+  ScanMatch start(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
 
   SubmapSettings submap_settings_;

@@ -22,8 +22,16 @@ struct Measurements {
 /// Whether any source of motion covers the time from one key pose to the other.
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 
-/// Edges of all sources of motion between consecutive key poses, priors, closures, ground and objects
-/// (method.md sec. 4.4, factors 1 to 6).
+/// What a source of motion matched against one local map: consecutive key poses, [first, end) of all. The
+/// map's own pose is that of the robot at the first one, as the source saw it.
+struct LocalMap {
+  NodeId id;
+  std::size_t first = 0, end = 0;
+  bool follows = false;  ///< the source also covers the movement from the beginning of the map before it
+};
+
+/// Movements between consecutive key poses, local maps of images and scans with the key poses in them,
+/// priors, closures, ground and objects (method.md sec. 4.4, factors 1 to 6).
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options);
 
@@ -31,6 +39,7 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
 struct Window {
   FactorGraph graph;
   std::vector<NodeId> held;
+  std::vector<LocalMap> local_maps;
 };
 
 /// The key poses from `first` on, with the marginal prior of earlier measurements; without one the first is held.

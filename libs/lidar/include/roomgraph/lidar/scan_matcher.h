@@ -19,7 +19,8 @@ struct ScanMatch {
   Pose2 odom_from_robot;  ///< pose in the matcher's own, drifting frame
   int segment = 0;        ///< counts up after each loss: poses of two segments are unrelated
   Eigen::Matrix3d step_covariance =
-      Eigen::Matrix3d::Identity();  ///< of the movement since the last scan: m, rad
+      Eigen::Matrix3d::Identity();  ///< of the movement since the last scan, and of the place in the local
+                                    ///< map: m, rad
   double score = 0;                 ///< share of returns explained by the local map, [0, 1]
   /// Beams with returns on what moves by itself, as the scans before show; ascending. The local map is
   /// without them.
