@@ -11,26 +11,26 @@
 namespace roomgraph::test {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::json;
 
 const std::string kHome = ROOMGRAPH_SOURCE_DIR "/objects_home.ini";
 
-double gap(const Json& landmark, const Json& truth) {
+double gap(const json& landmark, const json& truth) {
   return std::hypot(landmark["x"].get<double>() - truth["x"].get<double>(),
                     landmark["y"].get<double>() - truth["y"].get<double>());
 }
 
 // The nearest landmark of the object's class; null when there is none.
-const Json* landmarkOf(const Json& truth, const Json& landmarks) {
-  const Json* nearest = nullptr;
-  for (const Json& landmark : landmarks)
+const json* landmarkOf(const json& truth, const json& landmarks) {
+  const json* nearest = nullptr;
+  for (const json& landmark : landmarks)
     if (landmark["class"] == truth["class"] && (!nearest || gap(landmark, truth) < gap(*nearest, truth)))
       nearest = &landmark;
   return nearest;
 }
 
 // Half a turn makes no difference to a table.
-double yawError(const Json& landmark, const Json& truth) {
+double yawError(const json& landmark, const json& truth) {
   const double periods = truth["class"] == "table" ? 2 : 1;
   return std::abs(std::remainder(periods * (landmark["yaw"].get<double>() - truth["yaw"].get<double>()), 2 * M_PI)) /
          periods;
@@ -44,13 +44,13 @@ TEST(HomeObjects, AFlatIsMappedAsItIs) {
   const CallResult mapped = call(folder.path(), {"run", folder.file("flat/flat.rawlog").string(), "-o", folder.file("out").string(), "--set",
                                                  "pipeline.objects_file=" + kHome});
   ASSERT_EQ(mapped.exit_code, 0) << mapped.err;
-  const Json truth = Json::parse(contentOf(folder.file("flat/objects.json")))["objects"];
-  const Json landmarks = Json::parse(contentOf(folder.file("out/landmarks.json")))["landmarks"];
+  const json truth = json::parse(contentOf(folder.file("flat/objects.json")))["objects"];
+  const json landmarks = json::parse(contentOf(folder.file("out/landmarks.json")))["landmarks"];
   ASSERT_EQ(truth.size(), 4u);
   EXPECT_EQ(landmarks.size(), 4u) << landmarks.dump(1);
-  for (const Json& object : truth) {
+  for (const json& object : truth) {
     SCOPED_TRACE(object.dump());
-    const Json* landmark = landmarkOf(object, landmarks);
+    const json* landmark = landmarkOf(object, landmarks);
     ASSERT_TRUE(landmark) << landmarks.dump(1);
     EXPECT_LT(gap(*landmark, object), 0.15);
     EXPECT_LT(yawError(*landmark, object), 0.15);

@@ -38,9 +38,11 @@ TEST_F(StandardStreams, OutputThatIsLostIsAFailure) {
 
 TEST_F(StandardStreams, ClosedStreamsAreNoFailureAndNoFileTakesTheirPlace) {
   EXPECT_EQ(shell("", "--help >&- <&-").exit_code, 0);
-  const auto json = folder.file("report.json");
-  EXPECT_EQ(shell("", "info '" + kRoomToStream.string() + "' --json '" + json.string() + "' >&- <&-").exit_code, 0);
-  EXPECT_TRUE(contentOf(json).starts_with("{")) << "nothing that was printed went into it";
+  const auto report = folder.file("report.json");
+  EXPECT_EQ(
+      shell("", "info '" + kRoomToStream.string() + "' --json '" + report.string() + "' >&- <&-").exit_code,
+      0);
+  EXPECT_TRUE(contentOf(report).starts_with("{")) << "nothing that was printed went into it";
 }
 
 TEST_F(StandardStreams, RawlogsAreReadFromFilesOnly) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "roomgraph/core/order_statistics.h"
+#include "roomgraph/geometry/box_sides.h"
 
 namespace roomgraph {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 constexpr std::size_t kLeastPairs = 4;
 constexpr double kBaseline_px = 8;  // shorter distances tell nothing about the scale
 constexpr std::size_t kLeastRatios = 6;
-constexpr double kBorder_px = 1.5;
 
 double medianScale(const std::vector<cv::Point2f>& then, const std::vector<cv::Point2f>& now) {
   std::vector<double> ratios;
@@ -84,10 +84,11 @@ std::optional<PlacedBox> carriedByCamera(const Box2& box, double depth_m, const 
 
 Box2 stayingCut(const Box2& box, const Box2& before, int width, int height) {
   Box2 out = box;
-  if (before.u_min <= kBorder_px) out.u_min = std::min(out.u_min, 0.0);
-  if (before.v_min <= kBorder_px) out.v_min = std::min(out.v_min, 0.0);
-  if (before.u_max >= width - kBorder_px) out.u_max = std::max(out.u_max, static_cast<double>(width));
-  if (before.v_max >= height - kBorder_px) out.v_max = std::max(out.v_max, static_cast<double>(height));
+  const BoxSides inside = sidesInside(before, width, height);
+  if (!inside.left) out.u_min = std::min(out.u_min, 0.0);
+  if (!inside.top) out.v_min = std::min(out.v_min, 0.0);
+  if (!inside.right) out.u_max = std::max(out.u_max, static_cast<double>(width));
+  if (!inside.bottom) out.v_max = std::max(out.v_max, static_cast<double>(height));
   return out;
 }
 

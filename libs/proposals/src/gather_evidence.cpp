@@ -12,7 +12,6 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kBorder_px = 3;     // a box side this near to the image border is cut
 constexpr int kExplanations = 2;     // depth masks that are tried
 constexpr double kObjectFront = 0.1;  // quantile of the ranges taken for the object's nearest part
 // Distance of the line beside the box along which an occluder is searched: px, and a share of the box's extent.
@@ -27,7 +26,7 @@ constexpr double kRaised_m = 0.3, kNotBehind_m = 0.1, kOverTheEdge_m = 0.02;
 constexpr double kObjectBottom = 0.02;  // quantile of the heights taken for the lowest part in view
 
 BoxSides sidesAtBorder(const BoxEvidence& e) {
-  const BoxSides inside = sidesInside(e.box, e.camera, kBorder_px);
+  const BoxSides inside = sidesInside(e.box, e.camera);
   return {!inside.left, !inside.top, !inside.right, !inside.bottom};
 }
 

@@ -19,11 +19,18 @@ struct BoxSides {
   bool operator==(const BoxSides&) const = default;
 };
 
-/// Which sides of a measured box lie inside the image, farther than `border_px` from its border: a detector's
-/// box hardly ever ends on the very last pixel.
-inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera, double border_px = 2) {
-  return {box.u_min > border_px, box.v_min > border_px, box.u_max < camera.width - border_px,
-          box.v_max < camera.height - border_px};
+/// A side this near to the image border (px) is cut by it: a detector's box hardly ever ends on the very last
+/// pixel.
+inline constexpr double kImageBorder_px = 3;
+
+/// Which sides of a measured box lie inside an image of this size (px), off its border.
+inline BoxSides sidesInside(const Box2& box, int width, int height) {
+  return {box.u_min > kImageBorder_px, box.v_min > kImageBorder_px, box.u_max < width - kImageBorder_px,
+          box.v_max < height - kImageBorder_px};
+}
+
+inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera) {
+  return sidesInside(box, camera.width, camera.height);
 }
 
 }  // namespace roomgraph
