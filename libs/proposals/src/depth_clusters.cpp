@@ -17,6 +17,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kShrink = 0.02;          // of the box's size, per side: its rim is background
+constexpr double kUsualAspect = 0.45;     // width by height of a door that is seen from the front
 constexpr double kAround = 0.45,
                  kGap =
                      0.06;  // of the box's size: how far beside it is looked, and what is left out at its rim
@@ -215,7 +216,8 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
 }
 
 DepthMask sampleAround(const Frame& frame, const Box2& box, const Pose3& ground_from_camera, int max_points) {
-  const double du = kAround * box.width(), dv = kAround * box.height();
+  // A narrow box may be of a leaf that is seen from the side: there is no less wall beside it.
+  const double du = kAround * std::max(box.width(), kUsualAspect * box.height()), dv = kAround * box.height();
   const Box2 outer = clipped({box.u_min - du, box.v_min - dv, box.u_max + du, box.v_max}, frame.depth.cols,
                              frame.depth.rows);
   const double gap_u = kGap * box.width(), gap_v = kGap * box.height();

@@ -82,6 +82,8 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
     adjustHeight(placed, evidence);
     judge(placed, evidence);
   }
+  if (leaf && !guesses.empty())
+    if (const auto doorway = doorwayOfLeaf(*leaf, guesses.front(), evidence)) guesses = {*doorway};
   return keepBest(guesses, {}, limits);
 }
 

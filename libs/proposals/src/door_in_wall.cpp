@@ -3,6 +3,7 @@
 #include "door_in_wall.h"
 
 #include <cmath>
+#include <limits>
 
 #include "door_on_plane.h"
 #include "roomgraph/proposals/shape_fit.h"
@@ -17,6 +18,14 @@ constexpr double kSameDirection_rad = 0.04, kSameSigmas = 2;
 // A leaf is flush with the wall's face or set back by up to the wall's thickness, in the wall's direction;
 // one that is turned by more is open.
 constexpr double kLeafBefore_m = 0.06, kLeafBehind_m = 0.25, kOpen_rad = 0.25;
+
+// An open leaf: turned against its wall by at least so much, an end this near to the wall; on the wall beside
+// its hinge nothing is seen where the doorway is, between this distance from the hinge and the usual width
+// less it.
+constexpr double kAjar_rad = 0.6, kAtHinge_m = 0.15, kJamb_m = 0.15;
+constexpr double kBesideHinge_m = 1.2;  // wall points farther off may be another wall's
+constexpr double kStrayShare = 0.1;     // of points that may be elsewhere
+constexpr double kBehind_m = 0.25;      // what is not part of a wall is so far behind it
 
 constexpr int kLeastOnWall = 12;  // points on a side of the box
 constexpr double kLeastShareOnWall = 0.4;
@@ -58,6 +67,93 @@ bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
   return angleBetween(leaf, wall) <= kOpen_rad && !isFlush(leaf, wall);
 }
 
+std::vector<Eigen::Vector2d> wallPointsBeside(const BoxEvidence& e, bool right) {
+  std::vector<Eigen::Vector2d> out;
+  for (const auto& p : e.around.points)
+    if (p.in_ground.z() > kLeastHeight_m && (right ? p.u > e.box.u_max : p.u < e.box.u_min))
+      out.push_back(p.in_ground.head<2>());
+  return out;
+}
+
+// Where the line of sight to a point meets the plane, as a coordinate along it; infinite beyond its vanishing
+// point.
+double sightOn(const VerticalPlane& plane, const Eigen::Vector2d& p) {
+  const double slope = plane.normal.dot(p);
+  if (slope >= 0) return std::copysign(std::numeric_limits<double>::infinity(), plane.along().dot(p));
+  return plane.along().dot(p) * plane.offset / slope;
+}
+
+// Along the wall: where the hinge is, and in which direction the doorway.
+struct Doorway {
+  double hinge = 0, direction = 0;
+};
+
+// Whether the wall is seen near the hinge and, where the doorway is to be, only what is behind it: the next
+// room, or nothing, as something hides it.
+bool endsAtHinge(const VerticalPlane& wall, const Doorway& doorway, bool hidden, const BoxEvidence& e) {
+  int beside = 0, in_doorway = 0, through = 0;
+  for (const auto& p : wallPoints(e)) {
+    const bool on_wall = isInlier(wall, p);
+    const double from_hinge = doorway.direction * (sightOn(wall, p) - doorway.hinge);
+    beside += on_wall && std::abs(from_hinge) < kBesideHinge_m;
+    if (from_hinge < kJamb_m || from_hinge > e.model->width_m - kJamb_m) continue;
+    in_doorway += on_wall;
+    through += wall.normal.dot(p) < wall.offset - kBehind_m;
+  }
+  return beside >= kLeastOnWall && in_doorway <= kStrayShare * beside && (hidden || through >= kLeastOnWall);
+}
+
+// Whether what is seen beside the leaf's other end is behind it, as beside nothing that is part of a wall.
+bool endsFreely(const VerticalPlane& leaf, const Eigen::Vector2d& hinge, const BoxEvidence& e) {
+  const double away = leaf.along().dot(hinge) > leaf.middle ? -1 : 1;
+  int all = 0, behind = 0;
+  for (const auto& p : wallPoints(e)) {
+    if (away * (sightOn(leaf, p) - leaf.middle) < 0) continue;
+    ++all;
+    behind += leaf.normal.dot(p) < leaf.offset - kBehind_m;
+  }
+  return all >= kLeastOnWall && behind > (1 - kStrayShare) * all;
+}
+
+// The doorway beside the hinge of an open leaf, where the wall ends: on the camera's side of the leaf, or,
+// when the leaf plainly does not stand in a wall itself, hidden behind it.
+std::optional<Doorway> besideLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
+                                  const VerticalPlane& wall, const BoxEvidence& e) {
+  Eigen::Matrix2d normals;
+  normals << leaf.normal.transpose(), wall.normal.transpose();
+  const Eigen::Vector2d hinge = normals.inverse() * Eigen::Vector2d(leaf.offset, wall.offset);
+  const double from_middle = std::abs(leaf.along().dot(hinge - Eigen::Vector2d(on_leaf.x, on_leaf.y)));
+  if (std::abs(from_middle - on_leaf.shape.width / 2) > kAtHinge_m) return std::nullopt;
+  const double towards_camera = leaf.normal.dot(wall.along()) > 0 ? 1 : -1;
+  const Doorway seen{wall.along().dot(hinge), towards_camera}, hidden{seen.hinge, -towards_camera};
+  if (endsAtHinge(wall, seen, false, e)) return seen;
+  if (endsAtHinge(wall, hidden, true, e) && endsFreely(leaf, hinge, e)) return hidden;
+  return std::nullopt;
+}
+
+// A door of the usual width between the hinge and where the wall goes on.
+PlacedShape onWall(const VerticalPlane& wall, const Doorway& doorway, const BoxEvidence& e) {
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  const double sigma_width = e.model->sizeSigma()[0];
+  const Eigen::Vector2d on_wall =
+      wall.normal * wall.offset + wall.along() * (doorway.hinge + doorway.direction * placed.shape.width / 2);
+  const Eigen::Vector2d p = on_wall - wall.normal * e.model->depth_m / 2;
+  placed.x = p.x();
+  placed.y = p.y();
+  placed.yaw = std::atan2(wall.normal.y(), wall.normal.x());
+  placed.has_yaw = true;
+  placed.source = "open leaf";
+  placed.place_by_size(1, 0) = doorway.direction / 2;
+  const double along = std::hypot(kAtHinge_m, sigma_width) / 2,
+               across = std::hypot(wall.sigma_m, e.model->depth_m / 2);
+  placed.covariance = Eigen::Matrix3d::Zero();
+  placed.covariance->topLeftCorner<2, 2>() = along * along * wall.along() * wall.along().transpose() +
+                                             across * across * wall.normal * wall.normal.transpose();
+  (*placed.covariance)(2, 2) = wall.sigma_rad * wall.sigma_rad;
+  return placed;
+}
+
 }  // namespace
 
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence) {
@@ -74,6 +170,21 @@ std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, 
   judge(*placed, box_alone);
   placed->quality *= wall->inlier_share;
   return placed;
+}
+
+std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
+                                         const BoxEvidence& evidence) {
+  std::optional<PlacedShape> best;
+  for (const bool right : {false, true}) {
+    const auto wall = fitVerticalPlane(wallPointsBeside(evidence, right));
+    if (!wall || angleBetween(leaf, *wall) < kAjar_rad) continue;
+    const auto doorway = besideLeaf(leaf, on_leaf, *wall, evidence);
+    if (!doorway || (best && best->quality >= on_leaf.quality * wall->inlier_share)) continue;
+    best = onWall(*wall, *doorway, evidence);
+    best->quality = on_leaf.quality * wall->inlier_share;
+    best->box_iou = on_leaf.box_iou;
+  }
+  return best;
 }
 
 bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence) {
