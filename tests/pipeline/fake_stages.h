@@ -9,6 +9,7 @@
 #include "roomgraph/association/association_model.h"
 #include "roomgraph/association/associator.h"
 #include "roomgraph/detection/detector.h"
+#include "roomgraph/proposals/ground_detector.h"
 #include "roomgraph/proposals/proposal_generator.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
 
