@@ -72,6 +72,17 @@ TEST(OpenLeaf, TheDoorwayIsHiddenBehindIt) {
   }
 }
 
+// A screen that stands before the gap, its nearer and its farther end away from the wall, is not hinged
+// there.
+TEST(OpenLeaf, AHingeIsAtTheWall) {
+  for (const double hinge_y : {-0.35, 0.5}) {
+    Scene scene = wallWithGap(hinge_y);
+    scene.addBox(kFace_m - 0.85, 0.53, std::numbers::pi / 2, 0.9, 0.03, 0.01, 2.05, 1);
+    for (const auto& placed : test::hypotheses<DoorGenerator>(leafEvidence(scene)))
+      EXPECT_NE(placed.source, "open leaf");
+  }
+}
+
 // A door in the wall beside a corner, whose other wall seems to end at it.
 TEST(OpenLeaf, AClosedDoorAtACornerIsNone) {
   for (const double ends : {0.5, 1.2}) {
@@ -86,13 +97,17 @@ TEST(OpenLeaf, AClosedDoorAtACornerIsNone) {
   }
 }
 
-// A wall that goes on beside the hinge has no doorway there: a board that leans out into the room.
+// A wall that goes on beside the hinge has no doorway there, be it seen or hidden by a cupboard: a board that
+// leans out into the room.
 TEST(OpenLeaf, NoDoorwayInAWholeWall) {
-  Scene scene = test::sceneAhead();
-  scene.addBox(3.0, 0, 0, 6.0, 0.1, 0, 2.5, 2);
-  addLeaf(scene, 0.55, std::numbers::pi / 2);
-  for (const auto& placed : test::hypotheses<DoorGenerator>(leafEvidence(scene)))
-    EXPECT_NE(placed.source, "open leaf");
+  for (const bool hidden : {false, true}) {
+    Scene scene = test::sceneAhead();
+    scene.addBox(3.0, 0, 0, 6.0, 0.1, 0, 2.5, 2);
+    if (hidden) scene.addBox(2.8, -0.2, 0, 1.3, 0.3, 0, 2.2, 3);
+    addLeaf(scene, 0.55, std::numbers::pi / 2);
+    for (const auto& placed : test::hypotheses<DoorGenerator>(leafEvidence(scene)))
+      EXPECT_NE(placed.source, "open leaf") << hidden;
+  }
 }
 
 }  // namespace
