@@ -30,10 +30,14 @@ constexpr double kBehind_m = 0.25;      // what is not part of a wall is so far 
 constexpr int kLeastOnWall = 12;  // points on a side of the box
 constexpr double kLeastShareOnWall = 0.4;
 
-std::vector<Eigen::Vector2d> wallPoints(const BoxEvidence& e) {
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+// Of the image columns between two.
+std::vector<Eigen::Vector2d> wallPoints(const BoxEvidence& e, double from_u = -kEverywhere,
+                                        double to_u = kEverywhere) {
   std::vector<Eigen::Vector2d> out;
   for (const auto& p : e.around.points)
-    if (p.in_ground.z() > kLeastHeight_m) out.push_back(p.in_ground.head<2>());
+    if (p.in_ground.z() > kLeastHeight_m && p.u > from_u && p.u < to_u) out.push_back(p.in_ground.head<2>());
   return out;
 }
 
@@ -65,14 +69,6 @@ bool isFlush(const VerticalPlane& leaf, const VerticalPlane& wall) {
 
 bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
   return angleBetween(leaf, wall) <= kOpen_rad && !isFlush(leaf, wall);
-}
-
-std::vector<Eigen::Vector2d> wallPointsBeside(const BoxEvidence& e, bool right) {
-  std::vector<Eigen::Vector2d> out;
-  for (const auto& p : e.around.points)
-    if (p.in_ground.z() > kLeastHeight_m && (right ? p.u > e.box.u_max : p.u < e.box.u_min))
-      out.push_back(p.in_ground.head<2>());
-  return out;
 }
 
 // Where the line of sight to a point meets the plane, as a coordinate along it; infinite beyond its vanishing
@@ -135,18 +131,12 @@ std::optional<Doorway> besideLeaf(const VerticalPlane& leaf, const PlacedShape& 
 PlacedShape onWall(const VerticalPlane& wall, const Doorway& doorway, const BoxEvidence& e) {
   PlacedShape placed;
   placed.shape = e.model->nominal();
-  const double sigma_width = e.model->sizeSigma()[0];
-  const Eigen::Vector2d on_wall =
-      wall.normal * wall.offset + wall.along() * (doorway.hinge + doorway.direction * placed.shape.width / 2);
-  const Eigen::Vector2d p = on_wall - wall.normal * e.model->depth_m / 2;
-  placed.x = p.x();
-  placed.y = p.y();
-  placed.yaw = std::atan2(wall.normal.y(), wall.normal.x());
-  placed.has_yaw = true;
+  const double seat_m = e.model->depth_m / 2;
+  standOn(placed, wall, doorway.hinge + doorway.direction * placed.shape.width / 2, seat_m);
   placed.source = "open leaf";
   placed.place_by_size(1, 0) = doorway.direction / 2;
-  const double along = std::hypot(kAtHinge_m, sigma_width) / 2,
-               across = std::hypot(wall.sigma_m, e.model->depth_m / 2);
+  const double along = std::hypot(kAtHinge_m, e.model->sizeSigma()[0]) / 2,
+               across = std::hypot(wall.sigma_m, seat_m);
   placed.covariance = Eigen::Matrix3d::Zero();
   placed.covariance->topLeftCorner<2, 2>() = along * along * wall.along() * wall.along().transpose() +
                                              across * across * wall.normal * wall.normal.transpose();
@@ -175,13 +165,16 @@ std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, 
 std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
                                          const BoxEvidence& evidence) {
   std::optional<PlacedShape> best;
-  for (const bool right : {false, true}) {
-    const auto wall = fitVerticalPlane(wallPointsBeside(evidence, right));
+  for (const auto& points : {wallPoints(evidence, -kEverywhere, evidence.box.u_min),
+                             wallPoints(evidence, evidence.box.u_max, kEverywhere)}) {
+    const auto wall = fitVerticalPlane(points);
     if (!wall || angleBetween(leaf, *wall) < kAjar_rad) continue;
+    const double quality = on_leaf.quality * wall->inlier_share;
+    if (best && best->quality >= quality) continue;
     const auto doorway = besideLeaf(leaf, on_leaf, *wall, evidence);
-    if (!doorway || (best && best->quality >= on_leaf.quality * wall->inlier_share)) continue;
+    if (!doorway) continue;
     best = onWall(*wall, *doorway, evidence);
-    best->quality = on_leaf.quality * wall->inlier_share;
+    best->quality = quality;
     best->box_iou = on_leaf.box_iou;
   }
   return best;

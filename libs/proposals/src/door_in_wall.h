@@ -18,8 +18,9 @@ namespace roomgraph {
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence);
 
 /// A door whose open leaf stands across the wall: an end of the leaf (`on_leaf`, a door taken to be there) is
-/// its hinge, at the wall's face beside the box; the doorway begins there, on the camera's side of the leaf,
-/// where the wall ends. Its fit is that of the leaf. Nothing when no such wall is seen.
+/// its hinge, at the wall's face beside the box. The doorway begins there, where the wall ends: on the
+/// camera's side of the leaf, or behind it when the leaf itself stands in no wall. Its fit is that of the
+/// leaf. Nothing when no such wall is seen.
 std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
                                          const BoxEvidence& evidence);
 

@@ -103,6 +103,15 @@ Interval fitInterval(const SeenInterval& seen, double usual_width, double width_
   return out;
 }
 
+void standOn(PlacedShape& door, const VerticalPlane& plane, double along_m, double seat_m) {
+  const Eigen::Vector2d on_plane = plane.normal * plane.offset + plane.along() * along_m;
+  const Eigen::Vector2d middle = on_plane - plane.normal * seat_m;
+  door.x = middle.x();
+  door.y = middle.y();
+  door.yaw = std::atan2(plane.normal.y(), plane.normal.x());
+  door.has_yaw = true;
+}
+
 std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e, double seat_m) {
   const auto left = edgeAt(e, plane, e.box.u_min), right = edgeAt(e, plane, e.box.u_max);
   if (!left || !right) return std::nullopt;
@@ -113,12 +122,8 @@ std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvid
   placed.shape.width = std::max(kLeastWidth_m, along.width);
   placed.size_information[0] = along.width_information;
   placed.place_by_size(1, 0) = along.center_by_width;
+  standOn(placed, plane, along.center, seat_m);
   const Eigen::Vector2d on_plane = plane.normal * plane.offset + plane.along() * along.center;
-  const Eigen::Vector2d p = on_plane - plane.normal * seat_m;
-  placed.x = p.x();
-  placed.y = p.y();
-  placed.yaw = std::atan2(plane.normal.y(), plane.normal.x());
-  placed.has_yaw = true;
   placed.covariance = covarianceOn(plane, along, on_plane, seat_m);
   return placed;
 }

@@ -36,6 +36,10 @@ inline double sideSigma(double extent_px) {
   return fit.box_side_px + fit.box_side_share * extent_px;
 }
 
+/// Puts a door at this coordinate along the plane, its middle `seat_m` behind it and its front as the
+/// plane's.
+void standOn(PlacedShape& door, const VerticalPlane& plane, double along_m, double seat_m);
+
 /// A door between the sides of the box on the plane, `seat_m` behind which its middle is, with its
 /// covariance: across the plane from the plane's and as much as `seat_m`, which is a guess, along it from the
 /// box's sides at this viewing angle. Nothing when the plane is seen edge-on, or the ray of a side of the box
