@@ -176,6 +176,28 @@ TEST(SoftAssociator, ANewLandmarkTakesOverItsTrack) {
       0.8);
 }
 
+// The odds of "new" against a landmark, right after a door was first seen and later.
+TEST(SoftAssociator, ANewDoorMakesNewObjectsMoreProbable) {
+  SoftAssociator associator = associatorWith("door_gain = 3\ndoor_cue_s = 10");
+  const std::vector<Landmark> chairs{landmarkAt(1, 0, 0)};
+  std::int64_t track = 0;
+  const auto odds_at = [&](double t) {
+    const auto decision = associator.associate({ofTrack(sightingAt(0.1, 0), ++track, t)}, chairs).at(0);
+    return probabilityOf(decision, LandmarkId{}) / probabilityOf(decision, LandmarkId{1});
+  };
+  WorldMeasurement door = ofTrack(sightingAt(3, 0), 99, 5);
+  door.measurement.proposal.shape.kind = ShapeKind::kPlanar;
+  const double without = odds_at(4);
+  associator.assigned(door, LandmarkId{2});
+  EXPECT_NEAR(odds_at(6) / without, 3, 1e-9);
+  EXPECT_NEAR(odds_at(15.1) / without, 1, 1e-9) << "too long ago";
+  door.measurement.t = 16;
+  associator.assigned(door, LandmarkId{2});
+  EXPECT_NEAR(odds_at(17) / without, 1, 1e-9) << "not new";
+  associator.assigned(door, LandmarkId{3});
+  EXPECT_NEAR(odds_at(17) / without, 3, 1e-9);
+}
+
 TEST(SoftAssociator, AllVariantsAreMadeByName) {
   association::registerClasses();
   for (const char* name : {"SoftAssociator", "NearestNeighborAssociator", "MaximumLikelihoodAssociator"})

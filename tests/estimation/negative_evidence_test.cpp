@@ -8,6 +8,7 @@
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/estimation/object_mapper.h"
 #include "roomgraph/geometry/projection.h"
+#include "still_camera.h"
 #include "visibility.h"
 
 namespace roomgraph::test {
@@ -74,7 +75,7 @@ TEST(ShouldBeSeen, NotWhenTheImageBorderCutsIt) {
 
 TEST(ShouldBeSeen, NotWhenItIsTooSmall) {
   Landmark low = chairStandingAt(3.5, 0);
-  low.shape.height = 0.3;  // about 22 px and the top face
+  low.shape.height = 0.1;  // about 7 px and the top face, 14 px; a tenth of the image is 24
   EXPECT_FALSE(expected(low, viewOfAWall()));
 }
 
@@ -110,7 +111,7 @@ class Doubts : public ::testing::Test {
       out.proposal.score = 0.9;
       measurements.push_back(out);
     }
-    return mapper_.associate(measurements, frame, {});
+    return mapper_.associate(measurements, frame, {}, noDrift());
   }
   double existence(const ObjectDecision& of) const { return mapper_.landmarks().find(of.landmark)->existence; }
   static double after(double existence, double likelihood_ratio) {

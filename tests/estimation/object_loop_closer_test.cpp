@@ -7,6 +7,7 @@
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
+#include "still_camera.h"
 
 namespace roomgraph::test {
 namespace {
@@ -40,7 +41,7 @@ class TwoVisits : public ::testing::Test {
         chair.proposal.score = chair.detection.score = 0.9;
         chairs.push_back(chair);
       }
-      mapper.associate(chairs, frame, {});
+      mapper.associate(chairs, frame, {}, noDrift());
     }
   }
 

@@ -42,7 +42,7 @@ TEST(ObjectMapper, WhenALandmarkIsSplitItsSightingsAre) {
   ObjectMapper mapper(generousAssociator(), {}, 0.03, poses);
   for (int i = 0; i < 20; ++i) {
     const Frame frame = frameAt(i, 0.5 * i);
-    const auto decisions = mapper.associate({chairAt(frame, 3, i % 2 ? 0.4 : -0.4)}, frame, {});
+    const auto decisions = mapper.associate({chairAt(frame, 3, i % 2 ? 0.4 : -0.4)}, frame, {}, noDrift());
     ASSERT_EQ(decisions.size(), 1u);
   }
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
@@ -82,7 +82,7 @@ TEST(ObjectMapper, RemembersFeaturesThatLieOnObjects) {
   const Frame frame = frameAt(0, 0);
   ObjectMeasurement chair = chairAt(frame, 3, 0);
   chair.features = {5, 7};
-  mapper.associate({chair}, frame, {{{10, 10}, 5, 3.0}, {{20, 10}, 6, 3.0}, {{30, 10}, 7, 0}});
+  mapper.associate({chair}, frame, {{{10, 10}, 5, 3.0}, {{20, 10}, 6, 3.0}, {{30, 10}, 7, 0}}, noDrift());
   ASSERT_EQ(mapper.frames().size(), 1u);
   ASSERT_EQ(mapper.frames()[0].features.size(), 1u);
   EXPECT_EQ(mapper.frames()[0].features[0].point, 5);
@@ -116,7 +116,7 @@ TEST(ObjectMapper, MergedLandmarksShareTheirPosterior) {
   ObjectMapper mapper(std::make_shared<Undecided>(), {}, 0.03, poses);
   for (int i = 0; i < 3; ++i) {
     const Frame frame = frameAt(i, 0.5 * i);
-    mapper.associate({chairAt(frame, 3, i == 0 ? 0.1 : -0.1)}, frame, {});
+    mapper.associate({chairAt(frame, 3, i == 0 ? 0.1 : -0.1)}, frame, {}, noDrift());
   }
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
   mapper.tidy();

@@ -2,6 +2,7 @@
 // A camera 1 m above the floor that looks along x, in a robot without sources of motion.
 #pragma once
 
+#include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/motion.h"
 #include "roomgraph/observations/frame.h"
 
@@ -12,6 +13,11 @@ inline const Motion& standing() {
   static const Motion motion{MotionSource(noise, true), MotionSource(noise, false),
                              MotionSource(noise, true)};
   return motion;
+}
+
+inline const Drift& noDrift() {
+  static const Drift drift(standing(), 1);
+  return drift;
 }
 
 inline Frame frameAt(int i, double t) {

@@ -28,6 +28,14 @@ void AssociationModel::declare(ParameterVisitor& v) {
            "Pseudo-count: feature points of unknown owner that are added to the known ones of a measurement.",
        .min = 0.1,
        .max = 1000});
+  v.add("door_gain", door_gain,
+        {.doc = "Factor on the prior density of new objects after a door was seen for the first time: the "
+                "robot may be "
+                "entering new space. 1: doors are no cue.",
+         .min = 0.1,
+         .max = 100});
+  v.add("door_cue_s", door_cue_s,
+        {.doc = "Time for which a new door is such a cue.", .unit = "s", .min = 0, .max = 1000});
 }
 
 std::vector<LandmarkId> idsOf(const Alternatives& alternatives) {

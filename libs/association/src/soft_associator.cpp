@@ -12,7 +12,8 @@ std::vector<Association> SoftAssociator::associate(const std::vector<WorldMeasur
                                                    const std::vector<Landmark>& landmarks) {
   std::vector<WeightedAlternatives> frame;
   for (const auto& seen : measurements) {
-    const Alternatives alternatives = model_.measurement.alternatives(seen, landmarks);
+    Alternatives alternatives = model_.measurement.alternatives(seen, landmarks);
+    alternatives.fresh *= newSpaceGain(seen.measurement.t);
     const auto ids = idsOf(alternatives);
     frame.push_back(weigh(alternatives, model_, tracks_.prior(seen.measurement, ids, model_.forgetting),
                           features_.shares(seen.measurement.features, ids, model_.neutral_features)));
@@ -23,7 +24,13 @@ std::vector<Association> SoftAssociator::associate(const std::vector<WorldMeasur
   return out;
 }
 
+double SoftAssociator::newSpaceGain(double t) const {
+  return new_door_t_ && t <= *new_door_t_ + model_.door_cue_s ? model_.door_gain : 1;
+}
+
 void SoftAssociator::assigned(const WorldMeasurement& measurement, LandmarkId landmark) {
+  if (measurement.measurement.proposal.shape.kind == ShapeKind::kPlanar && doors_.insert(landmark).second)
+    new_door_t_ = measurement.measurement.t;
   tracks_.named(measurement.measurement, landmark);
   features_.own(measurement.measurement.features, landmark);
 }

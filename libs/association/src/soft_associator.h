@@ -2,6 +2,9 @@
 // Probabilistic data association (paper Eq. 10) over tracks, with exclusion within a frame.
 #pragma once
 
+#include <optional>
+#include <set>
+
 #include "roomgraph/association/association_model.h"
 #include "roomgraph/association/associator.h"
 #include "track_memory.h"
@@ -21,7 +24,11 @@ class SoftAssociator : public Associator {
   const AssociationModel* model() const override { return &model_; }
 
  private:
+  double newSpaceGain(double t) const;
+
   AssociationModel model_;
+  std::set<LandmarkId> doors_;        ///< that were ever assigned
+  std::optional<double> new_door_t_;  ///< when the latest of them was first, s
   TrackMemory tracks_;
   FeatureOwners features_;
 };

@@ -25,6 +25,8 @@ constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
 constexpr double kUsuallyFilled = 0.3, kUsualSpread = 0.7;  // medians of true landmarks
 constexpr double kFloorSlack_m = 0.05;  // a lidar whose height nobody measured is said to be on the floor
+constexpr double kSameMoment_s =
+    0.35;                        // between an image and a box of the same view; not every image is searched
 constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
 
 // --- from sightings ---
@@ -35,6 +37,7 @@ struct SightingSums {
   double scatter = 0;
   std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
   std::set<int> directions;
+  std::set<double> times;  // s
 };
 
 double normalisedDistance2(const Landmark& landmark, const WorldMeasurement& seen) {
@@ -65,11 +68,12 @@ std::vector<const Landmark*> unseenHere(const std::vector<Landmark>& landmarks, 
   return out;
 }
 
-void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& seen, NodeId node,
+void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& seen, NodeId node, double t,
          const Eigen::Vector3d& camera_in_world) {
   const double weight = sightingWeight(seen.measurement);
   const Proposal& proposal = seen.measurement.proposal;
   ++sums.count;
+  sums.times.insert(t);
   sums.weight += weight;
   sums.score += weight * proposal.score;
   sums.at_nodes[node] = std::max(sums.at_nodes[node], weight);
@@ -98,7 +102,7 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
       if (found == known.end()) continue;
       const Landmark& landmark = *found->second;
       SightingSums& sums = out[landmark.id];
-      add(sums, landmark, decision.seen, poses.nearest(frame.t).id, world_from_camera.translation());
+      add(sums, landmark, decision.seen, poses.nearest(frame.t).id, frame.t, world_from_camera.translation());
       const Box2& box = decision.seen.measurement.detection.box;
       sums.contested += std::any_of(others.begin(), others.end(), [&](const Landmark* other) {
         return other->observations >= landmark.observations &&
@@ -119,6 +123,17 @@ void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
   evidence.turned = sums.with_yaw > 0 ? sums.turned / sums.with_yaw : 0;
   evidence.scatter = std::log(kLeastScatter + (sums.placed ? sums.scatter / sums.placed : 0));
+}
+
+// Each place counts once: errors of a detector repeat while the view is the same. One of each is added, so
+// that few places say little.
+double detectionLogOdds(const std::set<double>& sighting_times, const std::vector<double>& times_in_view) {
+  const auto detected = std::count_if(times_in_view.begin(), times_in_view.end(), [&](double t) {
+    const auto next = sighting_times.lower_bound(t - kSameMoment_s);
+    return next != sighting_times.end() && *next <= t + kSameMoment_s;
+  });
+  const auto missed = static_cast<std::ptrdiff_t>(times_in_view.size()) - detected;
+  return std::log(static_cast<double>(detected + 1) / static_cast<double>(missed + 1));
 }
 
 // --- from rays ---
@@ -205,6 +220,11 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
   const auto inside = insidePoints(shape);
   const auto counts = views.byImages(inWorld(inside, world_from_object));
   evidence.filled = share(counts, mostlyFilled);
+  std::vector<RayCounts> middle;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (std::abs(inside[i].z() / shape.height - 0.5) < 1.0 / 6) middle.push_back(counts[i]);
+  evidence.middle_filled = share(middle, mostlyFilled);
+  evidence.middle_crossed = share(middle, mostlyCrossed);
   evidence.spread =
       std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
   std::vector<RayCounts> solid;
@@ -254,6 +274,7 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
     ExistenceEvidence evidence;
     evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
     setSightings(evidence, sums[landmark.id]);
+    evidence.detected = detectionLogOdds(sums[landmark.id].times, views.timesInGoodView(landmark));
     if (const auto own = landmark.class_posterior.find(landmark.class_name);
         own != landmark.class_posterior.end())
       evidence.label = own->second;

@@ -13,14 +13,6 @@ namespace {
 
 const NodeId kAnchor{1'000'000'000};
 
-// No source of motion covers the movement: a weak prior that bounds it by the speed of a walk or a drive.
-Movement unknownMovement(double seconds) {
-  const double sigma_m = 0.3 + 0.5 * seconds, sigma_rad = 0.3 + 0.7 * seconds;
-  Vector6d sigma;
-  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
-  return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
-}
-
 // Steps of wheels add up their errors; so do those of images and scans when no local maps are wanted.
 void addSteps(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion, bool local_maps) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar}) {

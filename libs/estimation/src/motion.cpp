@@ -26,6 +26,13 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
 
 }  // namespace
 
+Movement unknownMovement(double seconds) {
+  const double sigma_m = 0.3 + 0.5 * seconds, sigma_rad = 0.3 + 0.7 * seconds;
+  Vector6d sigma;
+  sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
+  return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
+}
+
 bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
   if (!poses_.empty() && t <= poses_.lastTime()) return false;
   poses_.add(t, odom_from_robot, segment);

@@ -11,6 +11,7 @@
 #include "measurement_in_world.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/geometry/projection.h"
 #include "size_mean.h"
 
 namespace roomgraph {
@@ -97,6 +98,24 @@ struct Gathered {
   std::map<PointId, std::map<NodeId, PointView>> points;
 };
 
+constexpr double kPixelSigma = 2;        // of a box's side, px, however small the object
+constexpr double kOwnShapeCovers = 0.7;  // IoU of a box with the shape that was lifted from it
+
+double boxSigma(const Box2& box, double share) {
+  return std::hypot(kPixelSigma, share * (box.width() + box.height()) / 2);
+}
+
+// The best box of each key pose. One that its own shape, placed by depth, does not explain bounds something
+// else as well, or a part: the leaf of an open door, what shows above a table.
+void gatherBox(const ObjectMeasurement& measurement, const PinholeCamera& camera,
+               const LandmarkBoxFactor& seen, Gathered& out) {
+  const Proposal& proposal = measurement.proposal;
+  const auto own = projectShape(proposal.shape, proposal.camera_from_object, camera);
+  if (!own || iou(own->visible, seen.box) < kOwnShapeCovers) return;
+  LandmarkBoxFactor& best = out.boxes[seen.node];
+  if (!best.landmark.valid() || seen.weight > best.weight) best = seen;
+}
+
 void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Landmark& landmark,
             const KeyPose& node, const Pose3& node_from_camera, const BackendOptions& options, double trust,
             Gathered& out) {
@@ -107,15 +126,15 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   const auto& measurement = decision.seen.measurement;
   out.sizes[node.id].push_back({&measurement.proposal, sighting.yaw_in_robot,
                                 sighting.weight * visibleFraction(measurement), shareOf(sighting)});
-  LandmarkBoxFactor& best = out.boxes[node.id];
-  if (!best.landmark.valid() || sighting.weight > best.weight)
-    best = {.node = node.id,
-            .landmark = landmark.id,
-            .camera = frame.camera,
-            .robot_from_camera = node_from_camera,
-            .box = measurement.detection.box,
-            .sigma_px = options.box_sigma_px,
-            .weight = sighting.weight};
+  gatherBox(measurement, frame.camera,
+            {.node = node.id,
+             .landmark = landmark.id,
+             .camera = frame.camera,
+             .robot_from_camera = node_from_camera,
+             .box = measurement.detection.box,
+             .sigma_px = boxSigma(measurement.detection.box, options.box_sigma),
+             .weight = sighting.weight},
+            out);
   for (const auto& feature : frame.features) {
     const auto& own = measurement.features;
     if (std::find(own.begin(), own.end(), feature.point) == own.end()) continue;
@@ -198,6 +217,12 @@ struct View {
   OffsetMean offset;
 };
 
+// Of a place (world) from a key pose, in steps of the angle.
+int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_rad) {
+  const Eigen::Vector3d ray = place - node.world_from_robot.translation();
+  return static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad));
+}
+
 std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* usual, const KeyPoses& poses,
                                      double yaw, double angle_rad) {
   std::map<int, View> views;
@@ -207,8 +232,7 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
     const LandmarkFactor sighting =
         inWorld(meanSighting(withYawsNear(yaw_in_robot, group)), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
-    const Eigen::Vector3d ray = sighting.position_in_robot - node.world_from_robot.translation();
-    View& view = views[static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad))];
+    View& view = views[directionOf(sighting.position_in_robot, node, angle_rad)];
     // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the object.
     const bool gone =
         view.visits.empty() || (id.value - view.visits.back().back().node.value > 1 &&
@@ -262,20 +286,43 @@ void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
   if (usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
 }
 
+// Weight of one of `count` measurements whose errors have this share of their variance in common. Together
+// they are worth as much as their mean, whose variance is (share + (1 - share) / count) times that of one.
+double weightAmong(std::size_t count, double repeating_share) {
+  return 1 / (1 + repeating_share * (static_cast<double>(count) - 1));
+}
+
+void addBoxes(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
+              const BackendOptions& options, ObjectFactors& out) {
+  std::map<int, std::vector<LandmarkBoxFactor>> by_direction;
+  for (const auto& [id, box] : seen.boxes)
+    by_direction[directionOf(landmark.position, poses.node(id), options.landmark_view_rad)].push_back(box);
+  for (auto& [direction, boxes] : by_direction) {
+    for (LandmarkBoxFactor& box : boxes) {
+      box.weight *= weightAmong(boxes.size(), options.landmark_repeating_share);
+      out.boxes.push_back(box);
+    }
+  }
+}
+
 void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOptions& options,
                ObjectFactors& out) {
-  int count = 0;
-  for (const auto& [id, views] : seen.points) {
-    if (views.size() < kMinViews || out.points.contains(id)) continue;
-    if (++count > options.points_per_landmark) return;
+  std::vector<PointId> used;
+  for (const auto& [id, views] : seen.points)
+    if (views.size() >= kMinViews && !out.points.contains(id) &&
+        used.size() < static_cast<std::size_t>(options.points_per_landmark))
+      used.push_back(id);
+  for (const PointId id : used) {
+    const auto& views = seen.points.at(id);
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& [node, view] : views) {
       middle += view.in_world / static_cast<double>(views.size());
       out.point_views.push_back(view.factor);
     }
     out.points[id] = middle;
-    out.insides.push_back(
-        {.point = id, .landmark = landmark.id, .weight = options.landmark_information_share});
+    out.insides.push_back({.point = id,
+                           .landmark = landmark.id,
+                           .weight = weightAmong(used.size(), options.landmark_repeating_share)});
   }
 }
 
@@ -304,12 +351,7 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
     const Landmark& landmark = *known.at(id);
     const ObjectModel* usual = database.find(landmark.class_name);
     addViews(seen, landmark, usual, poses, options, out);
-    if (options.object_boxes) {
-      for (auto [node, box] : seen.boxes) {
-        box.weight *= options.landmark_information_share;
-        out.boxes.push_back(box);
-      }
-    }
+    if (options.object_boxes) addBoxes(seen, landmark, poses, options, out);
     addPoints(seen, landmark, options, out);
   }
   return out;

@@ -47,16 +47,33 @@ ObjectMapper::ObjectMapper(std::shared_ptr<Associator> associator, const Landmar
 
 ObjectMapper::~ObjectMapper() = default;
 
+// Of the place of each landmark as the robot sees it now, m^2.
+std::map<LandmarkId, double> ObjectMapper::driftVariances(const Drift& drift) const {
+  std::map<LandmarkId, double> out;
+  for (const auto& landmark : landmarks_.landmarks())
+    if (const auto span = spans_.find(landmark.id); span != spans_.end())
+      out[landmark.id] = drift.variance(poses_, span->second.last, landmark.position.head<2>());
+  return out;
+}
+
 std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeasurement>& measurements,
                                                     const Frame& frame,
-                                                    const std::vector<FeatureTrack>& features) {
+                                                    const std::vector<FeatureTrack>& features,
+                                                    const Drift& drift) {
   const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
   std::vector<WorldMeasurement> in_world;
   for (const auto& measurement : measurements)
     in_world.push_back(measurementInWorld(measurement, frame.camera, world_from_camera, pose_sigma_m_));
+  const auto drifted = driftVariances(drift);
+  std::vector<Landmark> as_seen_now = landmarks_.landmarks();
+  for (Landmark& landmark : as_seen_now)
+    if (const auto found = drifted.find(landmark.id); found != drifted.end())
+      landmark.covariance.diagonal().head<2>().array() += found->second;
   std::vector<ObjectDecision> decisions;
-  for (const auto& association : associator_->associate(in_world, landmarks_.landmarks())) {
+  for (const auto& association : associator_->associate(in_world, as_seen_now)) {
     ObjectDecision decision{in_world[association.measurement], association, {}};
+    if (const auto found = drifted.find(association.landmark); found != drifted.end())
+      decision.seen.covariance.diagonal().head<2>().array() += found->second;
     decision.landmark = landmarks_.update(decision.seen, association);
     associator_->assigned(decision.seen, decision.landmark);
     decision.seen.measurement.detection.mask = cv::Mat();  // large, and not needed any more

@@ -69,22 +69,18 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
 void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
   v.add("object_boxes", o.object_boxes,
         {.doc = "Whether the boxes of objects and their usual sizes are factors of the graph."});
-  v.add("box_sigma_px", o.box_sigma_px,
-        {.doc = "Standard deviation of a side of a detection's box against the projected landmark.",
-         .unit = "px",
-         .min = 0.1,
-         .max = 1000});
+  v.add("box_sigma", o.box_sigma,
+        {.doc = "Standard deviation of a side of a detection's box against the projected landmark, as a "
+                "share of the "
+                "mean of the box's width and height; 2 px are added.",
+         .min = 1e-3,
+         .max = 10});
   v.add("points_per_landmark", o.points_per_landmark,
         {.doc = "Tracked points per landmark that are variables of the graph. 0: none.",
          .min = 0,
          .max = 10000});
   v.add("point_sigma_px", o.point_sigma_px,
         {.doc = "Standard deviation of the pixel of such a point.", .unit = "px", .min = 0.1, .max = 100});
-  v.add("landmark_information_share", o.landmark_information_share,
-        {.doc = "Share of the information of a box, and of a point within a landmark, that enters the graph, "
-                "because those in a row share their errors.",
-         .min = 1e-4,
-         .max = 1});
   v.add("landmark_sigma_share", o.landmark_sigma_share,
         {.doc = "Standard deviation of a sighting in the graph, as a share of its proposal's, which also "
                 "allows for "
@@ -92,7 +88,9 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
          .min = 0.01,
          .max = 10});
   v.add("landmark_repeating_share", o.landmark_repeating_share,
-        {.doc = "Share of a sighting's variance that all sightings of the object from one direction have in common.",
+        {.doc = "Share of a sighting's variance that all sightings of the object from one direction have in "
+                "common; so "
+                "with boxes, and with the points of one object.",
          .min = 0.01,
          .max = 0.99});
   v.add("landmark_view_rad", o.landmark_view_rad,
@@ -145,8 +143,9 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
          .min = 1e-4,
          .max = 10});
   v.add("pose_sigma_m", pose_sigma_m,
-        {.doc = "Standard deviation of the current position that is added to measurements when they are "
-                "associated.",
+        {.doc = "Standard deviation of the current position within its surroundings, added to measurements "
+                "when they "
+                "are associated; drift since a landmark was last seen comes on top.",
          .unit = "m",
          .min = 0,
          .max = 10});

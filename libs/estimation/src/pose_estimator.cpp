@@ -10,13 +10,17 @@ constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next opti
 }
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
-    : options_(options), motion_(motion), poses_(motion) {
+    : options_(options),
+      motion_(motion),
+      poses_(motion),
+      drift_(motion, options.local_map_nodes > 0 ? options.local_map_drift_share : 1) {
   measurements_.planar = false;
 }
 
 bool PoseEstimator::advance(double t) {
   if (poses_.empty()) {
     poses_.add(t, Pose3::Identity());
+    drift_.extend(poses_);
     return true;
   }
   const KeyPose& last = poses_.nodes().back();
@@ -29,6 +33,7 @@ bool PoseEstimator::advance(double t) {
                    rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
   if (!far) return false;
   poses_.add(t, last.world_from_robot * moved);
+  drift_.extend(poses_);
   ++nodes_since_optimization_;
   return true;
 }
@@ -64,6 +69,7 @@ std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose
       if (const auto shift = reconnect(closure)) shifts.push_back(*shift);
     }
     measurements_.closures.push_back(closure);
+    drift_.close(poses_, closure);
   }
   return shifts;
 }

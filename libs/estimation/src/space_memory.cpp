@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "visibility.h"
+
 namespace roomgraph {
 namespace {
 
@@ -18,6 +20,13 @@ constexpr double kMillimetre = 1e-3;
 bool sameView(const Pose3& a, const Pose3& b) {
   const Pose3 moved = a.inverse() * b;
   return moved.translation().norm() < kMoved_m && rotationAngle(moved) < kTurned_rad;
+}
+
+// m, 0: none.
+double depthAt(const cv::Mat& depth_mm, double u, double v) {
+  const long x = std::lround(u), y = std::lround(v);
+  if (x < 0 || y < 0 || x >= depth_mm.cols || y >= depth_mm.rows) return 0;
+  return kMillimetre * depth_mm.at<std::uint16_t>(static_cast<int>(y), static_cast<int>(x));
 }
 
 void count(RayCounts& counts, double measured_m, double range_m) {
@@ -60,10 +69,19 @@ PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
   if (poses.empty()) return out;
   for (const auto& image : images_)
     out.images_.push_back(
-        {(poses.at(image.t) * image.robot_from_camera).inverse(), &image.camera, &image.depth_mm});
+        {image.t, (poses.at(image.t) * image.robot_from_camera).inverse(), &image.camera, &image.depth_mm});
   for (const auto& scan : scans_) {
     const Pose3 world_from_lidar = poses.at(scan.t) * scan.robot_from_lidar;
     out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), &scan});
+  }
+  return out;
+}
+
+std::vector<double> PosedViews::timesInGoodView(const Landmark& landmark) const {
+  std::vector<double> out;
+  for (const auto& image : images_) {
+    const auto depth_at = [&image](double u, double v) { return depthAt(*image.depth_mm, u, v); };
+    if (boxInGoodView(landmark, image.camera_from_world, *image.camera, depth_at)) out.push_back(image.t);
   }
   return out;
 }
@@ -75,10 +93,8 @@ std::vector<RayCounts> PosedViews::byImages(const std::vector<Eigen::Vector3d>& 
       const Eigen::Vector3d p = image.camera_from_world * points[i];
       if (p.z() < kNearest_m || p.z() > kFarthest_m) continue;
       const Eigen::Vector2d pixel = image.camera->project(p);
-      const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
-      if (u < 0 || v < 0 || u >= image.depth_mm->cols || v >= image.depth_mm->rows) continue;
-      const auto depth = image.depth_mm->at<std::uint16_t>(v, u);
-      if (depth > 0) count(out[i], depth * kMillimetre, p.z());
+      const double depth = depthAt(*image.depth_mm, pixel.x(), pixel.y());
+      if (depth > 0) count(out[i], depth, p.z());
     }
   }
   return out;

@@ -9,6 +9,7 @@
 
 #include "roomgraph/estimation/key_poses.h"
 #include "roomgraph/observations/frame.h"
+#include "roomgraph/observations/landmark.h"
 #include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
@@ -24,6 +25,8 @@ class PosedViews {
   bool hasImages() const { return !images_.empty(); }
   /// Of every point (world, m), by the depth images.
   std::vector<RayCounts> byImages(const std::vector<Eigen::Vector3d>& points) const;
+  /// Times (s) of the images that have the landmark in good view.
+  std::vector<double> timesInGoodView(const Landmark& landmark) const;
   /// Of every point on the ground (world, m), by the scans taken between the two heights.
   std::vector<RayCounts> byScans(const std::vector<Eigen::Vector2d>& points, double least_z_m,
                                  double most_z_m) const;
@@ -31,6 +34,7 @@ class PosedViews {
  private:
   friend class SpaceMemory;
   struct Image {
+    double t;
     Pose3 camera_from_world;
     const PinholeCamera* camera;
     const cv::Mat* depth_mm;

@@ -2,6 +2,7 @@
 // Visibility test by projection and depth; beams that end in or pass through a footprint.
 #include "visibility.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "roomgraph/geometry/projection.h"
@@ -9,19 +10,19 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kMinHeight_px = 50, kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
+constexpr double kMinHeightShare = 0.104;  // of the image
+constexpr double kMinShareInImage = 0.7, kNear_m = 1.0, kFar_m = 4.0, kMaxHidden = 0.3;
 constexpr double kMiddle = 0.5;  // share of the footprint's smaller half that the covariance cannot reach
 constexpr double kSamePlace =
     0.3;  // IoU with a detection, of whatever label, that shows that something is there
 
 // Share of the depth pixels in the middle of the box that lie clearly in front of the object.
-double hiddenShare(const Frame& frame, const Box2& box, double distance_m, double margin_m) {
+double hiddenShare(const DepthLookup& depth_at, const Box2& box, double distance_m, double margin_m) {
   int seen = 0, hidden = 0;
   constexpr int kSteps = 12;
   for (int i = 1; i < kSteps; ++i) {
     for (int j = 1; j < kSteps; ++j) {
-      const float z =
-          frame.depthAt(box.u_min + box.width() * i / kSteps, box.v_min + box.height() * j / kSteps);
+      const double z = depth_at(box.u_min + box.width() * i / kSteps, box.v_min + box.height() * j / kSteps);
       if (z <= 0) continue;
       ++seen;
       hidden += z < distance_m - margin_m;
@@ -32,18 +33,26 @@ double hiddenShare(const Frame& frame, const Box2& box, double distance_m, doubl
 
 }  // namespace
 
+std::optional<Box2> boxInGoodView(const Landmark& landmark, const Pose3& camera_from_world,
+                                  const PinholeCamera& camera, const DepthLookup& depth_at) {
+  const Pose3 camera_from_object = camera_from_world * landmark.worldFromObject();
+  const double distance = (camera_from_object * Eigen::Vector3d(0, 0, landmark.shape.height / 2)).z();
+  if (distance < kNear_m || distance > kFar_m) return std::nullopt;
+  const auto shape = projectShape(landmark.shape, camera_from_object, camera);
+  if (!shape || shape->visible.height() < kMinHeightShare * camera.height) return std::nullopt;
+  if (shape->visible.area() < kMinShareInImage * shape->full.area()) return std::nullopt;
+  const double margin = 0.3 + landmark.shape.horizontalExtent() / 2;
+  if (hiddenShare(depth_at, shape->visible, distance, margin) >= kMaxHidden) return std::nullopt;
+  return shape->visible;
+}
+
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections) {
-  const Pose3 camera_from_object = world_from_camera.inverse() * landmark.worldFromObject();
-  const double distance = (camera_from_object * Eigen::Vector3d(0, 0, landmark.shape.height / 2)).z();
-  if (distance < kNear_m || distance > kFar_m || !frame.hasDepth()) return false;
-  const auto shape = projectShape(landmark.shape, camera_from_object, frame.camera);
-  if (!shape || shape->visible.height() < kMinHeight_px) return false;
-  if (shape->visible.area() < kMinShareInImage * shape->full.area()) return false;
-  for (const auto& detection : detections)
-    if (iou(detection.box, shape->visible) > kSamePlace) return false;
-  const double margin = 0.3 + landmark.shape.horizontalExtent() / 2;
-  return hiddenShare(frame, shape->visible, distance, margin) < kMaxHidden;
+  if (!frame.hasDepth()) return false;
+  const auto box = boxInGoodView(landmark, world_from_camera.inverse(), frame.camera,
+                                 [&frame](double u, double v) { return frame.depthAt(u, v); });
+  return box && std::none_of(detections.begin(), detections.end(),
+                             [&box](const Detection& d) { return iou(d.box, *box) > kSamePlace; });
 }
 
 RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot,

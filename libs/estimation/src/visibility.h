@@ -2,6 +2,8 @@
 // Expected visibility of landmarks in a frame, and evidence of lidar beams about them.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "roomgraph/observations/detection.h"
@@ -11,9 +13,16 @@
 
 namespace roomgraph {
 
-/// Whether a landmark is a miss in this frame: well inside the image, near and large enough, not hidden behind
-/// something that the depth image shows in front of it, and without a detection at its position (one with another label
-/// is a confusion, not a miss).
+/// Depth along the optical axis at a pixel (u, v), m; 0 where nothing was measured.
+using DepthLookup = std::function<double(double u, double v)>;
+
+/// The box of a landmark in good view: well inside the image, near and large enough, not hidden behind
+/// something that the depth image shows in front of it. Nothing otherwise.
+std::optional<Box2> boxInGoodView(const Landmark& landmark, const Pose3& camera_from_world,
+                                  const PinholeCamera& camera, const DepthLookup& depth_at);
+
+/// Whether a landmark is a miss in this frame: in good view, and without a detection at its position (one
+/// with another label is a confusion, not a miss).
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
 

@@ -237,7 +237,7 @@ std::vector<ObjectDecision> SemanticSlam::associate(const Frame& frame,
                                                     const std::vector<FeatureTrack>& features,
                                                     const FrameDetections& detections) {
   const auto timing = times_.measure("association");
-  auto decisions = objects_.associate(measurements, frame, features);
+  auto decisions = objects_.associate(measurements, frame, features, estimator_.drift());
   if (detections.fresh) objects_.missUnseen(decisions, detections.boxes, frame);
   return decisions;
 }

@@ -12,6 +12,7 @@ struct AssociationModel {
   double forgetting = 0.2;
   double tempering = 1;
   double neutral_features = 5;
+  double door_gain = 1, door_cue_s = 10;
 
   void declare(ParameterVisitor& visitor);
 };

@@ -16,6 +16,9 @@ struct Movement {
   Matrix6d covariance = Matrix6d::Identity();
 };
 
+/// A movement that no source covers: bounded only by the speed of a walk or a drive.
+Movement unknownMovement(double seconds);
+
 /// One source of motion: its trajectory in its own frame, and its noise model.
 class MotionSource {
  public:

@@ -42,10 +42,9 @@ struct ObjectsInGraph {
 ///   sightings of one visit are averaged to one, which has the rest of the variance for itself, at the key
 ///   pose in the middle of the visit.
 /// * The mean size that was measured from each direction.
-/// * One box per key pose and landmark, and points that were seen on a landmark from several key poses, with
-/// a share of
-///   their information (BackendOptions::landmark_information_share): their errors repeat, too, without a
-///   model yet.
+/// * One box per key pose and landmark, if the shape lifted from it explains it, and points that were seen on
+/// a landmark from several key poses. Boxes from one direction, and points of one object, share a part of
+/// their errors (BackendOptions::landmark_repeating_share), and are together worth no more than their mean.
 ///
 /// The yaw is that of most sightings; front and back of an object are easily confused, so opposite yaws are
 /// reversed, and those across took width for depth and measure no yaw.

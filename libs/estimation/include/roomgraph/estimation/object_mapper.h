@@ -2,11 +2,13 @@
 // Mapping of objects: association, landmark fusion, negative evidence and re-association.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "roomgraph/association/landmark_map.h"
+#include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/existence.h"
 #include "roomgraph/estimation/key_poses.h"
 #include "roomgraph/estimation/object_factors.h"
@@ -23,14 +25,17 @@ class SpaceMemory;
 /// the robot, so that they can be decided again when the poses have changed.
 class ObjectMapper {
  public:
-  /// `pose_sigma_m`: uncertainty of the current pose when objects are associated. `poses` outlives the mapper.
+  /// `pose_sigma_m`: uncertainty of the current pose within what it sees, besides drift. `poses` outlives the
+  /// mapper.
   ObjectMapper(std::shared_ptr<Associator> associator, const LandmarkOptions& options, double pose_sigma_m,
                const KeyPoses& poses);
   ~ObjectMapper();
 
   /// Assigns the measurements of one frame to landmarks and fuses them. `features`: tracked in that frame.
-  std::vector<ObjectDecision> associate(const std::vector<ObjectMeasurement>& measurements, const Frame& frame,
-                                        const std::vector<FeatureTrack>& features);
+  /// `drift`: of the pose since each landmark was last seen.
+  std::vector<ObjectDecision> associate(const std::vector<ObjectMeasurement>& measurements,
+                                        const Frame& frame, const std::vector<FeatureTrack>& features,
+                                        const Drift& drift);
 
   /// Lowers the existence of landmarks in good view where the detector, on this frame, found nothing.
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
@@ -67,6 +72,7 @@ class ObjectMapper {
 
  private:
   std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
+  std::map<LandmarkId, double> driftVariances(const Drift& drift) const;
   void shareSightings(LandmarkId first, LandmarkId second);
   void respan();
   void span(const ObjectFrame& frame);

@@ -27,13 +27,12 @@ struct BackendOptions : Configurable {
   double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;
   double ground_sigma_rad = 0.02, ground_sigma_m = 0.02;
   double pose_sigma_m = 0.03;
-  double landmark_information_share = 0.01;
   double landmark_sigma_share = 0.5;
   double landmark_repeating_share = 0.5;
   double landmark_view_rad = 0.26;
   bool object_boxes = true;
   bool planar_graph = false;
-  double box_sigma_px = 60, point_sigma_px = 20;
+  double box_sigma = 0.06, point_sigma_px = 10;
   int points_per_landmark = 10;
   void declareParameters(ParameterVisitor& v) override;
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/geometry/ground.h"
 
@@ -28,6 +29,8 @@ class PoseEstimator {
   PoseEstimator(const BackendOptions& options, const Motion& motion);
 
   const KeyPoses& poses() const { return poses_; }
+  /// Of the latest key pose.
+  const Drift& drift() const { return drift_; }
   /// The graph as it was last optimised as a whole.
   const FactorGraph& graph() const { return graph_; }
   /// Whether the robot drives on the floor; else the camera is handheld.
@@ -70,6 +73,7 @@ class PoseEstimator {
   const BackendOptions& options_;
   const Motion& motion_;
   KeyPoses poses_;
+  Drift drift_;
   Measurements measurements_;
   FactorGraph graph_;
   Window window_;                       ///< of the latest key poses

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Drift: how uncertain the latest key pose is relative to the earlier ones.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "roomgraph/estimation/key_poses.h"
+#include "roomgraph/estimation/motion.h"
+#include "roomgraph/observations/trajectory.h"
+
+namespace roomgraph {
+
+/// Uncertainty of the latest key pose relative to every earlier one: the least that a chain of movements and
+/// loop closures between the two gives (Dijkstra projection, Bosse et al., "Simultaneous localization and map
+/// building in large-scale cyclic environments using the Atlas framework", IJRR 2004, sec. 3.3). It is kept
+/// up to date in O(key poses) per key pose and closure.
+class Drift {
+ public:
+  /// `share`: of the variance of movements by images and scans, which are matched to local maps, that adds up
+  /// (BackendOptions::local_map_drift_share; 1 without local maps). `motion` outlives this.
+  Drift(const Motion& motion, double share) : motion_(motion), share_(share) {}
+
+  /// Takes in the key poses that are new since the last call.
+  void extend(const KeyPoses& poses);
+  /// A loop closure between two times up to the latest key pose.
+  void close(const KeyPoses& poses, const RelativePose& closure);
+  /// Variance (m^2, each of x and y) of where a place (world, m) that was last seen at time t is from the
+  /// latest key pose.
+  double variance(const KeyPoses& poses, double t, const Eigen::Vector2d& place) const;
+
+ private:
+  struct Variance {
+    double position_m2 = 0, yaw_rad2 = 0;
+  };
+  Variance ofStep(const KeyPose& a, const KeyPose& b) const;
+
+  const Motion& motion_;
+  double share_;
+  std::vector<Variance> walked_;  ///< sums of the steps from the first key pose
+  std::vector<Variance> since_;   ///< of the latest key pose relative to each
+};
+
+}  // namespace roomgraph
