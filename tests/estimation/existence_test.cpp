@@ -43,8 +43,6 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"contested", &E::contested},
                                                              {"crossed", &E::crossed},
                                                              {"filled", &E::filled},
-                                                             {"middle_crossed", &E::middle_crossed},
-                                                             {"middle_filled", &E::middle_filled},
                                                              {"spread", &E::spread},
                                                              {"beside_crossed", &E::beside_crossed},
                                                              {"beside_filled", &E::beside_filled},
@@ -94,14 +92,14 @@ TEST(ExistenceModel, ShippedWeightsHaveTheRightSigns) {
   using E = ExistenceEvidence;
   for (const auto kind : {ShapeKind::kCylinder, ShapeKind::kCuboid, ShapeKind::kPlanar}) {
     const double neutral = model.probability(kind, {});
-    for (const auto field : {&E::sightings, &E::directions, &E::score, &E::label, &E::detected, &E::filled,
-                             &E::middle_filled, &E::spread}) {
+    for (const auto field :
+         {&E::sightings, &E::directions, &E::score, &E::label, &E::detected, &E::filled, &E::spread}) {
       E evidence;
       evidence.*field = 1;
       EXPECT_GE(model.probability(kind, evidence), neutral) << toString(kind);
     }
-    for (const auto field : {&E::scatter, &E::turned, &E::contested, &E::crossed, &E::middle_crossed,
-                             &E::beside_crossed, &E::beams_crossed}) {
+    for (const auto field :
+         {&E::scatter, &E::turned, &E::contested, &E::crossed, &E::beside_crossed, &E::beams_crossed}) {
       E evidence;
       evidence.*field = 1;
       EXPECT_LE(model.probability(kind, evidence), neutral) << toString(kind);

@@ -74,6 +74,33 @@ TEST(ObjectMapper, WhenALandmarkIsSplitItsSightingsAre) {
   EXPECT_EQ(at_right.last, 9);
 }
 
+// A chair is seen again one metre beside its place: another one, unless nothing measured how the robot moved
+// in between.
+TEST(ObjectMapper, AfterALostCameraTheGateIsWide) {
+  association::registerClasses();
+  for (const bool lost : {false, true}) {
+    KeyPoses poses(standing());
+    Drift drift(standing(), 1);
+    ObjectMapper mapper(createStage<Associator>("SoftAssociator", "test"), {}, 0.03, poses);
+    poses.add(0, Pose3::Identity());
+    drift.extend(poses);
+    for (int i = 0; i < 8; ++i) {
+      const Frame frame = frameAt(i, 0.01 * i);
+      mapper.associate({chairAt(frame, 1.2, 0)}, frame, {}, drift);
+    }
+    if (lost) {
+      poses.add(0.3, Pose3::Identity());
+      drift.extend(poses);
+    }
+    const Frame frame = frameAt(8, 0.3);
+    const auto decisions = mapper.associate({chairAt(frame, 1.2, 1)}, frame, {}, drift);
+    EXPECT_EQ(mapper.landmarks().landmarks().size(), lost ? 1u : 2u);
+    EXPECT_NEAR(mapper.landmarks().landmarks()[0].position.y(), 0, lost ? 0.05 : 1e-9)
+        << "a sighting from an unsure pose hardly moves the landmark";
+    EXPECT_EQ(decisions.at(0).landmark == mapper.landmarks().landmarks()[0].id, lost);
+  }
+}
+
 // Of the features of a frame, those with depth on an object are kept for the graph.
 TEST(ObjectMapper, RemembersFeaturesThatLieOnObjects) {
   KeyPoses poses(standing());

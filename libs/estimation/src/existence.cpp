@@ -11,15 +11,17 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -17.9",  "filter 0.532",    "sightings 1.33", "directions 0.853",
-               "score 5.93",  "label 9.4",       "scatter -0.518", "turned -0.955",
-               "size -0.452", "contested -1.55", "spread 2.43",    "beams_crossed -9.52"},
-      cuboid{"bias -7.48",     "filter 0.434",   "sightings 0.277",    "score 5.93",
-             "label 3.38",     "scatter -0.209", "turned -2.33",       "contested -1.59",
-             "crossed -0.468", "spread 1",       "beams_crossed -14.2"},
-      planar{"bias -10.4",       "filter 0.383",         "sightings 0.853",    "directions 1.43",
-             "score 4.31",       "label 4.96",           "scatter -0.0893",    "size -0.0477",
-             "contested -0.426", "beside_crossed -14.2", "beside_filled 3.37", "beams_crossed -9.52"} {}
+    : cylinder{"bias -10.4",         "filter 0.27", "sightings 0.672",      "score 5.7",
+               "label 4.54",         "turned -1.4", "detected 0.645",       "contested -0.824",
+               "crossed -0.0415",    "spread 1.65", "beside_crossed -3.47", "beside_filled 0.00777",
+               "beams_crossed -1.61"},
+      cuboid{"bias -6.56",           "filter 0.207",         "score 2.9",
+             "label 3.81",           "turned -3.47",         "detected 0.289",
+             "contested -1.45",      "crossed -3.12",        "spread 2.52",
+             "beside_crossed -3.44", "beside_filled 0.0469", "beams_crossed -2.36"},
+      planar{"bias -5.15",           "filter 0.217",       "sightings 0.675", "directions 0.811",
+             "score 2.55",           "label 3.5",          "detected 0.322",  "contested -1.24",
+             "beside_crossed -5.21", "beams_crossed -1.64"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

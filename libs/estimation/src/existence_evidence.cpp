@@ -189,6 +189,11 @@ double share(const std::vector<RayCounts>& counts, bool (*is)(const RayCounts&))
          static_cast<double>(counts.size());
 }
 
+// A little of a solid object that rays crossed says nearly as much as a lot: the root of the share.
+double crossedRoot(const std::vector<RayCounts>& counts) {
+  return std::sqrt(share(counts, mostlyCrossed));
+}
+
 // Share of the slices across an axis in which enough points are filled.
 double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vector<RayCounts>& counts,
                     int axis, double extent_m) {
@@ -220,20 +225,15 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
   const auto inside = insidePoints(shape);
   const auto counts = views.byImages(inWorld(inside, world_from_object));
   evidence.filled = share(counts, mostlyFilled);
-  std::vector<RayCounts> middle;
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    if (std::abs(inside[i].z() / shape.height - 0.5) < 1.0 / 6) middle.push_back(counts[i]);
-  evidence.middle_filled = share(middle, mostlyFilled);
-  evidence.middle_crossed = share(middle, mostlyCrossed);
   evidence.spread =
       std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
   std::vector<RayCounts> solid;
   for (std::size_t i = 0; i < inside.size(); ++i)
     if (solid_share == 0 || inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
-  evidence.crossed = share(solid, mostlyCrossed);
+  evidence.crossed = crossedRoot(solid);
   if (shape.kind != ShapeKind::kPlanar) return;
   const auto wall = views.byImages(inWorld(wallPoints(shape), world_from_object));
-  evidence.beside_crossed = share(wall, mostlyCrossed);
+  evidence.beside_crossed = crossedRoot(wall);
   evidence.beside_filled = share(wall, mostlyFilled);
 }
 
@@ -245,9 +245,8 @@ void setBeams(ExistenceEvidence& evidence, const Landmark& landmark, double soli
   for (const auto& p : footprintPoints(landmark.shape))
     ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
   const double bottom = landmark.position.z();
-  evidence.beams_crossed =
-      share(views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height),
-            mostlyCrossed);
+  evidence.beams_crossed = crossedRoot(
+      views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height));
 }
 
 // Without depth images what they would say of most landmarks is taken.

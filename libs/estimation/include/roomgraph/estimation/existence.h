@@ -26,24 +26,23 @@ struct ExistenceEvidence {
   double size = 0;        ///< normalised distance of its size from its class's
   double detected = 0;    ///< log odds of its being detected from a place with it in good view
   double contested = 0;   ///< share of sightings whose box another landmark, not seen in that frame, covers
-  double crossed = 0;  ///< share of its volume (of solid classes: of the solid part) that depth rays crossed
-  double filled = 0;   ///< share of its volume where they ended
-  double middle_crossed = 0;  ///< the same two of the middle third of its height: a chair's seat and
-  double middle_filled = 0;   ///< the lower half of its back are there, nothing of what stands on a desk
-  double spread = 0;   ///< share of its length or width, the lesser one, along which they ended in it
-  double beside_crossed = 0;  ///< of doors: share of the wall beside and above that depth rays crossed
+  // Of what depth rays and beams crossed, the square roots of the shares: a little of a solid object says
+  // nearly as much as a lot.
+  double crossed = 0;         ///< of its volume (of solid classes: of the solid part), by depth rays
+  double filled = 0;          ///< share of its volume where they ended
+  double spread = 0;          ///< share of its length or width, the lesser one, along which they ended in it
+  double beside_crossed = 0;  ///< of doors: of the wall beside and above, by depth rays
   double beside_filled = 0;   ///< of doors: share of it where they ended
-  double beams_crossed = 0;   ///< of solid classes: share of the footprint that lidar beams crossed
+  double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams
 
-  static constexpr std::array<std::string_view, 18> kNames = {
-      "filter",         "sightings",     "directions", "score",          "label",         "scatter",
-      "turned",         "size",          "detected",   "contested",      "crossed",       "filled",
-      "middle_crossed", "middle_filled", "spread",     "beside_crossed", "beside_filled", "beams_crossed"};
+  static constexpr std::array<std::string_view, 16> kNames = {
+      "filter", "sightings",      "directions",    "score",        "label",   "scatter",
+      "turned", "size",           "detected",      "contested",    "crossed", "filled",
+      "spread", "beside_crossed", "beside_filled", "beams_crossed"};
   /// In the order of kNames.
-  std::array<double, 18> values() const {
-    return {filter,         sightings,     directions, score,          label,         scatter,
-            turned,         size,          detected,   contested,      crossed,       filled,
-            middle_crossed, middle_filled, spread,     beside_crossed, beside_filled, beams_crossed};
+  std::array<double, 16> values() const {
+    return {filter,   sightings, directions, score,  label,  scatter,        turned,        size,
+            detected, contested, crossed,    filled, spread, beside_crossed, beside_filled, beams_crossed};
   }
 };
 
