@@ -11,7 +11,8 @@ namespace roomgraph {
 namespace {
 
 std::vector<KnownNetwork> installedIn(const std::filesystem::path& folder, const ModelSource& source) {
-  if (folder.empty() || !std::filesystem::is_directory(folder)) {
+  std::error_code unreadable;
+  if (folder.empty() || !std::filesystem::is_directory(folder, unreadable)) {
     if (source.models.empty()) return {};
     throw ConfigError("--models " + source.models + ": no such folder");
   }
