@@ -220,7 +220,7 @@ TEST_F(Fetch, ADamagedFileIsReplaced) {
 
 TEST_F(Fetch, CancelledItKeepsWhatCame) {
   listener.stop_at = 1;
-  EXPECT_THAT(messageOf<Interrupted>([&] { fetch(server.base("slow")); }),
+  EXPECT_THAT(messageOf<Interrupted>([&] { fetch(server.base("held")); }),
               AllOf(HasSubstr("interrupted"), HasSubstr("bytes are kept")));
   const std::string kept = read(part);
   EXPECT_LT(kept.size(), content.size());
@@ -232,13 +232,14 @@ TEST_F(Fetch, CancelledItKeepsWhatCame) {
 }
 
 TEST_F(Fetch, OfTwoAtOnceOneIsToldOfTheOther) {
-  std::thread slow([&] {
+  std::thread held([&] {
     Listener other;
-    fetchNetwork(network, models, server.base("slow"), other);
+    fetchNetwork(network, models, server.base("held"), other);
   });
   while (!fs::exists(part)) std::this_thread::yield();
   EXPECT_THAT(messageOf<RunError>([&] { fetch(); }), HasSubstr("net: another process is fetching it"));
-  slow.join();
+  server.folder().write("release", "");
+  held.join();
   EXPECT_TRUE(atPlace() == content);
   fetch();
   EXPECT_EQ(listener.log, "there net.onnx\n");

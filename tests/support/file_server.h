@@ -52,7 +52,7 @@ class FileServer {
 
   const TemporaryFolder& folder() const { return folder_; }
   std::string host() const { return "http://127.0.0.1:" + port_; }
-  /// `how`: plain, norange, half, nolength, slow, damaged, redirect or refused.
+  /// `how`: plain, norange, half, nolength, held, damaged, redirect or refused.
   std::string base(const std::string& how) const { return host() + "/" + how; }
   /// "ADDRESS RANGE" lines, RANGE being "-" without one.
   std::string requests() const { return log_.read("log"); }

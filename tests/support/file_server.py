@@ -6,8 +6,8 @@ Usage: file_server.py FOLDER LOG
 
 Prints its port. LOG gets one line per request: the address asked for, a blank, its Range or "-". Asked as a proxy (with a whole
 address) it serves the path of the address. /plain/FILE knows ranges, /norange/FILE does not; /half/FILE closes the connection
-in the middle unless a range is asked for; /nolength/FILE does so without having announced a length; /slow/FILE takes two
-seconds; /damaged/FILE has one bit changed; /redirect/FILE sends to /plain/FILE; /refused/FILE answers 403.
+in the middle unless a range is asked for; /nolength/FILE does so without having announced a length; /held/FILE waits in the
+middle until the folder holds a file `release`; /damaged/FILE has one bit changed; /redirect/FILE sends to /plain/FILE; /refused/FILE answers 403.
 """
 import http.server
 import pathlib
@@ -60,13 +60,12 @@ class Handler(http.server.BaseHTTPRequestHandler):
     def body(self, mode, data, match):
         if mode in ("half", "nolength") and not match:
             data = data[:len(data) // 2]
-        parts = 20 if mode == "slow" else 1
-        size = len(data) // parts + 1
-        for begin in range(0, len(data), size):
-            self.wfile.write(data[begin:begin + size])
-            self.wfile.flush()
-            if mode == "slow":
-                time.sleep(0.1)
+        if mode == "held":
+            self.wfile.write(data[:len(data) // 2])
+            data = data[len(data) // 2:]
+            while not (FOLDER / "release").exists():
+                time.sleep(0.02)
+        self.wfile.write(data)
         self.close_connection = True
 
     def log_message(self, *_):
