@@ -33,7 +33,8 @@ PLAIN = ["lidar.enabled=false", "tracking.enabled=false"]
 
 def call(*arguments):
     command = [str(a) for a in (PROGRAM, *arguments)]
-    done = subprocess.run(command, capture_output=True, text=True)
+    environment = {**os.environ, "XDG_DATA_HOME": os.devnull}  # no networks that somebody has installed
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode:
         sys.exit(f"{shlex.join(command)}\nfailed with {done.returncode}: {done.stderr.strip()}")
 

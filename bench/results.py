@@ -40,7 +40,8 @@ class Bench:
     def call(self, *arguments):
         command = [str(a) for a in (self.program, *arguments)]
         started = time.monotonic()
-        done = subprocess.run(command, capture_output=True, text=True)
+        environment = {**os.environ, "XDG_DATA_HOME": os.devnull}  # no networks that somebody has installed
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
         if done.returncode:
             sys.exit(f"{shlex.join(command)}\nfailed with {done.returncode}: {done.stderr.strip()}")
         return self.shown(command), time.monotonic() - started

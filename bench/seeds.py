@@ -15,6 +15,7 @@ by every variant and every later call, until the world file or the simulator cha
 import argparse
 import hashlib
 import json
+import os
 import re
 import shlex
 import shutil
@@ -88,7 +89,8 @@ class Program:
     def call(self, *arguments):
         """None when it worked, else one line about what went wrong."""
         command = [str(a) for a in (self.path, *arguments)]
-        done = subprocess.run(command, capture_output=True, text=True)
+        environment = {**os.environ, "XDG_DATA_HOME": os.devnull}  # no networks that somebody has installed
+        done = subprocess.run(command, capture_output=True, text=True, env=environment)
         if done.returncode == 0:
             return None
         reason = done.stderr.strip().splitlines()

@@ -11,6 +11,6 @@ install(FILES "${CMAKE_BINARY_DIR}/roomgraph-config.cmake" "${CMAKE_BINARY_DIR}/
         DESTINATION ${ROOMGRAPH_CMAKE_DIR})
 
 install(FILES "${PROJECT_SOURCE_DIR}/config.ini" "${PROJECT_SOURCE_DIR}/objects.ini"
-        "${PROJECT_SOURCE_DIR}/objects_home.ini"
+        "${PROJECT_SOURCE_DIR}/objects_home.ini" "${PROJECT_SOURCE_DIR}/networks.json"
         DESTINATION ${CMAKE_INSTALL_DATADIR}/roomgraph)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})

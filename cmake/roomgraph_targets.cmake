@@ -53,6 +53,9 @@ function(roomgraph_add_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
+# Tests see no networks that a developer has installed.
+set(ROOMGRAPH_TEST_ENVIRONMENT "XDG_DATA_HOME=${CMAKE_BINARY_DIR}/no_data")
+
 # roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...] [AT_ONCE suites...]): one GoogleTest
 # executable, its cases listed in ctest; those of AT_ONCE, which share what takes long to make, as one for each suite. It sees the private headers of the library whose tests stand in this folder, and of INTERNALS:
 # the parts behind the public interface are tested one by one.
@@ -81,7 +84,8 @@ function(roomgraph_add_test name)
   endif()
   foreach(suite ${ARG_AT_ONCE})
     add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
-    set_tests_properties(${suite} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    set_tests_properties(${suite} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
   endforeach()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${filter}" PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${filter}"
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
 endfunction()

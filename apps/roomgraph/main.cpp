@@ -70,6 +70,7 @@ void addCommands(CLI::App& app) {
   addConfigReferenceCommand(app);
   addSimulateCommand(app);
   addBenchCommand(app);
+  addModelsCommand(app);
 }
 
 int runCommand(CLI::App& app, int argc, char** argv) {

@@ -10,12 +10,14 @@
 
 #include "commands.h"
 #include "configuration.h"
+#include "installed_networks.h"
 #include "interrupts.h"
 #include "program.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/mentioned_files.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/core/suggest.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/detection_source.h"
@@ -31,6 +33,7 @@ namespace {
 struct RunOptions {
   std::string input, output, config, map, recording, pictures;
   std::vector<std::string> overrides, poses;
+  ModelSource networks;
   int threads = 0;
   ReplaySpan span;
   bool quiet = false, no_snapshot = false;
@@ -144,7 +147,7 @@ void run(const RunOptions& options) {
   }
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
-  auto setup = makeSetup(configuration.config, configuration.objects_file);
+  auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
   check(options, setup->options);
   RawlogReader reader(options.input, readOptionsOf(setup->options));
   if (const std::string advice = missingDetections(setup->stages, options.input); !advice.empty())
@@ -168,12 +171,13 @@ void run(const RunOptions& options) {
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam.setup().options, replayed, result);
   output->writeResult(slam, result, reader.statistics(), replayed,
-                      {options.input, kVersion, kRevision, commandLine()});
+                      {options.input, kVersion, kRevision, commandLine(), networks});
   const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
                                                           output->files().pending("snapshot.png"));
   output->files().publish();
   if (extra.recording) extra.recording->finish();
 
+  if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
   const std::string detector = slam.setup().stages.detector ? slam.setup().stages.detector->warning() : "";
   std::vector<std::string> warnings = reader.statistics().sensor_warnings;
@@ -201,6 +205,12 @@ void addRunCommand(CLI::App& app) {
   command->add_option(
       "--map", options->map,
       "map.rgmap of an earlier run: results are in its frame once its objects are recognised");
+  command->add_option(
+      "--models", options->networks.models,
+      "model folder, whose networks run when none is named and the recording has no boxes (default: "
+      "roomgraph/models in $XDG_DATA_HOME or ~/.local/share)");
+  command->add_option("--catalogue", options->networks.catalogue,
+                      "catalogue of networks (default: the installed networks.json)");
   command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")
       ->check(atLeastZero());
   command->add_option("--from", options->span.from_s, "start this many seconds after the first record")
@@ -223,6 +233,8 @@ void addRunCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx\n"
       "  roomgraph run lab.rawlog -o out/fast --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
       "      --set detection.every_nth_frame=3 --debug-images out/fast/pictures\n"
+      "Networks installed by 'roomgraph models fetch' need not be named:\n"
+      "  roomgraph run lab.rawlog -o out/lab --models /media/usb/models\n"
       "Run the network once, then as often as you like without it:\n"
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
       "      --record-detections lab_boxes.rawlog\n"

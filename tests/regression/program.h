@@ -12,6 +12,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -38,17 +39,40 @@ struct CallResult {
   std::string out, err;
 };
 
+/// The environment with these variables ("NAME=value", or "NAME=" for none) in it, for a child. Without one
+/// of its own the model folder is below `folder`: a developer's networks do not take part in tests.
+inline std::vector<std::string> environmentWith(const std::filesystem::path& folder,
+                                                const std::vector<std::string>& variables) {
+  std::map<std::string, std::string> values;
+  const auto add = [&values](const std::string& entry) {
+    const auto equals = entry.find('=');
+    values[entry.substr(0, equals)] = equals == std::string::npos ? "" : entry.substr(equals + 1);
+  };
+  for (char** entry = environ; *entry; ++entry) add(*entry);
+  add("XDG_DATA_HOME=" + (folder / "data_home").string());
+  for (const auto& variable : variables) add(variable);
+  std::vector<std::string> out;
+  for (const auto& [name, value] : values)
+    if (!value.empty()) out.push_back(name + "=" + value);
+  return out;
+}
+
 /// The built executable, started with arguments; its output goes to files in `folder`.
 class Program {
  public:
   Program(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-          const std::filesystem::path& working_directory = std::filesystem::current_path())
+          const std::filesystem::path& working_directory = std::filesystem::current_path(),
+          const std::vector<std::string>& variables = {})
       : folder_(folder) {
     std::vector<std::string> words{ROOMGRAPH_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    for (auto& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
+    auto environment = environmentWith(folder, variables);
+    const auto pointersTo = [](std::vector<std::string>& texts) {
+      std::vector<char*> pointers;
+      for (auto& text : texts) pointers.push_back(text.data());
+      pointers.push_back(nullptr);
+      return pointers;
+    };
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     const auto redirect = [&](int descriptor, const char* name) {
@@ -66,7 +90,8 @@ class Program {
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigdefault(&attributes, &ended_by);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, &attributes, pointers.data(), environ);
+    const int error = posix_spawn(&pid_, ROOMGRAPH_PROGRAM, &actions, &attributes, pointersTo(words).data(),
+                                  pointersTo(environment).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0) << ROOMGRAPH_PROGRAM << " cannot be started";
@@ -86,8 +111,9 @@ class Program {
 };
 
 inline CallResult call(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                       const std::filesystem::path& working_directory = std::filesystem::current_path()) {
-  return Program(folder, arguments, working_directory).wait();
+                       const std::filesystem::path& working_directory = std::filesystem::current_path(),
+                       const std::vector<std::string>& variables = {}) {
+  return Program(folder, arguments, working_directory, variables).wait();
 }
 
 /// The contract of every failure: its exit code, and one line on stderr that begins with the program's name.

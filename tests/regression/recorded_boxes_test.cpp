@@ -59,7 +59,7 @@ TEST_F(RecordedBoxesRun, WithoutBoxesOneLineSaysWhatToDo) {
       linesOf(result.err),
       ElementsAre(
           "roomgraph: warning: no network named and no boxes in lab.rawlog: objects will not be mapped; "
-          "name one with --set detection.models=FILE.onnx"));
+          "name one with --set detection.models=FILE.onnx, or install one ('roomgraph models list')"));
   EXPECT_THAT(result.out, Not(HasSubstr("detection")));
   EXPECT_EQ(run(input, {"detection.enabled=false"}).err, "");
   const CallResult named = run(input, {"detection.class=DnnDetector"});
@@ -77,7 +77,7 @@ TEST_F(RecordedBoxesRun, BoxesThatStartLateAreNotDenied) {
       linesOf(run(input).err),
       ElementsAre("roomgraph: warning: no network named and no boxes at the beginning of long.rawlog: "
                   "objects will be mapped only if boxes come later; name one with --set "
-                  "detection.models=FILE.onnx"));
+                  "detection.models=FILE.onnx, or install one ('roomgraph models list')"));
 }
 
 TEST_F(RecordedBoxesRun, BoxesOfOtherTimesAreWarnedAbout) {

@@ -11,7 +11,7 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
-foreach(file bin/roomgraph share/roomgraph/objects.ini include/roomgraph/core/config.h
+foreach(file bin/roomgraph share/roomgraph/objects.ini share/roomgraph/networks.json include/roomgraph/core/config.h
         ${LIBDIR}/cmake/roomgraph/roomgraph-config.cmake)
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "not installed: ${file}")

@@ -13,7 +13,7 @@ std::string missingDetections(const Stages& stages, const std::filesystem::path&
   return "no network named and no boxes " + std::string(peek.whole ? "in " : "at the beginning of ") +
          rawlog.filename().string() + ": objects will " +
          (peek.whole ? "not be mapped" : "be mapped only if boxes come later") +
-         "; name one with --set detection.models=FILE.onnx";
+         "; name one with --set detection.models=FILE.onnx, or install one ('roomgraph models list')";
 }
 
 }  // namespace roomgraph

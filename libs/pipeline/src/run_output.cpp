@@ -109,6 +109,11 @@ ordered_json countsJson(const SlamResult& result) {
           {"landmarks", result.map.landmarks.size()}};
 }
 
+ordered_json detectorJson(const Detector& detector, const RunOrigin& origin) {
+  const DetectorIdentity identity = detector.identity();
+  return {{"model", identity.model}, {"model_hash", identity.hash}, {"installed_networks", origin.networks}};
+}
+
 ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
                          const ReplayState& replayed, const RunOrigin& origin) {
   ordered_json summary{{"input", origin.input},
@@ -118,6 +123,8 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
                        {"interrupted", replayed.interrupted ? "yes" : "no"},
                        {"replay", replayJson(replayed)},
                        {"counts", countsJson(result)}};
+  if (const auto& detector = slam.setup().stages.detector)
+    summary["detector"] = detectorJson(*detector, origin);
   if (result.earlier)
     summary["earlier_map"] = {{"recognised", result.earlier->recognised},
                               {"objects_in_common", result.earlier->common}};

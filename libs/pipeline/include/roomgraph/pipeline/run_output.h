@@ -19,6 +19,7 @@ struct RunOrigin {
   std::string input;                 ///< the recording
   std::string version, revision;     ///< of the program
   std::vector<std::string> command;  ///< the words of the command line
+  std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
 };
 
 /// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Look at recording and model folder, and a second set-up with what was found there.
+#include "installed_networks.h"
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/rawlog_peek.h"
+#include "roomgraph/models/model_folder.h"
+#include "shared_files.h"
+
+namespace roomgraph {
+namespace {
+
+std::vector<KnownNetwork> installedIn(const std::filesystem::path& folder, const ModelSource& source) {
+  std::error_code unreadable;
+  if (folder.empty() || !std::filesystem::is_directory(folder, unreadable)) {
+    if (source.models.empty()) return {};
+    throw ConfigError("--models " + source.models + ": no such folder");
+  }
+  const auto file =
+      source.catalogue.empty() ? sharedFile("networks.json") : std::filesystem::path(source.catalogue);
+  return networksToRun(NetworkCatalogue::fromFile(file), folder);
+}
+
+}  // namespace
+
+RunSetup makeRunSetup(Configuration& configuration, const std::filesystem::path& rawlog,
+                      const ModelSource& source) {
+  RunSetup out{makeSetup(configuration.config, configuration.objects_file), {}, modelFolder(source.models)};
+  const auto networks = installedIn(out.folder, source);
+  const auto& detector = out.setup->stages.detector;
+  const bool automatic = out.setup->options.detection.detector == "auto";
+  if (networks.empty() || !automatic || !detector || !detector->idle()) return out;
+  const RawlogPeek peek = peekRawlog(rawlog);
+  if (peek.detections || !peek.frames) return out;
+  std::vector<std::string> files;
+  for (const auto& network : networks) {
+    files.push_back(networkFile(network, out.folder).string());
+    out.networks.push_back(network.name);
+  }
+  configuration.config.override("detection.models=" + formatParameter(files));
+  out.setup = makeSetup(configuration.config, configuration.objects_file);
+  return out;
+}
+
+}  // namespace roomgraph
