@@ -143,7 +143,7 @@ def driver():
             line = process.stdout.readline()
             if not line:
                 raise BrowserError("chromedriver does not start")
-            if match := re.search(r"on port (\d+)", line):
+            if match := re.search(r"started successfully on port (\d+)", line):
                 port = match.group(1)
         yield f"http://127.0.0.1:{port}"
     finally:

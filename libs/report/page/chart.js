@@ -35,7 +35,7 @@ function seriesShape(one, x, y) {
 
 function axes(chart, x, y, top) {
   const { w, h: height, options } = chart, parts = [];
-  const step = niceStep(top, 4);
+  const step = niceStep(top, 6);
   for (let v = 0; v <= top * 1.0001; v += step)
     parts.push(s('line', { class: 'grid-line', x1: MARGIN.left, x2: w - MARGIN.right, y1: y(v), y2: y(v) }),
       s('text', { x: MARGIN.left - 8, y: y(v) + 4, 'text-anchor': 'end' }, options.tick(v, step)));

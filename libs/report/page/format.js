@@ -18,11 +18,13 @@ function whole(value) {
 
 function metres(value) {
   if (!isNumber(value)) return NONE;
-  return value < 1 ? `${fixed(value * 100, 1)} cm` : `${fixed(value, 2)} m`;
+  return value < 1 ? `${fixed(value * 100, 1)}\u00a0cm` : `${fixed(value, 2)}\u00a0m`;
 }
 
 function percent(value) {
-  return isNumber(value) ? `${fixed(value * 100, value < 0.1 || value > 0.99 ? 1 : 0)} %` : NONE;
+  if (!isNumber(value)) return NONE;
+  const fine = value < 0.0995 || value > 0.9895, digits = fine && value >= 0.0005 && value < 0.9995 ? 1 : 0;
+  return `${fixed(value * 100, digits)}\u00a0%`;
 }
 
 /// Seconds since the start as m:ss, or h:mm:ss.
@@ -35,13 +37,13 @@ function clock(seconds) {
 
 function duration(seconds) {
   if (!isNumber(seconds)) return NONE;
-  return seconds < 100 ? `${fixed(seconds, 1)} s` : `${clock(seconds)} min`.replace(/^(\d+:\d\d:\d\d) min/, '$1 h');
+  return seconds < 100 ? `${fixed(seconds, 1)}\u00a0s` : `${clock(seconds)}\u00a0min`.replace(/^(\d+:\d\d:\d\d).min/, '$1\u00a0h');
 }
 
 function milliseconds(ms) {
   if (!isNumber(ms)) return NONE;
-  if (ms >= 1000) return `${fixed(ms / 1000, ms >= 10000 ? 1 : 2)} s`;
-  return `${fixed(ms, ms >= 10 ? 1 : ms >= 0.1 ? 2 : 3)} ms`;
+  if (ms >= 1000) return `${fixed(ms / 1000, ms >= 10000 ? 1 : 2)}\u00a0s`;
+  return `${fixed(ms, ms >= 10 ? 1 : ms >= 0.1 ? 2 : 3)}\u00a0ms`;
 }
 
 function degrees(radians) {

@@ -25,7 +25,7 @@ function placeFacts(object) {
     ['Place x, y, z', `${fixed(x, 2)}, ${fixed(y, 2)}, ${fixed(z, 2)} m`],
     ['Width, depth, height', `${fixed(w, 2)} × ${fixed(d, 2)} × ${fixed(hgt, 2)} m`],
     ['Yaw of the front', turn],
-    ['95 % ellipse', `${fixed(ellipse.major * 100, 1)} × ${fixed(ellipse.minor * 100, 1)} cm`],
+    ['95 % ellipse, half axes', `${fixed(ellipse.major * 100, 1)} × ${fixed(ellipse.minor * 100, 1)} cm`],
     ['σ of the height', `${fixed(object.z_sigma_m * 100, 1)} cm`],
     ['Shape', object.model && object.model !== object.class ? `${object.shape}, ${words(object.model)}` : object.shape],
   ]);
@@ -50,7 +50,7 @@ function sightingsPart(run, object) {
   };
   const rivals = seen.rivals.filter((rival) => rival.sum > 0.05);
   return [h('h4', {}, 'Sightings'), seenChart(run, seen), facts([
-    ['Seen', `${whole(seen.count)} times, ${clock(seen.first)} to ${clock(seen.last)}`],
+    ['Seen', `${whole(seen.count)} times, ${clock(seen.first)}–${clock(seen.last)}`],
     ['Probability of the choice', `mean ${percent(seen.mean_probability)}, least ${percent(seen.least_probability)}`],
     ['In doubt (below 90 %)', `${seen.doubtful} of ${seen.count}`],
     rivals.length ? ['Could have been', rivals.map((rival) => `${nameOf(rival.id)} (${fixed(rival.sum, 1)})`).join(', ')] : null,
@@ -60,7 +60,7 @@ function sightingsPart(run, object) {
 function evidencePart(object) {
   const names = Object.keys(object.evidence);
   if (!names.length) return [h('h4', {}, 'Evidence'), h('p', { class: 'none' }, 'Not in candidates.json.')];
-  return h('details', {}, h('summary', {}, 'Evidence for and against it', h('span', { class: 'tag' }, names.length)),
+  return h('details', {}, h('summary', {}, 'Evidence', h('span', { class: 'tag' }, names.length)),
     facts(names.map((name) => [EVIDENCE[name] || words(name), fixed(object.evidence[name], 2)])));
 }
 

@@ -90,9 +90,9 @@ function evaluationPart(run) {
   const diagram = reliable ? h('figure', { class: 'card pad', style: 'margin: 0' }, h('h3', {}, 'Reliability of the association'),
     h('p', { class: 'none' }, 'Believed probability (across) and share that was right (up), in per cent; the size of a dot says how many decisions.'), reliabilityChart(reliable))
     : h('p', { class: 'none' }, 'No reliability of the association: it comes from “evaluate objects --truth-boxes … --json FILE” with FILE in the folder of the run.');
-  const figures = run.evaluations.map((e) => h('div', { class: 'card pad' }, h('details', {}, h('summary', {}, e.file, h('span', { class: 'tag' }, Object.keys(e.figures).length)),
-    table(null, [{ title: 'figure' }, { title: 'value', number: true }], Object.entries(e.figures).map(([name, v]) => [words(name), fixed(v, Number.isInteger(v) ? 0 : 4)])))));
-  return h('div', { class: 'two' }, diagram, figures.length ? h('div', { class: 'stack' }, figures) : null);
+  const figures = run.evaluations.map((e) => h('details', {}, h('summary', {}, e.file, h('span', { class: 'tag' }, Object.keys(e.figures).length)),
+    table(null, [{ title: 'figure' }, { title: 'value', number: true }], Object.entries(e.figures).map(([name, v]) => [words(name), fixed(v, Number.isInteger(v) ? 0 : 4)]))));
+  return h('div', { class: 'two' }, diagram, figures.length ? h('div', { class: 'card pad' }, h('h3', {}, 'Figures of evaluations'), figures) : null);
 }
 
 function stageTable(run) {
@@ -104,7 +104,7 @@ function stageTable(run) {
 function timeSection(run, onTime) {
   const parts = [run.stages.length ? h('div', { class: 'card pad long' }, stageTable(run)) : missingNote(run, ['summary.json'])];
   const tick = (v, step) => step >= 1000 ? `${fixed(v / 1000, 0)} s` : `${fixed(v, step < 1 ? 1 : 0)} ms`.replace(/^(\d+),(\d)00 ms$/, '$1.$2 s');
-  parts.push(curve(run, 'Work on one record, all stages', [{ name: 'work', data: run.record_ms }], `Largest ${milliseconds(largestOf([{ data: run.record_ms }]))}.`, milliseconds, tick, onTime));
+  parts.push(curve(run, 'Work on one record, without what is done once', [{ name: 'work', data: run.record_ms }], `Largest ${milliseconds(largestOf([{ data: run.record_ms }]))}.`, milliseconds, tick, onTime));
   const memory = run.peak_memory_mb ? `The program held ${whole(run.peak_memory_mb)} MB at most.` : null;
   return section('time', 'Time and memory', memory, h('div', { class: 'stack' }, parts));
 }
@@ -130,6 +130,6 @@ function gapPart(run) {
 }
 
 function eventsSection(run) {
-  return section('events', 'Events', 'What was lost, skipped or recognised on the way.', h('div', { class: 'two' }, closurePart(run), gapPart(run),
+  return section('events', 'Events', 'What was lost, skipped or recognised on the way.', h('div', { class: 'flow' }, closurePart(run), gapPart(run),
     countTable('Records used', run.records_used), countTable('Records skipped', run.records_skipped), countTable('Why frames and scans were lost', run.reasons), countTable('All counts', run.counts)));
 }

@@ -107,7 +107,7 @@ struct RunData {
   std::map<std::string, double> counts, reasons, records_used, records_skipped;
   std::vector<std::string> run_warnings;
   std::vector<StageRow> stages;
-  BinnedSeries record_ms;  ///< work on one record
+  BinnedSeries record_ms;  ///< work on one record, without stages that ran once (at the end)
   double peak_memory_mb = 0;
   std::vector<ConfigRow> config;
   std::vector<EvaluationFile> evaluations;

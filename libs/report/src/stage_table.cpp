@@ -88,6 +88,8 @@ void readSummary(const std::filesystem::path& file, RunData& run) {
 
 void readTimings(std::istream& lines, const std::string& name, RunData& run) {
   std::map<std::string, double> cpu_ms;
+  std::map<std::string, int> calls;
+  for (const auto& stage : run.stages) calls[stage.name] = stage.calls;
   std::map<double, double> of_record;
   std::string line;
   std::getline(lines, line);
@@ -95,7 +97,7 @@ void readTimings(std::istream& lines, const std::string& name, RunData& run) {
     const auto call = parsed(line);
     if (!call) throw InputError(name + ":" + std::to_string(number) + ": expected timestamp,stage,ms,cpu_ms");
     cpu_ms[call->stage] += call->cpu_ms;
-    of_record[call->t - run.start_t] += call->ms;
+    if (calls[call->stage] != 1) of_record[call->t - run.start_t] += call->ms;
   }
   for (auto& stage : run.stages) stage.cpu_ms = cpu_ms[stage.name];
   run.record_ms = binned({of_record.begin(), of_record.end()}, 0, run.duration_s, kRecordBins);
