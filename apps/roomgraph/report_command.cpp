@@ -33,7 +33,8 @@ std::filesystem::path placeOf(const ReportArguments& arguments) {
       throw ConfigError("--output " + arguments.output + ": a report is a page: name it something.html");
     return arguments.output;
   }
-  if (arguments.folders.size() > 1) throw ConfigError("several runs: say with -o where their report is to go");
+  if (arguments.folders.size() > 1)
+    throw ConfigError("several runs: say with -o where their report is to go");
   return std::filesystem::path(arguments.folders.front()) / "report.html";
 }
 
@@ -45,15 +46,16 @@ void report(const ReportArguments& arguments) {
   const ReportPage page = makeReport(request);
   writeFileAtomically(place, page.html);
   for (const auto& warning : page.warnings) std::cerr << "roomgraph: warning: " << warning << "\n";
-  std::printf("%s: %zu %s, %.1f MB\n", place.c_str(), request.runs.size(), request.runs.size() == 1 ? "run" : "runs",
-              static_cast<double>(page.html.size()) / 1e6);
+  std::printf("%s: %zu %s, %.1f MB\n", place.c_str(), request.runs.size(),
+              request.runs.size() == 1 ? "run" : "runs", static_cast<double>(page.html.size()) / 1e6);
 }
 
 }  // namespace
 
 void addReportCommand(CLI::App& app) {
   auto arguments = std::make_shared<ReportArguments>();
-  auto* command = app.add_subcommand("report", "HTML page about runs: map, objects, errors, timings, configuration");
+  auto* command =
+      app.add_subcommand("report", "HTML page about runs: map, objects, errors, timings, configuration");
   command->add_option("OUT", arguments->folders, "folders that run wrote; several are compared")->required();
   command->add_option("--truth", arguments->truth, "true trajectory (TUM): errors over time");
   command->add_option("-o,--output", arguments->output, "page to write (default: OUT/report.html)");

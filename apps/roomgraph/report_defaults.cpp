@@ -27,7 +27,8 @@ bool writeRunReport(const std::filesystem::path& folder, const std::string& name
     writeFileAtomically(html, page.html);
     return true;
   } catch (const std::exception& error) {
-    std::cerr << "roomgraph: warning: no report.html: " << firstLine(error) << " (--no-report: not asked for)\n";
+    std::cerr << "roomgraph: warning: no report.html: " << firstLine(error)
+              << " (--no-report: not asked for)\n";
   }
   return false;
 }

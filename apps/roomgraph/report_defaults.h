@@ -12,8 +12,8 @@ namespace roomgraph {
 /// "section.key" -> texts that a configuration as shipped has there.
 std::map<std::string, std::vector<std::string>> shippedTexts();
 
-/// Writes the page about the run whose files are in `folder`. A run is a run without it: whatever fails is one line of
-/// warning, and false.
+/// Writes the page about the run whose files are in `folder`. A run is a run without it: whatever fails is
+/// one line of warning, and false.
 bool writeRunReport(const std::filesystem::path& folder, const std::string& name,
                     const std::filesystem::path& html);
 

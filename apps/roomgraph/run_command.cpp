@@ -185,7 +185,8 @@ void run(const RunOptions& options) {
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
   std::cout << "results in " << options.output;
   if (reported || drawn)
-    std::cout << "; look at " << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
+    std::cout << "; look at "
+              << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
   std::cout << "\n";
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
 }

@@ -149,6 +149,7 @@ def driver():
     finally:
         process.terminate()
         process.wait()
+        process.stdout.close()
 
 
 @contextlib.contextmanager

@@ -8,14 +8,21 @@ function comparedFigures() {
   };
   const ate = (key) => (run) => run[key] && run[key].ate_m.rmse;
   return [
-    ['Error (ATE RMSE), final', ate('final_errors'), metres, -1], ['Error (ATE RMSE), live', ate('live_errors'), metres, -1],
+    ['Error (ATE RMSE), final', ate('final_errors'), metres, -1],
+    ['Error (ATE RMSE), live', ate('live_errors'), metres, -1],
     ['Movement in 1 s, final', (run) => run.final_errors && run.final_errors.rpe_trans_m.rmse, metres, -1],
     ['Objects in the map', (run) => run.objects.filter((o) => o.in_map).length, whole, 0],
-    ['Precision of the objects', evaluated('precision'), percent, 1], ['Recall of the objects', evaluated('recall'), percent, 1],
-    ['Error of their places', evaluated('position_error_mean_m'), metres, -1], ['Right associations', evaluated('association_accuracy'), percent, 1],
-    ['Recording', (run) => run.duration, duration, 0], ['Way', (run) => run.length_m, metres, 0],
-    ['Loop closures', (run) => run.counts.loop_closures, whole, 0], ['Frames lost', (run) => run.counts.frames_lost, whole, -1],
-    ['Scans unmatched', (run) => run.counts.scans_unmatched, whole, -1], ['Work', workSeconds, duration, -1], ['Memory, at most', (run) => run.peak_memory_mb, (v) => `${whole(v)} MB`, -1],
+    ['Precision of the objects', evaluated('precision'), percent, 1],
+    ['Recall of the objects', evaluated('recall'), percent, 1],
+    ['Error of their places', evaluated('position_error_mean_m'), metres, -1],
+    ['Right associations', evaluated('association_accuracy'), percent, 1],
+    ['Recording', (run) => run.duration, duration, 0],
+    ['Way', (run) => run.length_m, metres, 0],
+    ['Loop closures', (run) => run.counts.loop_closures, whole, 0],
+    ['Frames lost', (run) => run.counts.frames_lost, whole, -1],
+    ['Scans unmatched', (run) => run.counts.scans_unmatched, whole, -1],
+    ['Work', workSeconds, duration, -1],
+    ['Memory, at most', (run) => run.peak_memory_mb, (v) => `${whole(v)} MB`, -1],
   ];
 }
 
@@ -24,11 +31,21 @@ function figureTable(runs) {
   for (const [name, value, format, better] of comparedFigures()) {
     const values = runs.map((run) => value(run)), known = values.filter(isNumber);
     if (!known.length) continue;
-    const best = better && new Set(known).size > 1 ? (better > 0 ? Math.max(...known) : Math.min(...known)) : null;
-    rows.push([name, ...values.map((v) => h('span', { class: v === best && best !== null ? 'best' : null }, isNumber(v) ? format(v) : NONE,
-      v === best && best !== null ? h('span', { class: 'hidden-text' }, ' (best)') : null))]);
+    const best =
+        better && new Set(known).size > 1 ? (better > 0 ? Math.max(...known) : Math.min(...known)) : null;
+    rows.push([
+      name,
+      ...values.map(
+          (v) =>
+              h('span', {class: v === best && best !== null ? 'best' : null}, isNumber(v) ? format(v) : NONE,
+                v === best && best !== null ? h('span', {class: 'hidden-text'}, ' (best)') : null))
+    ]);
   }
-  return h('div', { class: 'card pad' }, table('A dot marks the best of a row', [{ title: '' }, ...runs.map((run) => ({ title: run.name, number: true }))], rows));
+  return h(
+      'div', {class: 'card pad'},
+      table(
+          'A dot marks the best of a row',
+          [{title: ''}, ...runs.map((run) => ({title: run.name, number: true}))], rows));
 }
 
 function comparedMaps(runs) {
@@ -46,11 +63,12 @@ function comparedMaps(runs) {
   const cards = runs.map((run) => {
     const map = createMap(run, {});
     map.svg.classList.add('hide-live', 'hide-candidates', 'hide-closures', 'hide-ellipses');
-    for (const event of ['pointerdown', 'wheel', 'keydown', 'click']) map.box.addEventListener(event, () => map.hooks.onView = follow(run), true);
+    for (const event of ['pointerdown', 'wheel', 'keydown', 'click'])
+      map.box.addEventListener(event, () => map.hooks.onView = follow(run), true);
     maps.push(map);
-    return h('div', { class: 'card' }, h('h3', {}, run.name), map.box);
+    return h('div', {class: 'card'}, h('h3', {}, run.name), map.box);
   });
-  return h('div', { class: 'maps' }, cards);
+  return h('div', {class: 'maps'}, cards);
 }
 
 function differingKeys(runs) {
@@ -60,18 +78,38 @@ function differingKeys(runs) {
     if (!values.has(name)) values.set(name, runs.map(() => null));
     values.get(name)[i] = row.value;
   }));
-  const rows = [...values].filter(([, all]) => new Set(all).size > 1).map(([name, all]) => [name, ...all.map((v) => v === null ? NONE : v || '(empty)')]);
-  return h('div', { class: 'card pad config' }, h('h3', {}, 'Keys of the configuration that differ'), rows.length
-    ? table(null, [{ title: 'key' }, ...runs.map((run) => ({ title: run.name }))], rows) : h('p', { class: 'none' }, 'None.'));
+  const rows = [...values]
+                   .filter(([, all]) => new Set(all).size > 1)
+                   .map(([name, all]) => [name, ...all.map((v) => v === null ? NONE : v || '(empty)')]);
+  return h(
+      'div', {class: 'card pad config'}, h('h3', {}, 'Keys of the configuration that differ'),
+      rows.length ? table(null, [{title: 'key'}, ...runs.map((run) => ({title: run.name}))], rows) :
+                    h('p', {class: 'none'}, 'None.'));
 }
 
 function compareSection(runs) {
-  return [h('div', { class: 'title' }, h('h1', {}, `${runs.length} runs side by side`)),
-    section('compare', 'Comparison', 'The maps move together. Below, one run at a time with all its details.', figureTable(runs), comparedMaps(runs),
-      h('div', { style: 'margin-top: 1.25rem' }, differingKeys(runs)))];
+  return [
+    h('div', {class: 'title'}, h('h1', {}, `${runs.length} runs side by side`)),
+    section(
+        'compare', 'Comparison', 'The maps move together. Below, one run at a time with all its details.',
+        figureTable(runs), comparedMaps(runs), h('div', {style: 'margin-top: 1.25rem'}, differingKeys(runs)))
+  ];
 }
 
 function runChoice(runs, choose) {
-  const buttons = runs.map((run, i) => h('button', { type: 'button', class: 'quiet', 'aria-pressed': 'false', onclick: () => choose(i) }, run.name));
-  return { buttons, element: h('div', { class: 'switches', role: 'group', 'aria-label': 'Run that is shown below', style: 'margin-top: 3.25rem' }, buttons) };
+  const buttons = runs.map(
+      (run, i) =>
+          h('button', {type: 'button', class: 'quiet', 'aria-pressed': 'false', onclick: () => choose(i)},
+            run.name));
+  return {
+    buttons,
+    element:
+        h('div', {
+          class: 'switches',
+          role: 'group',
+          'aria-label': 'Run that is shown below',
+          style: 'margin: 3.25rem 0 1.5rem'
+        },
+          buttons)
+  };
 }

@@ -3,18 +3,14 @@
 
 const NONE = '–';
 
-function isNumber(value) {
-  return typeof value === 'number' && Number.isFinite(value);
-}
+function isNumber(value) { return typeof value === 'number' && Number.isFinite(value); }
 
 function fixed(value, digits) {
   if (!isNumber(value)) return NONE;
-  return value.toLocaleString('en', { minimumFractionDigits: digits, maximumFractionDigits: digits });
+  return value.toLocaleString('en', {minimumFractionDigits: digits, maximumFractionDigits: digits});
 }
 
-function whole(value) {
-  return fixed(value, 0);
-}
+function whole(value) { return fixed(value, 0); }
 
 function metres(value) {
   if (!isNumber(value)) return NONE;
@@ -37,7 +33,8 @@ function clock(seconds) {
 
 function duration(seconds) {
   if (!isNumber(seconds)) return NONE;
-  return seconds < 100 ? `${fixed(seconds, 1)}\u00a0s` : `${clock(seconds)}\u00a0min`.replace(/^(\d+:\d\d:\d\d).min/, '$1\u00a0h');
+  return seconds < 100 ? `${fixed(seconds, 1)}\u00a0s` :
+                         `${clock(seconds)}\u00a0min`.replace(/^(\d+:\d\d:\d\d).min/, '$1\u00a0h');
 }
 
 function milliseconds(ms) {
@@ -46,14 +43,10 @@ function milliseconds(ms) {
   return `${fixed(ms, ms >= 10 ? 1 : ms >= 0.1 ? 2 : 3)}\u00a0ms`;
 }
 
-function degrees(radians) {
-  return isNumber(radians) ? `${fixed(radians * 180 / Math.PI, 1)}°` : NONE;
-}
+function degrees(radians) { return isNumber(radians) ? `${fixed(radians * 180 / Math.PI, 1)}°` : NONE; }
 
 /// "swivel_chair" -> "swivel chair".
-function words(name) {
-  return String(name).replace(/_/g, ' ');
-}
+function words(name) { return String(name).replace(/_/g, ' '); }
 
 /// Date of a stamp, when it can be one.
 function dateOf(stamp) {

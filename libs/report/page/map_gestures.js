@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Wheel, drag, pinch and keys of a map.
 
-const LEAST_DRAG = 4; // px; less is a click
+const LEAST_DRAG = 4;  // px; less is a click
 
 function pointOf(map, event) {
   const box = map.svg.getBoundingClientRect();
@@ -14,8 +14,9 @@ function addGestures(map) {
   map.svg.addEventListener('wheel', (event) => {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 16 : 1;
-    zoomView(map, Math.exp(-Math.max(-300, Math.min(300, event.deltaY * lines)) * 0.002), pointOf(map, event));
-  }, { passive: false });
+    zoomView(
+        map, Math.exp(-Math.max(-300, Math.min(300, event.deltaY * lines)) * 0.002), pointOf(map, event));
+  }, {passive: false});
   map.svg.addEventListener('pointerdown', (event) => {
     if (event.button > 0) return;
     held.set(event.pointerId, pointOf(map, event));
@@ -31,8 +32,10 @@ function addGestures(map) {
   map.svg.addEventListener('pointercancel', release);
   map.svg.addEventListener('pointerleave', release);
   map.svg.addEventListener('click', (event) => {
-    if (moved > LEAST_DRAG) event.stopPropagation();
-    else if (!event.target.closest('.object') && map.hooks.onSelect) map.hooks.onSelect(null);
+    if (moved > LEAST_DRAG)
+      event.stopPropagation();
+    else if (!event.target.closest('.object') && map.hooks.onSelect)
+      map.hooks.onSelect(null);
   }, true);
   map.svg.addEventListener('dblclick', (event) => zoomView(map, 2, pointOf(map, event)));
   map.svg.addEventListener('keydown', (event) => keyOnMap(map, event));
@@ -45,7 +48,8 @@ function dragged(map, held, event, moved) {
   held.set(event.pointerId, to);
   const step = Math.hypot(to[0] - from[0], to[1] - from[1]), total = moved + step;
   if (others.length) {
-    const other = held.get(others[0]), distance = (p) => Math.max(10, Math.hypot(p[0] - other[0], p[1] - other[1]));
+    const other = held.get(others[0]),
+          distance = (p) => Math.max(10, Math.hypot(p[0] - other[0], p[1] - other[1]));
     const middle = [(to[0] + other[0]) / 2, (to[1] + other[1]) / 2];
     panView(map, (to[0] - from[0]) / 2, (to[1] - from[1]) / 2);
     zoomView(map, distance(to) / distance(from), middle);
@@ -58,10 +62,15 @@ function dragged(map, held, event, moved) {
 
 function keyOnMap(map, event) {
   const step = 60, actions = {
-    ArrowLeft: () => panView(map, step, 0), ArrowRight: () => panView(map, -step, 0),
-    ArrowUp: () => panView(map, 0, step), ArrowDown: () => panView(map, 0, -step),
-    '+': () => zoomView(map, 1.4), '=': () => zoomView(map, 1.4), '-': () => zoomView(map, 1 / 1.4),
-    0: () => fitView(map), Escape: () => map.hooks.onSelect && map.hooks.onSelect(null),
+    ArrowLeft: () => panView(map, step, 0),
+    ArrowRight: () => panView(map, -step, 0),
+    ArrowUp: () => panView(map, 0, step),
+    ArrowDown: () => panView(map, 0, -step),
+    '+': () => zoomView(map, 1.4),
+    '=': () => zoomView(map, 1.4),
+    '-': () => zoomView(map, 1 / 1.4),
+    0: () => fitView(map),
+    Escape: () => map.hooks.onSelect && map.hooks.onSelect(null),
   };
   if (event.ctrlKey || event.metaKey || event.altKey || !actions[event.key]) return;
   event.preventDefault();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map: world coordinates on the screen, selection, scale bar. Layers and gestures have files of their own.
+// The map: world coordinates on the screen, selection, scale bar. Layers and gestures have files of their
+// own.
 
 /// Corners of all that the map shows, m.
 function boundsOf(run) {
-  const box = { x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity };
+  const box = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
   const take = (x, y) => {
     box.x0 = Math.min(box.x0, x);
     box.x1 = Math.max(box.x1, x);
@@ -12,16 +13,19 @@ function boundsOf(run) {
   };
   for (const path of [run.path, run.path.length ? [] : run.live_path])
     for (let i = 0; i < path.length; i += 4) take(path[i + 1], path[i + 2]);
-  for (const object of run.objects) if (object.in_map) object.footprint.forEach(([x, y]) => take(x, y));
+  for (const object of run.objects)
+    if (object.in_map) object.footprint.forEach(([x, y]) => take(x, y));
   if (run.grid && run.grid.known) run.grid.known.forEach(([x, y]) => take(x, y));
-  if (!(box.x1 > box.x0 || box.y1 > box.y0)) return { x0: -2, y0: -2, x1: 2, y1: 2 };
+  if (!(box.x1 > box.x0 || box.y1 > box.y0)) return {x0: -2, y0: -2, x1: 2, y1: 2};
   return box;
 }
 
 function placeView(map) {
-  const { view, size } = map;
-  map.world.setAttribute('transform',
-    `translate(${size.w / 2 - view.x * view.scale} ${size.h / 2 + view.y * view.scale}) scale(${view.scale} ${-view.scale})`);
+  const {view, size} = map;
+  map.world.setAttribute(
+      'transform',
+      `translate(${size.w / 2 - view.x * view.scale} ${size.h / 2 + view.y * view.scale}) scale(${
+          view.scale} ${- view.scale})`);
   for (const label of map.labels) {
     const [x, y] = toScreen(map, label.x, label.y);
     label.element.setAttribute('x', x);
@@ -32,18 +36,21 @@ function placeView(map) {
   const cell = map.run.grid ? map.run.grid.cell_m * view.scale : 0;
   map.svg.classList.toggle('coarse', cell > 3);
   map.world.querySelectorAll('image').forEach((image) => image.classList.toggle('crisp', cell > 3));
-  const step = niceStep(110 / view.scale, 1), unit = step < 1 ? `${fixed(step * 100, 0)} cm` : `${whole(step)} m`;
+  const step = niceStep(110 / view.scale, 1),
+        unit = step < 1 ? `${fixed(step * 100, 0)} cm` : `${whole(step)} m`;
   map.scale.replaceChildren(unit, h('i'));
   map.scale.lastChild.style.width = `${step * view.scale}px`;
 }
 
 function toScreen(map, x, y) {
-  return [map.size.w / 2 + (x - map.view.x) * map.view.scale, map.size.h / 2 - (y - map.view.y) * map.view.scale];
+  return [
+    map.size.w / 2 + (x - map.view.x) * map.view.scale, map.size.h / 2 - (y - map.view.y) * map.view.scale
+  ];
 }
 
 /// Sets the view and tells whoever shows the same place.
 function setView(map, view, quietly) {
-  map.view = { ...view, scale: Math.max(1, Math.min(4000, view.scale)) };
+  map.view = {...view, scale: Math.max(1, Math.min(4000, view.scale))};
   placeView(map);
   if (!quietly && map.hooks.onView) map.hooks.onView(map.view);
 }
@@ -52,28 +59,30 @@ function fitView(map) {
   const box = boundsOf(map.run), w = box.x1 - box.x0, hgt = box.y1 - box.y0;
   const scale = Math.min((map.size.w - 60) / Math.max(w, 0.5), (map.size.h - 70) / Math.max(hgt, 0.5));
   map.fitted = true;
-  setView(map, { x: (box.x0 + box.x1) / 2, y: (box.y0 + box.y1) / 2, scale });
+  setView(map, {x: (box.x0 + box.x1) / 2, y: (box.y0 + box.y1) / 2, scale});
 }
 
 /// Zooms by a factor about a point of the screen; the middle without one.
 function zoomView(map, factor, at = [map.size.w / 2, map.size.h / 2]) {
-  const { view, size } = map, scale = Math.max(1, Math.min(4000, view.scale * factor));
+  const {view, size} = map, scale = Math.max(1, Math.min(4000, view.scale * factor));
   const k = 1 / view.scale - 1 / scale;
   map.fitted = false;
-  setView(map, { x: view.x + (at[0] - size.w / 2) * k, y: view.y - (at[1] - size.h / 2) * k, scale });
+  setView(map, {x: view.x + (at[0] - size.w / 2) * k, y: view.y - (at[1] - size.h / 2) * k, scale});
 }
 
 function panView(map, dx, dy) {
   map.fitted = false;
-  setView(map, { ...map.view, x: map.view.x - dx / map.view.scale, y: map.view.y + dy / map.view.scale });
+  setView(map, {...map.view, x: map.view.x - dx / map.view.scale, y: map.view.y + dy / map.view.scale});
 }
 
 function resized(map) {
   const box = map.svg.getBoundingClientRect();
   if (!box.width || (box.width === map.size.w && box.height === map.size.h)) return;
-  map.size = { w: box.width, h: box.height };
-  if (map.fitted) fitView(map);
-  else placeView(map);
+  map.size = {w: box.width, h: box.height};
+  if (map.fitted)
+    fitView(map);
+  else
+    placeView(map);
 }
 
 function markObject(map, id, name, on) {
@@ -94,8 +103,10 @@ function poseAt(path, t) {
   let low = 0, high = path.length / 4 - 1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (path[middle * 4] <= t) low = middle;
-    else high = middle;
+    if (path[middle * 4] <= t)
+      low = middle;
+    else
+      high = middle;
   }
   const a = path.slice(low * 4, low * 4 + 4), b = path.slice(high * 4, high * 4 + 4);
   const share = b[0] > a[0] ? Math.max(0, Math.min(1, (t - a[0]) / (b[0] - a[0]))) : 0;
@@ -111,24 +122,40 @@ function showRobotAt(map, t) {
 }
 
 function mapButtons(map) {
-  const button = (label, path, action) => h('button', { type: 'button', 'aria-label': label, title: label, onclick: action },
-    s('svg', { viewBox: '0 0 16 16', 'aria-hidden': 'true' }, s('path', { d: path })));
-  return h('div', { class: 'map-tools' },
-    button('Zoom in', 'M8 2v12M2 8h12', () => zoomView(map, 1.5)),
-    button('Zoom out', 'M2 8h12', () => zoomView(map, 1 / 1.5)),
-    button('Show all', 'M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4', () => fitView(map)));
+  const button = (label, path, action) =>
+      h('button', {type: 'button', 'aria-label': label, title: label, onclick: action},
+        s('svg', {viewBox: '0 0 16 16', 'aria-hidden': 'true'}, s('path', {d: path})));
+  return h(
+      'div', {class: 'map-tools'}, button('Zoom in', 'M8 2v12M2 8h12', () => zoomView(map, 1.5)),
+      button('Zoom out', 'M2 8h12', () => zoomView(map, 1 / 1.5)),
+      button('Show all', 'M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4', () => fitView(map)));
 }
 
 function createMap(run, hooks = {}) {
-  const map = { run, hooks, size: { w: 800, h: 500 }, view: { x: 0, y: 0, scale: 50 }, shapes: new Map(), labels: [], fitted: true };
-  map.world = s('g', { class: 'world' });
-  map.labelLayer = s('g', { class: 'labels', 'aria-hidden': 'true' });
-  map.svg = s('svg', { class: 'map', tabindex: '0', role: 'group',
-    'aria-label': `Map of ${run.recording || run.name}. Arrow keys move it, plus and minus zoom, 0 shows all.` }, map.world, map.labelLayer);
-  map.scale = h('div', { class: 'scale-bar', 'aria-hidden': 'true' });
+  const map = {
+    run,
+    hooks,
+    size: {w: 800, h: 500},
+    view: {x: 0, y: 0, scale: 50},
+    shapes: new Map(),
+    labels: [],
+    fitted: true
+  };
+  map.world = s('g', {class: 'world'});
+  map.labelLayer = s('g', {class: 'labels', 'aria-hidden': 'true'});
+  map.svg =
+      s('svg', {
+        class: 'map',
+        tabindex: '0',
+        role: 'group',
+        'aria-label':
+            `Map of ${run.recording || run.name}. Arrow keys move it, plus and minus zoom, 0 shows all.`
+      },
+        map.world, map.labelLayer);
+  map.scale = h('div', {class: 'scale-bar', 'aria-hidden': 'true'});
   addLayers(map);
   addGestures(map);
-  map.box = h('div', { class: 'map-box' }, map.svg, map.scale, mapButtons(map));
+  map.box = h('div', {class: 'map-box'}, map.svg, map.scale, mapButtons(map));
   new ResizeObserver(() => resized(map)).observe(map.svg);
   return map;
 }

@@ -34,8 +34,8 @@ std::vector<ReliabilityRow> reliabilityOf(const json& content) {
   if (!content.contains("association_reliability")) return rows;
   for (const json& bin : content.at("association_reliability")) {
     if (bin.at("count").get<int>() == 0) continue;
-    rows.push_back({bin.at("from"), bin.at("to"), bin.at("mean_probability"), bin.at("correct_share"),
-                    bin.at("count")});
+    rows.push_back(
+        {bin.at("from"), bin.at("to"), bin.at("mean_probability"), bin.at("correct_share"), bin.at("count")});
   }
   return rows;
 }

@@ -8,8 +8,8 @@
 
 namespace roomgraph {
 
-/// Every key of config.ini; one is changed when none of its shipped texts, and no shipped number, is the same.
-/// Keys that `defaults` does not know are not marked. Throws ConfigError or InputError.
+/// Every key of config.ini; one is changed when none of its shipped texts, and no shipped number, is the
+/// same. Keys that `defaults` does not know are not marked. Throws ConfigError or InputError.
 std::vector<ConfigRow> readConfigRows(const std::filesystem::path& file,
                                       const std::map<std::string, std::vector<std::string>>& defaults);
 

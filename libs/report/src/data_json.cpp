@@ -42,8 +42,11 @@ ordered_json pathJson(const std::vector<PathPoint>& path) {
 }
 
 ordered_json statisticsJson(const ErrorStatistics& s) {
-  return {{"rmse", rounded(s.rmse, 6)}, {"mean", rounded(s.mean, 6)}, {"median", rounded(s.median, 6)},
-          {"p95", rounded(s.p95, 6)},   {"max", rounded(s.max, 6)}};
+  return {{"rmse", rounded(s.rmse, 6)},
+          {"mean", rounded(s.mean, 6)},
+          {"median", rounded(s.median, 6)},
+          {"p95", rounded(s.p95, 6)},
+          {"max", rounded(s.max, 6)}};
 }
 
 ordered_json errorsJson(const std::optional<ReportedErrors>& errors) {
@@ -59,8 +62,9 @@ ordered_json errorsJson(const std::optional<ReportedErrors>& errors) {
 
 ordered_json gridJson(const std::optional<GridImage>& grid) {
   if (!grid) return nullptr;
-  return {{"png", toBase64(grid->png)}, {"width", grid->width}, {"height", grid->height},
-          {"cell_m", rounded(grid->cell_m, 6)}, {"x_min", rounded(grid->x_min)}, {"y_min", rounded(grid->y_min)}};
+  return {{"png", toBase64(grid->png)},    {"width", grid->width},
+          {"height", grid->height},        {"cell_m", rounded(grid->cell_m, 6)},
+          {"x_min", rounded(grid->x_min)}, {"y_min", rounded(grid->y_min)}};
 }
 
 ordered_json sightingsJson(const std::optional<SightingSummary>& s) {
@@ -118,8 +122,11 @@ ordered_json evaluationsJson(const std::vector<EvaluationFile>& files) {
   for (const auto& file : files) {
     ordered_json bins = ordered_json::array();
     for (const auto& bin : file.reliability)
-      bins.push_back({{"from", rounded(bin.from)}, {"to", rounded(bin.to)}, {"count", bin.count},
-                      {"mean", rounded(bin.mean_probability)}, {"correct", rounded(bin.correct_share)}});
+      bins.push_back({{"from", rounded(bin.from)},
+                      {"to", rounded(bin.to)},
+                      {"count", bin.count},
+                      {"mean", rounded(bin.mean_probability)},
+                      {"correct", rounded(bin.correct_share)}});
     ordered_json figures = ordered_json::object();
     for (const auto& [name, value] : file.figures) figures[name] = rounded(value, 6);
     out.push_back({{"file", file.name}, {"figures", figures}, {"reliability", bins}});
@@ -149,8 +156,11 @@ void addSummary(const RunData& run, ordered_json& out) {
   out["warnings"] = run.run_warnings;
   out["stages"] = ordered_json::array();
   for (const auto& s : run.stages)
-    out["stages"].push_back({{"name", s.name}, {"calls", s.calls}, {"mean_ms", rounded(s.mean_ms)},
-                             {"max_ms", rounded(s.max_ms)}, {"total_ms", rounded(s.total_ms, 3)},
+    out["stages"].push_back({{"name", s.name},
+                             {"calls", s.calls},
+                             {"mean_ms", rounded(s.mean_ms)},
+                             {"max_ms", rounded(s.max_ms)},
+                             {"total_ms", rounded(s.total_ms, 3)},
                              {"cpu_ms", rounded(s.cpu_ms, 3)}});
   out["record_ms"] = seriesJson(run.record_ms);
   out["peak_memory_mb"] = rounded(run.peak_memory_mb, 1);

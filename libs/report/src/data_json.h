@@ -6,7 +6,8 @@
 
 namespace roomgraph {
 
-/// Numbers are rounded to what can be seen; names that are no UTF-8 are repaired. Neither "</" nor "<!--" occurs.
+/// Numbers are rounded to what can be seen; names that are no UTF-8 are repaired. Neither "</" nor "<!--"
+/// occurs.
 std::string dataJson(const std::vector<RunData>& runs);
 
 }  // namespace roomgraph

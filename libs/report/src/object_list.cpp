@@ -58,7 +58,8 @@ ObjectFile readObjectFile(const std::filesystem::path& file) {
   return out;
 }
 
-std::vector<ReportedObject> merged(std::vector<ReportedObject> mapped, std::vector<ReportedObject> candidates) {
+std::vector<ReportedObject> merged(std::vector<ReportedObject> mapped,
+                                   std::vector<ReportedObject> candidates) {
   std::map<int, ReportedObject*> of_map;
   for (auto& object : mapped) of_map[object.id] = &object;
   std::vector<ReportedObject> others;

@@ -18,6 +18,7 @@ struct ObjectFile {
 ObjectFile readObjectFile(const std::filesystem::path& file);
 
 /// Those of the map, then the candidates that are not in it.
-std::vector<ReportedObject> merged(std::vector<ReportedObject> mapped, std::vector<ReportedObject> candidates);
+std::vector<ReportedObject> merged(std::vector<ReportedObject> mapped,
+                                   std::vector<ReportedObject> candidates);
 
 }  // namespace roomgraph

@@ -27,7 +27,8 @@ void keepWithin(const std::vector<PathPoint>& path, std::size_t first, std::size
     double farthest_m = tolerance_m;
     std::size_t at = begin;
     for (std::size_t i = begin + 1; i < end; ++i)
-      if (const double distance_m = distanceToSegment(path[i], path[begin], path[end]); distance_m > farthest_m) {
+      if (const double distance_m = distanceToSegment(path[i], path[begin], path[end]);
+          distance_m > farthest_m) {
         farthest_m = distance_m;
         at = i;
       }
@@ -63,10 +64,15 @@ std::vector<PathPoint> thinned(const std::vector<PathPoint>& path, std::size_t m
   return out;
 }
 
+int partsFor(std::size_t values, int most) {
+  return std::max(1, static_cast<int>(std::min(values / 2, static_cast<std::size_t>(most))));
+}
+
 BinnedSeries binned(const std::vector<std::pair<double, double>>& values, double from, double to, int bins) {
   const auto count = static_cast<std::size_t>(bins);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  BinnedSeries out{from, to > from ? (to - from) / bins : 1, std::vector(count, kNone), std::vector(count, kNone)};
+  BinnedSeries out{from, to > from ? (to - from) / bins : 1, std::vector(count, kNone),
+                   std::vector(count, kNone)};
   for (const auto& [t, value] : values) {
     if (!(t >= from && t <= to) || !std::isfinite(value)) continue;
     const std::size_t bin = std::min(count - 1, static_cast<std::size_t>((t - from) / out.step));

@@ -11,9 +11,13 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kCurveBins = 480;
+constexpr int kCurveBins = 480;  // most that a screen shows
 constexpr double kLeastGap_s = 1, kGapInSpacings = 10;
 using Samples = std::vector<std::pair<double, double>>;
+
+BinnedSeries curveOf(const Samples& samples, double duration_s) {
+  return binned(samples, 0, duration_s, partsFor(samples.size(), kCurveBins));
+}
 
 }  // namespace
 
@@ -53,8 +57,8 @@ std::optional<ReportedErrors> errorsOf(const Trajectory& truth, const Trajectory
     position_m.emplace_back(pair.t - start_t, error.translation().norm());
     rotation_deg.emplace_back(pair.t - start_t, rotationAngle(error) * kDegreesPerRadian);
   }
-  out.position_m = binned(position_m, 0, duration_s, kCurveBins);
-  out.rotation_deg = binned(rotation_deg, 0, duration_s, kCurveBins);
+  out.position_m = curveOf(position_m, duration_s);
+  out.rotation_deg = curveOf(rotation_deg, duration_s);
   return out;
 }
 
@@ -67,7 +71,7 @@ BinnedSeries hindsightOf(const Trajectory& live, const Trajectory& final, double
     if (at->t == pose.t)
       moved_m.emplace_back(pose.t - start_t, (at->pose.translation() - pose.pose.translation()).norm());
   }
-  return binned(moved_m, 0, duration_s, kCurveBins);
+  return curveOf(moved_m, duration_s);
 }
 
 }  // namespace roomgraph

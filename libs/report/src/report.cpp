@@ -15,7 +15,8 @@ ReportPage makeReport(const ReportRequest& request) {
     for (const auto& [file, cause] : runs.back().missing)
       out.warnings.push_back((run.folder / file).string() + ": " + cause);
     if (!request.truth.empty() && !runs.back().final_errors)
-      out.warnings.push_back(request.truth.string() + ": no pose of " + run.name + " has a true one within 20 ms");
+      out.warnings.push_back(request.truth.string() + ": no pose of " + run.name +
+                             " has a true one within 20 ms");
   }
   out.html = pageAround(dataJson(runs));
   return out;

@@ -31,7 +31,8 @@ void requireRun(const std::filesystem::path& folder) {
     throw InputError(folder.string() + ": is no folder of a run");
   if (std::none_of(kFilesOfARun.begin(), kFilesOfARun.end(),
                    [&](const char* name) { return std::filesystem::exists(folder / name, none); }))
-    throw InputError(folder.string() + ": has no file of a run (summary.json, trajectory.tum, landmarks.json, …)");
+    throw InputError(folder.string() +
+                     ": has no file of a run (summary.json, trajectory.tum, landmarks.json, …)");
 }
 
 // Messages name the whole path of a file; beside its name that is noise.

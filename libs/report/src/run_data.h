@@ -39,11 +39,11 @@ struct GridImage {
 /// How an object was seen, of all associations.
 struct SightingSummary {
   int count = 0, made_new = 0;
-  double first_t = 0, last_t = 0;                 ///< s since the run's first pose
+  double first_t = 0, last_t = 0;                      ///< s since the run's first pose
   double mean_probability = 0, least_probability = 1;  ///< of the landmark that was chosen
-  int doubtful = 0;                               ///< sightings whose choice had less than 0.9
-  std::vector<std::pair<int, double>> rivals;     ///< other landmarks: summed probability, largest first
-  std::vector<int> over_time;                     ///< sightings in equal parts of the run
+  int doubtful = 0;                                    ///< sightings whose choice had less than 0.9
+  std::vector<std::pair<int, double>> rivals;          ///< other landmarks: summed probability, largest first
+  std::vector<int> over_time;                          ///< sightings in equal parts of the run
 };
 
 struct ReportedObject {

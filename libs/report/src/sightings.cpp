@@ -61,7 +61,8 @@ SightingSummary finished(Growing& of) {
   of.summary.mean_probability = of.sum_probability / of.summary.count;
   auto& rivals = of.summary.rivals;
   rivals.assign(of.rivals.begin(), of.rivals.end());
-  std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
   rivals.resize(std::min(rivals.size(), kMostRivals));
   return of.summary;
 }

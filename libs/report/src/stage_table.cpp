@@ -28,7 +28,8 @@ std::map<std::string, double> numbersOf(const json& summary, const char* key) {
 std::string commandOf(const json& summary) {
   std::string text;
   if (summary.contains("command"))
-    for (const json& word : summary.at("command")) text += (text.empty() ? "" : " ") + word.get<std::string>();
+    for (const json& word : summary.at("command"))
+      text += (text.empty() ? "" : " ") + word.get<std::string>();
   return text;
 }
 
@@ -48,7 +49,8 @@ void fill(const json& summary, RunData& run) {
   run.peak_memory_mb = summary.value("peak_memory_mb", 0.);
   if (!summary.contains("timings")) return;
   for (const auto& [name, spent] : summary.at("timings").items())
-    run.stages.push_back({name, spent.at("calls"), spent.at("mean_ms"), spent.at("max_ms"), spent.at("total_ms"), 0});
+    run.stages.push_back(
+        {name, spent.at("calls"), spent.at("mean_ms"), spent.at("max_ms"), spent.at("total_ms"), 0});
   std::stable_sort(run.stages.begin(), run.stages.end(),
                    [](const StageRow& a, const StageRow& b) { return a.total_ms > b.total_ms; });
 }
@@ -100,7 +102,8 @@ void readTimings(std::istream& lines, const std::string& name, RunData& run) {
     if (calls[call->stage] != 1) of_record[call->t - run.start_t] += call->ms;
   }
   for (auto& stage : run.stages) stage.cpu_ms = cpu_ms[stage.name];
-  run.record_ms = binned({of_record.begin(), of_record.end()}, 0, run.duration_s, kRecordBins);
+  run.record_ms = binned({of_record.begin(), of_record.end()}, 0, run.duration_s,
+                         partsFor(of_record.size(), kRecordBins));
 }
 
 }  // namespace roomgraph
