@@ -14,7 +14,7 @@ function whole(value) { return fixed(value, 0); }
 
 function metres(value) {
   if (!isNumber(value)) return NONE;
-  return value < 1 ? `${fixed(value * 100, 1)}\u00a0cm` : `${fixed(value, 2)}\u00a0m`;
+  return value < 1 ? `${fixed(value * 100, value < 0.1 ? 2 : 1)}\u00a0cm` : `${fixed(value, 2)}\u00a0m`;
 }
 
 function percent(value) {
