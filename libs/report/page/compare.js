@@ -31,15 +31,10 @@ function figureTable(runs) {
   for (const [name, value, format, better] of comparedFigures()) {
     const values = runs.map((run) => value(run)), known = values.filter(isNumber);
     if (!known.length) continue;
-    const best =
-        better && new Set(known).size > 1 ? (better > 0 ? Math.max(...known) : Math.min(...known)) : null;
-    rows.push([
-      name,
-      ...values.map(
-          (v) =>
-              h('span', {class: v === best && best !== null ? 'best' : null}, isNumber(v) ? format(v) : NONE,
-                v === best && best !== null ? h('span', {class: 'hidden-text'}, ' (best)') : null))
-    ]);
+    const texts = values.map((v) => isNumber(v) ? format(v) : NONE), differ = new Set(known.map(format)).size > 1;
+    const best = better && differ ? format(better > 0 ? Math.max(...known) : Math.min(...known)) : null;
+    const mark = (text) => text === best ? h('span', {class: 'hidden-text'}, ' (best)') : null;
+    rows.push([name, ...texts.map((text) => h('span', {class: text === best ? 'best' : null}, text, mark(text)))]);
   }
   return h(
       'div', {class: 'card pad'},
