@@ -208,11 +208,13 @@ function closurePart(run) {
 }
 
 function gapPart(run) {
-  const rows = run.gaps.map(([from, to]) => [`${clock(from)} – ${clock(to)}`, `${fixed(to - from, 1)} s`]);
-  return h(
-      'div', {class: 'card pad'}, h('h3', {}, 'Spans without a pose'),
-      rows.length ? table(null, [{title: 'between'}, {title: 'length', number: true}], rows) :
-                    h('p', {class: 'none'}, 'None: no gap of more than a second.'));
+  const longest = run.gaps.slice().sort((a, b) => b[1] - b[0] - (a[1] - a[0])).slice(0, 8);
+  const rows = longest.map(([from, to]) => [`${clock(from)} – ${clock(to)}`, `${fixed(to - from, 1)} s`]);
+  const sum = run.gaps.reduce((all, [from, to]) => all + to - from, 0);
+  const caption = `${fixed(sum, 1)} s in all${run.gaps.length > rows.length ? '; the longest' : ''}`;
+  const none = run.poses ? h('p', { class: 'none' }, 'None: no gap of more than a second.') : missingNote(run, ['trajectory.tum']);
+  return h('div', { class: 'card pad' }, h('h3', {}, `Spans without a pose (${whole(run.gaps.length)})`), rows.length
+    ? table(caption, [{ title: 'between' }, { title: 'length', number: true }], rows) : none);
 }
 
 function eventsSection(run) {
