@@ -13,6 +13,7 @@ void addInfoCommand(CLI::App& app);
 
 void addOptimizeCommand(CLI::App& app);
 void addRunCommand(CLI::App& app);
+void addReportCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
 void addConfigReferenceCommand(CLI::App& app);

@@ -67,6 +67,7 @@ void addCommands(CLI::App& app) {
   addRunCommand(app);
   addEvaluateCommand(app);
   addSnapshotCommand(app);
+  addReportCommand(app);
   addConfigReferenceCommand(app);
   addSimulateCommand(app);
   addBenchCommand(app);

@@ -13,6 +13,7 @@
 #include "installed_networks.h"
 #include "interrupts.h"
 #include "program.h"
+#include "report_defaults.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/mentioned_files.h"
@@ -36,7 +37,7 @@ struct RunOptions {
   ModelSource networks;
   int threads = 0;
   ReplaySpan span;
-  bool quiet = false, no_snapshot = false;
+  bool quiet = false, no_snapshot = false, no_report = false;
 };
 
 /// Wall-clock time, for people.
@@ -174,6 +175,8 @@ void run(const RunOptions& options) {
                       {options.input, kVersion, kRevision, commandLine(), networks});
   const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
                                                           output->files().pending("snapshot.png"));
+  const auto page = output->files().pending("report.html");
+  const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish();
   if (extra.recording) extra.recording->finish();
 
@@ -185,7 +188,9 @@ void run(const RunOptions& options) {
   for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
   std::cout << "results in " << options.output;
-  if (drawn) std::cout << "; look at " << (output->files().folder() / "snapshot.png").string();
+  if (reported || drawn)
+    std::cout << "; look at "
+              << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
   std::cout << "\n";
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
 }
@@ -226,6 +231,7 @@ void addRunCommand(CLI::App& app) {
                       "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command->add_flag("--quiet", options->quiet, "no progress");
   command->add_flag("--no-snapshot", options->no_snapshot, "do not render snapshot.png");
+  command->add_flag("--no-report", options->no_report, "do not write report.html");
   command->footer(
       "Examples:\n"
       "  roomgraph run lab.rawlog -o out/lab\n"

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "program.h"
@@ -17,9 +18,10 @@ namespace {
 
 std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
+  const std::set<std::string> timed{"summary.json", "timings.csv", "report.html"};
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().filename() != "summary.json" && entry.path().filename() != "timings.csv")
-      files[entry.path().filename().string()] = contentOf(entry.path());
+    if (const std::string name = entry.path().filename(); !timed.contains(name))
+      files[name] = contentOf(entry.path());
   return files;
 }
 

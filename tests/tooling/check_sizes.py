@@ -41,11 +41,11 @@ def check(root, allowed_file):
         if lines > allowed.get(name, 0):
             problems.append(f"{place}: {what} of {lines} lines, at most {max(limit, allowed.get(name, 0))}")
 
-    for path in source_files.files(root, {".h", ".cpp", ".py"}):
+    for path in source_files.files(root, {".h", ".cpp", ".py", ".js", ".css", ".html"}):
         checked += 1
         text = source_files.read(root, path)
         judge(str(path), str(path), text.count("\n"), MAX_FILE, "file")
-        if path.suffix == ".py":
+        if path.suffix not in {".h", ".cpp", ".js"}:
             continue
         for function in cpp_functions.find(text):
             judge(f"{path}:{function.name}", f"{path}:{function.line}", function.lines, MAX_FUNCTION,

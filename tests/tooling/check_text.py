@@ -14,8 +14,8 @@ import source_files
 FORBIDDEN = re.compile("|".join((r"\bTO" + r"DO\b", r"\bFIX" + r"ME\b", r"\bX" + r"XX\b",
                                  r"(?<![\w.])/" + r"work\b", r"(?<![\w.])/ho" + r"me/")))
 LICENCE = "SPDX-License-Identifier: BSD-3-Clause"
-TEXTS = {".h", ".cpp", ".py", ".cmake", ".in", ".md", ".ini", ".json", ".sh", "CMakeLists.txt"}
-SOURCES = {".h", ".cpp", ".py"}
+TEXTS = {".h", ".cpp", ".py", ".cmake", ".in", ".md", ".ini", ".json", ".sh", ".js", ".css", ".html", "CMakeLists.txt"}
+SOURCES = {".h", ".cpp", ".py", ".js", ".css"}
 CAPTIONED = {"libs", "apps", "plugins", "tests"}  # folders whose C++ files begin with licence and caption
 BANNER = "Part of roomgraph"
 LEAST_WORDS = 4

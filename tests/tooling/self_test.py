@@ -190,6 +190,11 @@ class Sizes(TreeTest):
         self.assertEqual(self.problems("tests/core/a.h", "//\n" * 400), [])
         self.assertEqual(self.problems("tests/core/a.h", "//\n" * 401), ["tests/core/a.h: file of 401 lines, at most 400"])
 
+    def test_scripts_and_styles_of_pages(self):
+        script = LONG.replace("int f()", "function f(a, { b })")
+        self.assertEqual(self.problems("libs/report/page/a.js", script), ["libs/report/page/a.js:1: function f of 61 lines, at most 60"])
+        self.assertEqual(len(self.problems("libs/report/page/a.css", "a { b: c; }\n" * 401)), 2)
+
     def test_exceptions(self):
         name = "libs/core/src/a.cpp"
         self.assertEqual(self.problems(name, LONG, f"# list\n{name}:f 61 a table\n"), [])

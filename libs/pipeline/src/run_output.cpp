@@ -166,7 +166,7 @@ RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std:
              {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
               "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "candidates.json", "map.pgm",
               "map.yaml", "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv",
-              "snapshot.png", "summary.json"},
+              "snapshot.png", "report.html", "summary.json"},
              inputs),
       live_(files_.pending("live.tum")),
       detections_(files_.pending("detections.jsonl")),

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gathering of a run's files; each on its own, so that a broken one costs its section only.
+#include "run_data.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+
+#include "config_file.h"
+#include "graph_closures.h"
+#include "grid_image.h"
+#include "object_list.h"
+#include "path_thinning.h"
+#include "pose_curves.h"
+#include "roomgraph/core/error_text.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/evaluation/trajectory_file.h"
+#include "sightings.h"
+#include "stage_table.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr std::array kFilesOfARun{"summary.json", "trajectory.tum", "landmarks.json", "map.yaml"};
+constexpr std::size_t kMostPoints = 6000, kMostViewBytes = 4 << 20;
+
+void requireRun(const std::filesystem::path& folder) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(folder, none))
+    throw InputError(folder.string() + ": is no folder of a run");
+  if (std::none_of(kFilesOfARun.begin(), kFilesOfARun.end(),
+                   [&](const char* name) { return std::filesystem::exists(folder / name, none); }))
+    throw InputError(folder.string() +
+                     ": has no file of a run (summary.json, trajectory.tum, landmarks.json, …)");
+}
+
+// Messages name the whole path of a file; beside its name that is noise.
+std::string withoutFolder(std::string message, const std::filesystem::path& file) {
+  const std::string prefix = file.string() + ":";
+  if (message.starts_with(prefix)) message.erase(0, prefix.size());
+  return message.substr(std::min(message.find_first_not_of(' '), message.size()));
+}
+
+class Gathering {
+ public:
+  Gathering(std::filesystem::path folder, RunData& run) : folder_(std::move(folder)), run_(run) {}
+
+  // Reads one file; what is wrong with it is noted.
+  void read(const std::string& name, const std::function<void(const std::filesystem::path&)>& reader) {
+    const auto file = folder_ / name;
+    std::error_code none;
+    if (!std::filesystem::exists(file, none)) {
+      run_.missing[name] = "is not there";
+      return;
+    }
+    try {
+      reader(file);
+    } catch (const std::exception& error) {
+      run_.missing[name] = withoutFolder(firstLine(error), file);
+    }
+  }
+  void readLines(const std::string& name, const std::function<void(std::istream&)>& reader) {
+    read(name, [&](const std::filesystem::path& file) {
+      std::ifstream in(file, std::ios::binary);
+      if (!in || std::filesystem::is_directory(file)) throw InputError("cannot be opened");
+      reader(in);
+    });
+  }
+
+ private:
+  std::filesystem::path folder_;
+  RunData& run_;
+};
+
+struct Trajectories {
+  Trajectory live, final;
+};
+
+Trajectories gatherPaths(Gathering& files, RunData& run) {
+  Trajectories out;
+  files.read("trajectory.tum", [&](const auto& file) { out.final = readTrajectory(file).trajectory; });
+  files.read("live.tum", [&](const auto& file) { out.live = readTrajectory(file).trajectory; });
+  const Trajectory& longest = out.final.empty() ? out.live : out.final;
+  if (longest.empty()) return out;
+  run.start_t = longest.firstTime();
+  run.duration_s = longest.lastTime() - run.start_t;
+  run.has_poses = !out.final.empty();
+  run.poses = static_cast<int>(out.final.size());
+  const auto path = seenFromAbove(out.final, run.start_t);
+  run.path = thinned(path, kMostPoints);
+  run.length_m = lengthOf(path);
+  run.gaps = gapsOf(path);
+  run.live_path = thinned(seenFromAbove(out.live, run.start_t), kMostPoints);
+  run.hindsight_m = hindsightOf(out.live, out.final, run.start_t, run.duration_s);
+  return out;
+}
+
+void compareWithTruth(const std::filesystem::path& file, const Trajectories& estimated, RunData& run) {
+  const Trajectory truth = readTrajectory(file).trajectory;
+  run.final_errors = errorsOf(truth, estimated.final, run.start_t, run.duration_s);
+  run.live_errors = errorsOf(truth, estimated.live, run.start_t, run.duration_s);
+  if (!run.final_errors) return;
+  const Pose3 estimate_from_truth = run.final_errors->figures.truth_from_estimate.inverse();
+  Trajectory moved;
+  for (const auto& pose : truth.poses()) moved.add(pose.t, estimate_from_truth * pose.pose);
+  run.truth_path = thinned(seenFromAbove(moved, run.start_t), kMostPoints);
+}
+
+void gatherObjects(Gathering& files, RunData& run) {
+  ObjectFile mapped, candidates;
+  files.read("landmarks.json", [&](const auto& file) { mapped = readObjectFile(file); });
+  files.read("candidates.json", [&](const auto& file) { candidates = readObjectFile(file); });
+  run.recording = mapped.recording;
+  run.objects = merged(std::move(mapped.objects), std::move(candidates.objects));
+  files.read("objects.ini", [&](const auto& file) { run.colours = readColours(file); });
+  files.readLines("associations.jsonl", [&](std::istream& lines) {
+    const auto sightings = readSightings(lines, "associations.jsonl", run.start_t, run.duration_s);
+    for (auto& object : run.objects)
+      if (const auto of = sightings.find(object.id); of != sightings.end()) object.sightings = of->second;
+  });
+}
+
+// Pictures are written by some runs only: nothing is missing without them.
+void gatherViews(const std::filesystem::path& folder, RunData& run) {
+  std::size_t bytes = 0;
+  for (auto& object : run.objects) {
+    const std::string name = "views/" + std::to_string(object.id) + ".jpg";
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(folder / name, none) || bytes > kMostViewBytes) continue;
+    try {
+      object.view = readView(folder / name);
+      bytes += object.view.size();
+    } catch (const std::exception& error) {
+      run.missing[name] = withoutFolder(firstLine(error), folder / name);
+    }
+  }
+}
+
+}  // namespace
+
+RunData gatherRun(const ReportedRun& asked, const ReportRequest& request) {
+  requireRun(asked.folder);
+  RunData run;
+  run.name = asked.name;
+  Gathering files(asked.folder, run);
+  const Trajectories estimated = gatherPaths(files, run);
+  if (!request.truth.empty()) compareWithTruth(request.truth, estimated, run);
+  files.read("summary.json", [&](const auto& file) { readSummary(file, run); });
+  files.readLines("timings.csv", [&](std::istream& lines) { readTimings(lines, "timings.csv", run); });
+  gatherObjects(files, run);
+  gatherViews(asked.folder, run);
+  files.read("map.yaml", [&](const auto& file) { run.grid = readGridImage(file); });
+  files.readLines("graph.g2o", [&](std::istream& graph) { run.closures = readClosures(graph, run.start_t); });
+  files.read("config.ini", [&](const auto& file) { run.config = readConfigRows(file, request.defaults); });
+  run.evaluations = readEvaluations(asked.folder);
+  return run;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thinning, binning, gaps, closures and base64 against brute force and known values.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base64.h"
+#include "graph_closures.h"
+#include "grid_image.h"
+#include "made_up_run.h"
+#include "path_thinning.h"
+#include "pose_curves.h"
+
+namespace roomgraph::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::Pair;
+
+TEST(ReportBase64, TestVectorsOfTheStandard) {
+  const std::map<std::string, std::string> known{{"", ""},
+                                                 {"f", "Zg=="},
+                                                 {"fo", "Zm8="},
+                                                 {"foo", "Zm9v"},
+                                                 {"foob", "Zm9vYg=="},
+                                                 {"fooba", "Zm9vYmE="},
+                                                 {"foobar", "Zm9vYmFy"},
+                                                 {"\xff\xfe", "//4="}};
+  for (const auto& [bytes, text] : known) EXPECT_EQ(toBase64(bytes), text);
+}
+
+std::vector<PathPoint> randomWalk(unsigned seed, int count) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> turn(0, 0.2);
+  std::vector<PathPoint> path;
+  double x = 0, y = 0, yaw = 0;
+  for (int i = 0; i < count; ++i) {
+    path.push_back({0.1 * i, x, y, yaw});
+    yaw += turn(random);
+    x += 0.03 * std::cos(yaw);
+    y += 0.03 * std::sin(yaw);
+  }
+  return path;
+}
+
+double distanceToPiece(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
+  double least = 1e9;
+  for (int i = 0; i <= 2000; ++i) {
+    const double s = i / 2000.;
+    least = std::min(least, std::hypot(p.x - a.x - s * (b.x - a.x), p.y - a.y - s * (b.y - a.y)));
+  }
+  return least;
+}
+
+TEST(ReportThinning, NoPointIsFartherThanTheTolerance) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const auto path = randomWalk(seed, 600);
+    const auto kept = keptPoints(path, 0.05);
+    ASSERT_GE(kept.size(), 2u);
+    EXPECT_EQ(kept.front(), 0u);
+    EXPECT_EQ(kept.back(), path.size() - 1);
+    EXPECT_LT(kept.size(), path.size() / 3);
+    for (std::size_t k = 0; k + 1 < kept.size(); ++k)
+      for (std::size_t i = kept[k]; i <= kept[k + 1]; ++i)
+        EXPECT_LE(distanceToPiece(path[i], path[kept[k]], path[kept[k + 1]]), 0.0501);
+  }
+}
+
+TEST(ReportThinning, CornersStayAndStraightsGo) {
+  std::vector<PathPoint> path;
+  for (int i = 0; i <= 100; ++i)
+    path.push_back({1. * i, std::min(i, 50) * 0.1, std::max(0, i - 50) * 0.1, 0});
+  EXPECT_THAT(keptPoints(path, 0.01), ElementsAre(0, 50, 100));
+}
+
+TEST(ReportThinning, LongPathsKeepTheirEndsAndTheLimit) {
+  EXPECT_TRUE(thinned({}, 100).empty());
+  const auto one = thinned({{1, 2, 3, 4}}, 100);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].y, 3);
+  const auto path = randomWalk(4, 9000);
+  const auto out = thinned(path, 300);
+  EXPECT_LE(out.size(), 300u);
+  EXPECT_GT(out.size(), 50u) << "not coarser than needed";
+  EXPECT_EQ(out.front().t, path.front().t);
+  EXPECT_EQ(out.back().t, path.back().t);
+}
+
+TEST(ReportBins, SmallestAndLargestOfEachPart) {
+  const auto series = binned({{0, 5}, {1, 3}, {2.4, 4}, {7.5, -1}, {10, 2}, {11, 99}, {3, NAN}}, 0, 10, 4);
+  EXPECT_EQ(series.step, 2.5);
+  EXPECT_EQ(series.low[0], 3);
+  EXPECT_EQ(series.high[0], 5);
+  EXPECT_TRUE(std::isnan(series.low[1]) && std::isnan(series.high[1])) << "a value that is none";
+  EXPECT_TRUE(std::isnan(series.high[2]));
+  EXPECT_EQ(series.low[3], -1);
+  EXPECT_EQ(series.high[3], 2) << "the end belongs to the last part, what is behind it to none";
+}
+
+TEST(ReportCurves, GapsAreLongerThanASecondAndThanTheUsualSpacing) {
+  std::vector<PathPoint> path;
+  for (const double t : {0., .1, .2, .3, 1.2, 1.3, 4.3, 4.4}) path.push_back({t, 0, 0, 0});
+  EXPECT_THAT(gapsOf(path), ElementsAre(Pair(1.3, 4.3))) << "0.9 s are no gap";
+  path.clear();
+  for (const double t : {0., 2., 4., 6., 16., 40.}) path.push_back({t, 0, 0, 0});
+  EXPECT_THAT(gapsOf(path), ElementsAre(Pair(16., 40.))) << "ten spacings of a slow recording";
+  EXPECT_TRUE(gapsOf({}).empty());
+}
+
+TEST(ReportCurves, NothingWithoutPairs) {
+  Trajectory truth, estimate;
+  truth.add(0, Pose3::Identity());
+  estimate.add(50, Pose3::Identity());
+  EXPECT_FALSE(errorsOf(truth, estimate, 0, 10));
+}
+
+TEST(ReportClosures, PlanarGraphsAndOddLines) {
+  std::istringstream graph(
+      "VERTEX_SE2 5 1 2 0\n# STAMP 5 101\nVERTEX_SE2 7 3 4 0\n# STAMP 7 103\nVERTEX_SE2 9 5 6 0\n# STAMP 9 "
+      "105\n"
+      "EDGE_SE2 5 7 1 1\nEDGE_SE2 7 9\nEDGE_SE2 5 9\nEDGE_SE2 5\nEDGE_SE2 5 77\nnonsense\n\n# STAMP x\n");
+  const auto closures = readClosures(graph, 100);
+  ASSERT_EQ(closures.size(), 1u) << "5 and 7 follow each other: there is no key pose between them";
+  EXPECT_EQ(closures[0].t_a, 1);
+  EXPECT_EQ(closures[0].t_b, 5);
+  EXPECT_EQ(closures[0].b[1], 6);
+}
+
+// A wall of one cell stays when four cells become one.
+TEST(ReportGrid, CoarserGridsKeepTheirWalls) {
+  const TemporaryFolder folder;
+  writeGrid(folder);
+  const GridImage fine = readGridImage(folder.file("map.yaml")),
+                  coarse = readGridImage(folder.file("map.yaml"), 3);
+  EXPECT_EQ(fine.width, 4);
+  EXPECT_EQ(coarse.width, 2);
+  EXPECT_EQ(coarse.height, 2);
+  EXPECT_EQ(coarse.cell_m, 1);
+  EXPECT_EQ(coarse.y_min, -2);
+  EXPECT_NE(coarse.png, fine.png);
+}
+
+}  // namespace
+}  // namespace roomgraph::test
