@@ -80,9 +80,8 @@ TEST(ReportErrors, TheCauseNamesThePlace) {
   EXPECT_THAT(causeOf(folder, "associations.jsonl"), HasSubstr("associations.jsonl:2: "));
   folder.write("trajectory.tum", "1 2 3\n");
   EXPECT_THAT(causeOf(folder, "trajectory.tum"), HasSubstr("1"));
-  std::filesystem::create_directory(folder.file("views"));
-  folder.write("views/2.jpg", "no picture");
-  EXPECT_THAT(causeOf(folder, "views/2.jpg"), HasSubstr("is no picture"));
+  folder.write("views.jsonl", "{\"id\": 1, \"jpeg\": \"AAAA\"}\n{\"id\": 2, \"jpeg\": \"</script>\"}\n");
+  EXPECT_EQ(causeOf(folder, "views.jsonl"), "views.jsonl:2: is no view of a landmark");
 }
 
 TEST(ReportErrors, FoldersOfNoRunAreRefused) {

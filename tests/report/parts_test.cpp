@@ -5,12 +5,12 @@
 
 #include <random>
 
-#include "base64.h"
 #include "graph_closures.h"
 #include "grid_image.h"
 #include "made_up_run.h"
 #include "path_thinning.h"
 #include "pose_curves.h"
+#include "roomgraph/core/base64.h"
 
 namespace roomgraph::test {
 namespace {

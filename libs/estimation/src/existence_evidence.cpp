@@ -229,7 +229,7 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
       std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
   std::vector<RayCounts> solid;
   for (std::size_t i = 0; i < inside.size(); ++i)
-    if (solid_share == 0 || inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
+    if (inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
   evidence.crossed = crossedRoot(solid);
   if (shape.kind != ShapeKind::kPlanar) return;
   const auto wall = views.byImages(inWorld(wallPoints(shape), world_from_object));

@@ -165,7 +165,7 @@ RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std:
     : files_(folder,
              {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
               "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "candidates.json", "map.pgm",
-              "map.yaml", "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv",
+              "map.yaml", "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "views.jsonl",
               "snapshot.png", "report.html", "summary.json"},
              inputs),
       live_(files_.pending("live.tum")),
@@ -174,6 +174,7 @@ RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std:
 
 void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
+  views_.onStep(report);
   writeStamped(live_, report.t, report.world_from_robot);
   if (report.detections.current()) detections_ << textOf(detectionsJson(report)) << '\n';
   if (!report.decisions.empty())
@@ -209,6 +210,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("config.ini", slam.setup().effective_config);
   write("objects.ini", slam.setup().objects);
   write("timings.csv", timings.str());
+  write("views.jsonl", views_.text(slam.objects().frames()));
   write("summary.json", textOf(summaryJson(slam, result, read, replayed, origin), 2) + "\n");
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base64.h"
+#include "roomgraph/core/base64.h"
 
 namespace roomgraph {
 namespace {
@@ -104,7 +104,7 @@ ordered_json objectJson(const ReportedObject& o) {
   for (const auto& [name, p] : o.class_posterior) out["posterior"][name] = rounded(p);
   out["evidence"] = ordered_json::object();
   for (const auto& [name, value] : o.evidence) out["evidence"][name] = rounded(value);
-  if (!o.view.empty()) out["view"] = toBase64(o.view);
+  if (!o.view.empty()) out["view"] = o.view;
   return out;
 }
 

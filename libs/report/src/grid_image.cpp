@@ -14,7 +14,6 @@ namespace roomgraph {
 namespace {
 
 constexpr unsigned char kOccupied = 0, kUnknown = 128, kFree = 255;
-constexpr int kLargestView_px = 360;
 
 unsigned char greyOf(float p_free) {
   if (p_free < 0.25f) return kOccupied;
@@ -59,17 +58,6 @@ GridImage readGridImage(const std::filesystem::path& yaml, double most_cells) {
       image.at<unsigned char>(out.height - 1 - y, x) = blockOf(grid, x, y, side);
   out.png = encoded(image, ".png");
   return out;
-}
-
-std::string readView(const std::filesystem::path& jpeg) {
-  const std::string bytes = readTextFile(jpeg);
-  const std::vector<unsigned char> buffer(bytes.begin(), bytes.end());
-  cv::Mat image;
-  if (!buffer.empty()) image = cv::imdecode(buffer, cv::IMREAD_COLOR);
-  if (image.empty()) throw InputError(jpeg.string() + ": is no picture");
-  const double scale = static_cast<double>(kLargestView_px) / std::max(image.cols, image.rows);
-  if (scale < 1) cv::resize(image, image, {}, scale, scale, cv::INTER_AREA);
-  return encoded(image, ".jpg");
 }
 
 }  // namespace roomgraph

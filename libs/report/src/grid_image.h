@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The occupancy grid, and views of objects, as pictures for the page.
+// The occupancy grid as a picture for the page.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,5 @@ namespace roomgraph {
 /// From map.yaml and its image. A grid of more than `most_cells` is made coarser; what is occupied stays so.
 /// Throws InputError.
 GridImage readGridImage(const std::filesystem::path& yaml, double most_cells = 4e6);
-
-/// A JPEG of at most 360 px; throws InputError when the file is no picture.
-std::string readView(const std::filesystem::path& jpeg);
 
 }  // namespace roomgraph

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "config_file.h"
 #include "graph_closures.h"
@@ -121,20 +123,36 @@ void gatherObjects(Gathering& files, RunData& run) {
   });
 }
 
-// Pictures are written by some runs only: nothing is missing without them.
-void gatherViews(const std::filesystem::path& folder, RunData& run) {
+bool isBase64(const std::string& text) {
+  return !text.empty() && text.size() % 4 == 0 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '+' || c == '/' || c == '=';
+  });
+}
+
+// One line per landmark; those of landmarks that are not in the map are passed over.
+void readViews(std::istream& lines, RunData& run) {
   std::size_t bytes = 0;
-  for (auto& object : run.objects) {
-    const std::string name = "views/" + std::to_string(object.id) + ".jpg";
-    std::error_code none;
-    if (!std::filesystem::is_regular_file(folder / name, none) || bytes > kMostViewBytes) continue;
-    try {
-      object.view = readView(folder / name);
-      bytes += object.view.size();
-    } catch (const std::exception& error) {
-      run.missing[name] = withoutFolder(firstLine(error), folder / name);
-    }
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const auto view = nlohmann::json::parse(line, nullptr, false);
+    const auto id = view.is_object() ? view.find("id") : view.end();
+    const auto jpeg = view.is_object() ? view.find("jpeg") : view.end();
+    if (!view.is_object() || id == view.end() || !id->is_number_integer() || jpeg == view.end() ||
+        !jpeg->is_string() || !isBase64(jpeg->get<std::string>()))
+      throw InputError("views.jsonl:" + std::to_string(number) + ": is no view of a landmark");
+    bytes += line.size();
+    if (bytes > kMostViewBytes) return;
+    for (auto& object : run.objects)
+      if (object.id == id->get<std::int64_t>()) object.view = jpeg->get<std::string>();
   }
+}
+
+// Runs of earlier versions have none: nothing is missing without them.
+void gatherViews(const std::filesystem::path& folder, Gathering& files, RunData& run) {
+  std::error_code none;
+  if (std::filesystem::exists(folder / "views.jsonl", none))
+    files.readLines("views.jsonl", [&](std::istream& lines) { readViews(lines, run); });
 }
 
 }  // namespace
@@ -149,7 +167,7 @@ RunData gatherRun(const ReportedRun& asked, const ReportRequest& request) {
   files.read("summary.json", [&](const auto& file) { readSummary(file, run); });
   files.readLines("timings.csv", [&](std::istream& lines) { readTimings(lines, "timings.csv", run); });
   gatherObjects(files, run);
-  gatherViews(asked.folder, run);
+  gatherViews(asked.folder, files, run);
   files.read("map.yaml", [&](const auto& file) { run.grid = readGridImage(file); });
   files.readLines("graph.g2o", [&](std::istream& graph) { run.closures = readClosures(graph, run.start_t); });
   files.read("config.ini", [&](const auto& file) { run.config = readConfigRows(file, request.defaults); });

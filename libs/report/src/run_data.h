@@ -59,7 +59,7 @@ struct ReportedObject {
   std::map<std::string, double> class_posterior, evidence;
   int observations = 0;
   std::optional<SightingSummary> sightings;
-  std::string view;  ///< JPEG; empty: none
+  std::string view;  ///< JPEG in Base64; empty: none
 };
 
 /// Two key poses that a loop closure ties.

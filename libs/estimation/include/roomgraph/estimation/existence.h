@@ -28,7 +28,7 @@ struct ExistenceEvidence {
   double contested = 0;   ///< share of sightings whose box another landmark, not seen in that frame, covers
   // Of what depth rays and beams crossed, the square roots of the shares: a little of a solid object says
   // nearly as much as a lot.
-  double crossed = 0;         ///< of its volume (of solid classes: of the solid part), by depth rays
+  double crossed = 0;         ///< of solid classes: of the solid part, by depth rays
   double filled = 0;          ///< share of its volume where they ended
   double spread = 0;          ///< share of its length or width, the lesser one, along which they ended in it
   double beside_crossed = 0;  ///< of doors: of the wall beside and above, by depth rays

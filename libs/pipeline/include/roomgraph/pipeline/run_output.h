@@ -9,6 +9,7 @@
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/pipeline/best_views.h"
 #include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
@@ -43,6 +44,7 @@ class RunOutput : public Sink {
   void write(const std::string& name, const std::string& text) const;
 
   OutputFolder files_;
+  BestViews views_;
   OutputFile live_, detections_, associations_;
 };
 

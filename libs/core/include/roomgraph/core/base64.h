@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes as text for pictures inside a page (RFC 4648).
+// Bytes as text, for pictures inside JSON and pages (RFC 4648).
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 namespace roomgraph {
 
+/// With padding.
 std::string toBase64(std::string_view bytes);
 
 }  // namespace roomgraph

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Base64 with padding, three bytes at a time.
-#include "base64.h"
+#include "roomgraph/core/base64.h"
 
 #include <cstdint>
 
