@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thinning, binning, gaps, closures and base64 against brute force and known values.
+// Thinning, binning, gaps and closures against brute force and known values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,25 +10,12 @@
 #include "made_up_run.h"
 #include "path_thinning.h"
 #include "pose_curves.h"
-#include "roomgraph/core/base64.h"
 
 namespace roomgraph::test {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::Pair;
-
-TEST(ReportBase64, TestVectorsOfTheStandard) {
-  const std::map<std::string, std::string> known{{"", ""},
-                                                 {"f", "Zg=="},
-                                                 {"fo", "Zm8="},
-                                                 {"foo", "Zm9v"},
-                                                 {"foob", "Zm9vYg=="},
-                                                 {"fooba", "Zm9vYmE="},
-                                                 {"foobar", "Zm9vYmFy"},
-                                                 {"\xff\xfe", "//4="}};
-  for (const auto& [bytes, text] : known) EXPECT_EQ(toBase64(bytes), text);
-}
 
 std::vector<PathPoint> randomWalk(unsigned seed, int count) {
   std::mt19937 random(seed);
