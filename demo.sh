@@ -26,6 +26,7 @@ echo "== 2. A simulated flat (about two minutes) =="
 
 cat <<END
 
+Each run as one page:    out/demo/lab/report.html  out/demo/halls/report.html (open in a browser)
 Pictures of the maps:    out/demo/halls/snapshot.png  out/demo/lab/snapshot.png  out/demo/lab/orbit.png
 Objects:                 out/demo/lab/landmarks.json
 Occupancy grids:         map.pgm and map.yaml beside them; trajectories: trajectory.tum
