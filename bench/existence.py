@@ -105,10 +105,11 @@ class Model:
         return [logistic(dot(self.row(evidence), self.weights[kind])) for _, kind, evidence, _ in samples]
 
     def text(self, kind):
-        """Weights of the evidence as it is, for the config."""
+        """Weights of the evidence as it is, for the config; only doors are asked for the wall beside them."""
         raw = [w / s for w, s in zip(self.weights[kind][1:], self.sigma)]
         entries = [f"bias {self.weights[kind][0] - dot(raw, self.mean):.3g}"]
-        return f"{kind} = " + ", ".join(entries + [f"{name} {value:.3g}" for name, value in zip(self.names, raw) if abs(value) > 1e-3])
+        asked = [(name, value) for name, value in zip(self.names, raw) if kind == "planar" or not name.startswith("beside")]
+        return f"{kind} = " + ", ".join(entries + [f"{name} {value:.3g}" for name, value in asked if abs(value) > 1e-3])
 
 
 def cross_validated(samples):

@@ -14,6 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 RECORDINGS = ROOT / "rawlogs"
 TIMED = {"summary.json", "timings.csv", "report.html"}  # differ between runs of the same input
+os.environ["XDG_DATA_HOME"] = os.devnull  # no networks that somebody has installed
 
 
 def call(words, **more):

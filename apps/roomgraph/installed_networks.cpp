@@ -16,9 +16,7 @@ std::vector<KnownNetwork> installedIn(const std::filesystem::path& folder, const
     if (source.models.empty()) return {};
     throw ConfigError("--models " + source.models + ": no such folder");
   }
-  const auto file =
-      source.catalogue.empty() ? sharedFile("networks.json") : std::filesystem::path(source.catalogue);
-  return networksToRun(NetworkCatalogue::fromFile(file), folder);
+  return networksToRun(NetworkCatalogue::fromFile(catalogueFileOf(source.catalogue)), folder);
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ struct ModelsArguments {
 };
 
 NetworkCatalogue catalogueOf(const ModelsArguments& a) {
-  return NetworkCatalogue::fromFile(a.catalogue.empty() ? sharedFile("networks.json")
-                                                        : std::filesystem::path(a.catalogue));
+  return NetworkCatalogue::fromFile(catalogueFileOf(a.catalogue));
 }
 
 std::filesystem::path folderFor(const ModelsArguments& a) {

@@ -17,6 +17,10 @@ std::filesystem::path sharedFile(const std::string& name) {
   throw ConfigError(name + ": not found in " + searched + "; name one with --config");
 }
 
+std::filesystem::path catalogueFileOf(const std::string& asked_for) {
+  return asked_for.empty() ? sharedFile("networks.json") : std::filesystem::path(asked_for);
+}
+
 std::filesystem::path objectsFileOf(const std::filesystem::path& run_file, const std::string& asked_for) {
   if (!asked_for.empty()) return asked_for;
   const auto beside = run_file.parent_path() / "objects.ini";

@@ -11,6 +11,9 @@ namespace roomgraph {
 /// tree when run from the build folder. Throws ConfigError naming the places searched.
 std::filesystem::path sharedFile(const std::string& name);
 
+/// The catalogue of networks that was asked for; else the shipped one.
+std::filesystem::path catalogueFileOf(const std::string& asked_for);
+
 /// The object database that was asked for; else objects.ini beside this file of a run; else the shipped one.
 std::filesystem::path objectsFileOf(const std::filesystem::path& run_file, const std::string& asked_for);
 

@@ -24,6 +24,8 @@ def drawn(count, seed, wrong_sign=0.0):
     for i in range(count):
         kind = generator.choice(sorted(TRUTH))
         evidence = {name: generator.random() for name in existence.SIGNS}
+        if kind != "planar":  # only doors are asked for the wall beside them
+            evidence.update(beside_crossed=0.0, beside_filled=0.0)
         weights = {**TRUTH[kind], **({"crossed": wrong_sign} if wrong_sign else {})}
         log_odds = weights["bias"] - 2 + sum(weights.get(name, 0) * value for name, value in evidence.items())
         probability = 1 / (1 + math.exp(-log_odds))

@@ -11,14 +11,12 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -9.62",          "filter 0.257",       "sightings 0.643", "directions 0.0785",
-               "score 5.1",           "label 4.22",         "turned -1.06",    "detected 0.55",
-               "contested -0.924",    "crossed -3.51",      "spread 1.56",     "beside_crossed -3.17",
-               "beside_filled 0.032", "beams_crossed -1.05"},
-      cuboid{"bias -6.73",           "filter 0.189",       "sightings 0.165", "score 3.38",
-             "label 3.59",           "turned -2.64",       "detected 0.245",  "contested -1.28",
-             "crossed -5.24",        "filled 0.238",       "spread 2.21",     "beside_crossed -3.17",
-             "beside_filled 0.0295", "beams_crossed -1.55"},
+    : cylinder{"bias -9.62",       "filter 0.257",  "sightings 0.643", "directions 0.0785",
+               "score 5.1",        "label 4.22",    "turned -1.06",    "detected 0.55",
+               "contested -0.924", "crossed -3.51", "spread 1.56",     "beams_crossed -1.05"},
+      cuboid{"bias -6.73",    "filter 0.189", "sightings 0.165", "score 3.38",
+             "label 3.59",    "turned -2.64", "detected 0.245",  "contested -1.28",
+             "crossed -5.24", "filled 0.238", "spread 2.21",     "beams_crossed -1.55"},
       planar{"bias -5.02",    "filter 0.206",         "sightings 0.643",      "directions 0.654",
              "score 2.8",     "label 3.24",           "detected 0.312",       "contested -1.13",
              "crossed -3.52", "beside_crossed -4.74", "beside_filled 0.0577", "beams_crossed -1.07"} {}
