@@ -253,6 +253,22 @@ TEST(Decoders, SuppressionIsPerClass) {
   EXPECT_EQ(suppressTwins(boxes, {1, 2, 3}, 1), (std::vector<int>{1, 2, 3}));
 }
 
+TEST(Decoders, RivalsAreBoxesInTheSamePlaceOfNothingThatIsMapped) {
+  const auto database = ObjectDatabase::fromText(
+      "[chair]\nlabels = chair\n[sofa]\nlabels = couch\n[person]\nlabels = person\nlandmark = false\n");
+  const auto detection = [](const std::string& name, double u, double score) {
+    return Detection{.box = {u, 0, u + 10, 10}, .class_name = name, .score = score};
+  };
+  std::vector<Detection> found{detection("chair", 0, 0.5), detection("sofa", 0, 0.9),
+                               detection("chair", 20, 0.4), detection("person", 20, 0.7),
+                               detection("chair", 40, 0.3)};
+  setRivals(found, {detection("", 1, 0.6), detection("", 0, 0.2), detection("", 22, 0.8)}, database);
+  EXPECT_EQ(found[0].rival_score, 0.6) << "the best of two; a sofa is mapped";
+  EXPECT_EQ(found[2].rival_score, 0.7) << "a person; the other one covers two thirds";
+  EXPECT_EQ(found[3].rival_score, 0) << "a person is no landmark";
+  EXPECT_EQ(found[4].rival_score, 0) << "alone";
+}
+
 TEST(Decoders, CocoLabels) {
   EXPECT_STREQ(cocoLabel(0), "person");
   EXPECT_STREQ(cocoLabel(56), "chair");

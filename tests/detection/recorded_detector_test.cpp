@@ -64,6 +64,18 @@ class RecordedDetectorTest : public ::testing::Test {
   RecordedDetector detector_;
 };
 
+TEST_F(RecordedDetectorTest, LabelsOfNoClassAreRivals) {
+  prepare("score_threshold = 0.3");
+  CObservationDetections both = record(10, "chair");
+  both.items.push_back({"printer", 0.95F, 12, 20, 112, 220, 8});
+  both.items.push_back({"tv", 0.2F, 10, 20, 110, 220, 9});
+  detector_.feed(both);
+  const auto found = detector_.detect(frameAt(10));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_FLOAT_EQ(static_cast<float>((*found)[0].rival_score), 0.95F);
+}
+
 TEST_F(RecordedDetectorTest, NearestRecordWinsBeforeOrAfterTheFrame) {
   prepare("tolerance_s = 0.05");
   detector_.feed(record(9.97, "couch"));

@@ -97,6 +97,26 @@ TEST_F(Evidence, SizeInStandardDeviations) {
   EXPECT_NEAR(of({chair}).size, 3, 1e-9);
 }
 
+// The class's widths vary by .1 m: information of 100 / m^2.
+TEST_F(Evidence, LengthMeasuredAgainstTheClassBySightingsOfItsOwnYaw) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  frames_.assign(3, frameWith(0, 0, {sofa}));
+  for (auto& frame : frames_) {
+    auto& proposal = frame.decisions[0].seen.measurement.proposal;
+    proposal.has_yaw = true;
+    proposal.size_information = {60, 1000, 1000};
+  }
+  EXPECT_NEAR(of({sofa}).measured, 60.0 / 160, 1e-9) << "three from one direction say as much as one";
+  frames_[1].decisions[0].seen.world_from_object = poseFromYpr(3, 0, 0, M_PI / 2, 0, 0);
+  EXPECT_NEAR(of({sofa}).measured, 40.0 / 140, 1e-9) << "one took width for depth";
+  frames_[2].decisions[0].seen.measurement.proposal.class_name = "chair";
+  EXPECT_NEAR(of({sofa}).measured, 20.0 / 120, 1e-9) << "one is of another shape";
+  poses_.add(10, poseFromYpr(3, -3, 0, M_PI / 2, 0, 0));
+  frames_.push_back(frames_[0]);
+  frames_.back().t = 10;
+  EXPECT_NEAR(of({sofa}).measured, 80.0 / 180, 1e-9) << "another direction adds";
+}
+
 TEST_F(Evidence, YawsAcrossAreTurnedAndOppositeOnesAreNot) {
   const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
   frames_.assign(4, frameWith(0, 0, {sofa}));
@@ -123,6 +143,39 @@ TEST_F(Evidence, BoxesThatAnUnseenLandmarkCoversAreContested) {
   EXPECT_NEAR(of({behind, before}).contested, 0, 1e-12) << "by a landmark that was seen less";
   before = landmarkOf(2, "chair", 3, 1);
   EXPECT_NEAR(of({behind, before}).contested, 0, 1e-12) << "by a landmark beside it";
+}
+
+TEST_F(Evidence, BoxesWithASurerLabelOfAnotherKindAreMislabelled) {
+  const Landmark chair = landmarkOf(4, "chair", 3, 0);
+  frames_.assign(4, frameWith(0, 0, {chair}));
+  const double rivals[] = {0.7, 0.5, 0, 0.9};
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto& detection = frames_[i].decisions[0].seen.measurement.detection;
+    detection.score = 0.6;
+    detection.rival_score = rivals[i];
+  }
+  EXPECT_NEAR(of({chair}).mislabelled, 0.5, 1e-12);
+}
+
+// A detector calls one thing a chair and a sofa: two boxes in one place.
+TEST_F(Evidence, TheWorseOfTwoLabelsOfOneBoxIsOutdone) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0), chair = landmarkOf(2, "chair", 3, 0);
+  frames_.assign(4, frameWith(0, 0, {sofa, chair}));
+  for (auto& frame : frames_) {
+    frame.decisions[1].seen.measurement.detection.box = frame.decisions[0].seen.measurement.detection.box;
+    frame.decisions[0].seen.measurement.proposal.score = 0.8;
+  }
+  EXPECT_NEAR(of({chair, sofa}).outdone, 1, 1e-12);
+  EXPECT_NEAR(of({sofa, chair}).outdone, 0, 1e-12) << "it fits better";
+  frames_[0].decisions[0].seen.measurement.proposal.score = 0.4;
+  EXPECT_NEAR(of({chair, sofa}).outdone, 0.75, 1e-12) << "in one frame the chair fits better";
+  EXPECT_NEAR(of({sofa, chair}).outdone, 0.4 / 2.8, 1e-12) << "weighted by score";
+  Box2& box = frames_[1].decisions[1].seen.measurement.detection.box;
+  box.u_min += box.width();
+  box.u_max += box.width();
+  EXPECT_NEAR(of({chair, sofa}).outdone, 0.5, 1e-12) << "in another one its box is elsewhere";
+  frames_[2].decisions[0].seen.measurement.proposal.class_name = "chair";
+  EXPECT_NEAR(of({chair, sofa}).outdone, 0.25, 1e-12) << "the same label twice is no other label";
 }
 
 TEST_F(Evidence, RaysThroughAndIntoAVolume) {

@@ -147,6 +147,7 @@ bool BoxTracker::settle(Track& track, const Frame& frame) const {
     return false;
   track.detection.box = visible;
   track.detection.score *= kScoreDecay;
+  track.detection.rival_score *= kScoreDecay;
   track.detection.carried = true;
   cv::Mat& mask = track.detection.mask;
   if (!mask.empty())

@@ -110,14 +110,20 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
 
   std::vector<RawBox> boxes;
   std::vector<std::string> labels;
+  std::vector<Detection> others;  // of labels that no class has
   for (const auto& network : networks_) {
     const std::vector<int> classes = classOfLabel(*network, *database_, segmentation_labels_);
     std::vector<int> wanted;
     for (int i = 0; i < static_cast<int>(classes.size()); ++i)
-      if (classes[i] >= 0) wanted.push_back(i);
+      if (classes[i] >= 0 || !network->segments()) wanted.push_back(i);
     for (RawBox& raw : network->run(frame.color, wanted, score_threshold_)) {
-      labels.push_back(network->labels()[raw.class_index]);
+      const std::string& label = network->labels()[raw.class_index];
       raw.class_index = classes[raw.class_index];
+      if (raw.class_index < 0) {
+        others.push_back({.box = raw.box, .label = label, .score = raw.score});
+        continue;
+      }
+      labels.push_back(label);
       boxes.push_back(raw);
     }
   }
@@ -129,6 +135,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
                           std::clamp(boxes[i].score, 0.0, 1.0),
                           maskOver(boxes[i].box, boxes[i].mask),
                           {}});
+  setRivals(detections, others, *database_);
   return detections;
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "roomgraph/detection/detection_record.h"
+#include "suppress.h"
 
 namespace roomgraph {
 
@@ -105,15 +106,16 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
     return Result::failure(reason.str());
   }
   ++matched_;
-  std::vector<Detection> detections;
+  std::vector<Detection> detections, others;
   for (Detection detection : record->boxes) {
     const ObjectModel* model = database_->byLabel(detection.label);
     if (!model) model = database_->find(detection.label);
     detection.box = clipped(detection.box, frame.camera.width, frame.camera.height);
-    if (!model || !(detection.score >= score_threshold_) || detection.box.empty()) continue;
-    detection.class_name = model->class_name;
-    detections.push_back(detection);
+    if (!(detection.score >= score_threshold_) || detection.box.empty()) continue;
+    if (model) detection.class_name = model->class_name;
+    (model ? detections : others).push_back(detection);
   }
+  setRivals(detections, others, *database_);
   std::stable_sort(detections.begin(), detections.end(),
                    [](const Detection& a, const Detection& b) { return a.score > b.score; });
   return detections;

@@ -7,6 +7,11 @@
 #include <opencv2/dnn.hpp>
 
 namespace roomgraph {
+namespace {
+
+constexpr double kSameThing = 0.7;  // IoU of boxes with different labels
+
+}  // namespace
 
 std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou) {
   std::map<int, std::vector<int>> by_class;
@@ -39,6 +44,24 @@ std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vect
     if (!twin) out.push_back(i);
   }
   return out;
+}
+
+void setRivals(std::vector<Detection>& detections, const std::vector<Detection>& others,
+               const ObjectDatabase& database) {
+  const auto mapped = [&database](const Detection& d) {
+    const ObjectModel* model = database.find(d.class_name);
+    return model && model->landmark;
+  };
+  std::vector<const Detection*> rivals;
+  for (const auto& other : others) rivals.push_back(&other);
+  for (const auto& detection : detections)
+    if (!mapped(detection)) rivals.push_back(&detection);
+  for (auto& detection : detections) {
+    if (!mapped(detection)) continue;
+    for (const Detection* rival : rivals)
+      if (iou(rival->box, detection.box) > kSameThing)
+        detection.rival_score = std::max(detection.rival_score, rival->score);
+  }
 }
 
 }  // namespace roomgraph

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "roomgraph/detection/network_decoder.h"
+#include "roomgraph/observations/detection.h"
+#include "roomgraph/observations/object_database.h"
 
 namespace roomgraph {
 
@@ -15,5 +17,10 @@ std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_i
 /// label of one object.
 std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vector<int>& kept,
                                double max_iou);
+
+/// Sets the rival score of every detection of a mapped class: that of the best box in the same place, among
+/// `others` and the detections, with a label of no mapped class (a printer, a person).
+void setRivals(std::vector<Detection>& detections, const std::vector<Detection>& others,
+               const ObjectDatabase& database);
 
 }  // namespace roomgraph

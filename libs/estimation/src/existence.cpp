@@ -11,15 +11,29 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -9.62",       "filter 0.257",  "sightings 0.643", "directions 0.0785",
-               "score 5.1",        "label 4.22",    "turned -1.06",    "detected 0.55",
-               "contested -0.924", "crossed -3.51", "spread 1.56",     "beams_crossed -1.05"},
-      cuboid{"bias -6.73",    "filter 0.189", "sightings 0.165", "score 3.38",
-             "label 3.59",    "turned -2.64", "detected 0.245",  "contested -1.28",
-             "crossed -5.24", "filled 0.238", "spread 2.21",     "beams_crossed -1.55"},
-      planar{"bias -5.02",    "filter 0.206",         "sightings 0.643",      "directions 0.654",
-             "score 2.8",     "label 3.24",           "detected 0.312",       "contested -1.13",
-             "crossed -3.52", "beside_crossed -4.74", "beside_filled 0.0577", "beams_crossed -1.07"} {}
+    : cylinder{"bias -9.69",       "filter 0.283",   "sightings 0.653",  "directions 0.111",
+               "score 4.71",       "label 4.12",     "scatter -0.204",   "turned -0.878",
+               "measured 1.09",    "detected 0.627", "contested -0.686", "outdone -5.63",
+               "mislabelled -4.2", "crossed -3.49",  "spread 1.13",      "beams_crossed -1.08"},
+      cuboid{"bias -7.59",     "filter 0.224",    "sightings 0.0201", "score 3.07",
+             "label 5.11",     "scatter -0.199",  "turned -2.23",     "measured 2.37",
+             "detected 0.238", "contested -1.51", "outdone -4.38",    "mislabelled -4.26",
+             "crossed -5.24",  "filled 0.0312",   "spread 1.43",      "beams_crossed -1.62"},
+      planar{"bias -6.1",
+             "filter 0.271",
+             "sightings 0.379",
+             "directions 0.832",
+             "score 4.51",
+             "label 3.58",
+             "measured 0.598",
+             "detected 0.319",
+             "contested -1.06",
+             "outdone -4.01",
+             "mislabelled -5.09",
+             "crossed -3.52",
+             "beside_crossed -5.06",
+             "beside_filled 0.396",
+             "beams_crossed -1.1"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

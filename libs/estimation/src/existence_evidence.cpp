@@ -21,6 +21,7 @@ constexpr int kSlices = 5;             // of a footprint, along an axis
 constexpr double kSliceFilled = 0.15;  // share of a slice's points from which it counts as filled
 constexpr double kDirection_rad = 0.26;
 constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
+constexpr double kSameBox = 0.7;  // IoU of two boxes of a frame that bound the same thing
 constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
 constexpr double kUsuallyFilled = 0.3, kUsualSpread = 0.7;  // medians of true landmarks
@@ -31,12 +32,18 @@ constexpr int kEstablished = 6;  // sightings of a landmark that may explain box
 
 // --- from sightings ---
 
+// What the sightings from one direction say about the longer side, weighted sums.
+struct LengthSeen {
+  double weight = 0, information = 0;  // 1/m^2
+};
+
 struct SightingSums {
   int count = 0, contested = 0, placed = 0;
-  double weight = 0, score = 0, with_yaw = 0, turned = 0;  // weighted by the sightings' weights
+  double weight = 0, score = 0, with_yaw = 0, turned = 0, outdone = 0,
+         mislabelled = 0;  // weighted by the sightings' weights
   double scatter = 0;
   std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
-  std::set<int> directions;
+  std::map<int, LengthSeen> lengths;  // by direction
   std::set<double> times;  // s
 };
 
@@ -48,6 +55,21 @@ double normalisedDistance2(const Landmark& landmark, const WorldMeasurement& see
 // Front and back are easily confused and do not count.
 bool isTurned(double difference_rad) {
   return std::abs(std::sin(difference_rad)) > std::sin(kOtherYaw_rad);
+}
+
+// Index of the width or the depth.
+int longerSide(const ObjectShape& shape) {
+  return shape.width >= shape.depth ? 0 : 1;
+}
+
+// Share of the information on the longer side that is the sightings'; those from one direction repeat their
+// errors and count as their mean.
+double measuredShare(const SightingSums& sums, const ObjectModel& model, const ObjectShape& shape) {
+  double measured = 0;
+  for (const auto& [direction, seen] : sums.lengths)
+    if (seen.weight > 0) measured += seen.information / seen.weight;
+  const double sigma_m = model.sizeSigma()[longerSide(shape)];
+  return measured / (measured + 1 / (sigma_m * sigma_m));
 }
 
 // Share of the box that the landmark's projection covers.
@@ -68,6 +90,18 @@ std::vector<const Landmark*> unseenHere(const std::vector<Landmark>& landmarks, 
   return out;
 }
 
+// A detector may give one thing two labels, each in a box of its own; both are lifted, and one shape fits
+// better.
+bool isOutdone(const ObjectDecision& decision, const ObjectFrame& frame) {
+  const auto& own = decision.seen.measurement;
+  return std::any_of(frame.decisions.begin(), frame.decisions.end(), [&](const ObjectDecision& other) {
+    const auto& rival = other.seen.measurement;
+    return other.landmark != decision.landmark && rival.proposal.class_name != own.proposal.class_name &&
+           rival.proposal.score > own.proposal.score &&
+           iou(rival.detection.box, own.detection.box) > kSameBox;
+  });
+}
+
 void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& seen, NodeId node, double t,
          const Eigen::Vector3d& camera_in_world) {
   const double weight = sightingWeight(seen.measurement);
@@ -78,13 +112,18 @@ void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& s
   sums.score += weight * proposal.score;
   sums.at_nodes[node] = std::max(sums.at_nodes[node], weight);
   const Eigen::Vector3d from = camera_in_world - landmark.position;
-  sums.directions.insert(static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad)));
+  LengthSeen& length =
+      sums.lengths[static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad))];
+  length.weight += weight;
   if (proposal.class_name != landmark.class_name) return;
   ++sums.placed;
   sums.scatter += normalisedDistance2(landmark, seen);
+  const bool turned = proposal.has_yaw && isTurned(planarPart(seen.world_from_object).yaw - landmark.yaw);
+  // One that took width for depth does not measure the length.
+  if (!turned) length.information += weight * proposal.size_information[longerSide(landmark.shape)];
   if (!proposal.has_yaw) return;
   sums.with_yaw += weight;
-  if (isTurned(planarPart(seen.world_from_object).yaw - landmark.yaw)) sums.turned += weight;
+  if (turned) sums.turned += weight;
 }
 
 std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
@@ -103,10 +142,13 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
       const Landmark& landmark = *found->second;
       SightingSums& sums = out[landmark.id];
       add(sums, landmark, decision.seen, poses.nearest(frame.t).id, frame.t, world_from_camera.translation());
-      const Box2& box = decision.seen.measurement.detection.box;
+      const Detection& detection = decision.seen.measurement.detection;
+      const double weight = sightingWeight(decision.seen.measurement);
+      if (isOutdone(decision, frame)) sums.outdone += weight;
+      if (detection.rival_score > detection.score) sums.mislabelled += weight;
       sums.contested += std::any_of(others.begin(), others.end(), [&](const Landmark* other) {
         return other->observations >= landmark.observations &&
-               coveredShare(box, *other, camera_from_world, frame.camera) > kCovered;
+               coveredShare(detection.box, *other, camera_from_world, frame.camera) > kCovered;
       });
     }
   }
@@ -118,9 +160,11 @@ void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
   double of_nodes = 0;
   for (const auto& [node, weight] : sums.at_nodes) of_nodes += weight;
   evidence.sightings = std::log1p(of_nodes);
-  evidence.directions = std::log(static_cast<double>(sums.directions.size()));
+  evidence.directions = std::log(static_cast<double>(sums.lengths.size()));
   evidence.score = sums.score / sums.weight;
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
+  evidence.mislabelled = sums.mislabelled / sums.weight;
+  evidence.outdone = sums.outdone / sums.weight;
   evidence.turned = sums.with_yaw > 0 ? sums.turned / sums.with_yaw : 0;
   evidence.scatter = std::log(kLeastScatter + (sums.placed ? sums.scatter / sums.placed : 0));
 }
@@ -278,7 +322,10 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
         own != landmark.class_posterior.end())
       evidence.label = own->second;
     const ObjectModel* model = database.find(landmark.class_name);
-    if (model) evidence.size = std::sqrt(model->sizeDistance2(landmark.shape));
+    if (model) {
+      evidence.size = std::sqrt(model->sizeDistance2(landmark.shape));
+      evidence.measured = measuredShare(sums[landmark.id], *model, landmark.shape);
+    }
     setRays(evidence, landmark, model ? model->solid_share : 0, views);
     out.push_back(evidence);
   }

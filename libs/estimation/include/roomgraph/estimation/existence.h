@@ -24,8 +24,13 @@ struct ExistenceEvidence {
   double scatter = 0;     ///< log of the sightings' mean squared normalised distance from it
   double turned = 0;      ///< share of the sightings whose yaw is another one, but for front and back
   double size = 0;        ///< normalised distance of its size from its class's
+  double measured =
+      0;  ///< share of the information on its longer side that is its sightings', not its class's
   double detected = 0;    ///< log odds of its being detected from a place with it in good view
   double contested = 0;   ///< share of sightings whose box another landmark, not seen in that frame, covers
+  double outdone =
+      0;  ///< share of sightings whose box has another label too, with a shape that fits it better
+  double mislabelled = 0;  ///< share of sightings whose box has a surer label, of nothing that is mapped
   // Of what depth rays and beams crossed, the square roots of the shares: a little of a solid object says
   // nearly as much as a lot.
   double crossed = 0;         ///< of solid classes: of the solid part, by depth rays
@@ -35,14 +40,15 @@ struct ExistenceEvidence {
   double beside_filled = 0;   ///< of doors: share of it where they ended
   double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams
 
-  static constexpr std::array<std::string_view, 16> kNames = {
-      "filter", "sightings",      "directions",    "score",        "label",   "scatter",
-      "turned", "size",           "detected",      "contested",    "crossed", "filled",
-      "spread", "beside_crossed", "beside_filled", "beams_crossed"};
+  static constexpr std::array<std::string_view, 19> kNames = {
+      "filter", "sightings", "directions",     "score",         "label",        "scatter",     "turned",
+      "size",   "measured",  "detected",       "contested",     "outdone",      "mislabelled", "crossed",
+      "filled", "spread",    "beside_crossed", "beside_filled", "beams_crossed"};
   /// In the order of kNames.
-  std::array<double, 16> values() const {
-    return {filter,   sightings, directions, score,  label,  scatter,        turned,        size,
-            detected, contested, crossed,    filled, spread, beside_crossed, beside_filled, beams_crossed};
+  std::array<double, 19> values() const {
+    return {filter, sightings, directions,     score,         label,        scatter,     turned,
+            size,   measured,  detected,       contested,     outdone,      mislabelled, crossed,
+            filled, spread,    beside_crossed, beside_filled, beams_crossed};
   }
 };
 
