@@ -179,16 +179,20 @@ ObjectDatabase databaseOf(const CSemanticMap& map, const std::string& file, cons
 }
 
 void addMapCommand(CLI::App& app) {
-  auto* command = app.add_subcommand("map", "Map files: info, export, crop");
+  auto* command = app.add_subcommand("map", "Map files: info, export, crop, diff, merge");
   command->require_subcommand(1);
   command->footer(
       "Examples:\n"
       "  roomgraph map info out/lab/map.rgmap\n"
       "  roomgraph map export out/lab/map.rgmap -o lab\n"
-      "  roomgraph map crop out/lab/map.rgmap -o part.rgmap --box=0,0,4,5");
+      "  roomgraph map crop out/lab/map.rgmap -o part.rgmap --box=0,0,4,5\n"
+      "  roomgraph map diff monday/map.rgmap friday/map.rgmap --svg week.svg\n"
+      "  roomgraph map merge monday/map.rgmap friday/map.rgmap -o flat.rgmap");
   addMapInfo(*command);
   addMapExport(*command);
   addMapCrop(*command);
+  addMapDiff(*command);
+  addMapMerge(*command);
 }
 
 }  // namespace roomgraph

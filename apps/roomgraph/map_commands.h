@@ -17,4 +17,8 @@ std::string programName();
 /// one.
 ObjectDatabase databaseOf(const CSemanticMap& map, const std::string& file, const std::string& asked_for);
 
+/// Add `map diff` and `map merge`.
+void addMapDiff(CLI::App& parent);
+void addMapMerge(CLI::App& parent);
+
 }  // namespace roomgraph
