@@ -164,6 +164,24 @@ TEST(MapExport, MrptReadsMeshAndScene) {
   EXPECT_EQ(folder.count(), 2u);
 }
 
+TEST(MapExport, PathIsNotDrawnBetweenSessions) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  const auto lines = [&] {
+    exportMap(map, twoClasses(), "dxf", folder.path());
+    const std::string text = folder.read("plan.dxf");
+    int count = 0;
+    for (auto at = text.find("POLYLINE\n8\nPATH"); at != std::string::npos;
+         at = text.find("POLYLINE\n8\nPATH", at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(lines(), 1);
+  for (std::size_t i = 20; i < map.world_from_robot.size(); ++i)
+    map.world_from_robot[i].pose.translation().y() += 1.2;
+  EXPECT_EQ(lines(), 2);
+}
+
 TEST(MapExport, MapWithoutGridOrWithoutAnything) {
   const TemporaryFolder folder;
   CSemanticMap map = test::sampleMap();

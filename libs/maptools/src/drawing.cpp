@@ -9,7 +9,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kEdge_m = 0.4, kPathStep_m = 0.05, kFloorTolerance_m = 0.03;
+constexpr double kEdge_m = 0.4, kPathStep_m = 0.05, kPathGap_m = 1, kFloorTolerance_m = 0.03;
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
 Eigen::AlignedBox2d drawingBounds(const CSemanticMap& map) {
   Eigen::AlignedBox2d box;
   for (const auto& landmark : map.landmarks) box.extend(boundsOf(footprintOf(landmark)));
-  for (const auto& p : thinnedPath(map)) box.extend(p);
+  for (const auto& piece : pathPieces(map)) box.extend(boundsOf(piece));
   if (map.occupancy)
     for (int y = 0; y < static_cast<int>(map.occupancy->getSizeY()); ++y)
       for (int x = 0; x < static_cast<int>(map.occupancy->getSizeX()); ++x)
@@ -45,13 +45,17 @@ Eigen::AlignedBox2d drawingBounds(const CSemanticMap& map) {
   return box;
 }
 
-Polygon2 thinnedPath(const CSemanticMap& map) {
-  Polygon2 path;
+std::vector<Polygon2> pathPieces(const CSemanticMap& map) {
+  std::vector<Polygon2> pieces;
   for (const auto& stamped : map.world_from_robot) {
     const Eigen::Vector2d p = stamped.pose.translation().head<2>();
-    if (path.empty() || (p - path.back()).norm() >= kPathStep_m) path.push_back(p);
+    const double step = pieces.empty() ? kPathGap_m : (p - pieces.back().back()).norm();
+    if (step >= kPathGap_m)
+      pieces.push_back({p});
+    else if (step >= kPathStep_m)
+      pieces.back().push_back(p);
   }
-  return path;
+  return pieces;
 }
 
 SvgDrawing::SvgDrawing(const Eigen::AlignedBox2d& bounds, double scale) : bounds_(bounds) {

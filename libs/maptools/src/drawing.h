@@ -11,8 +11,8 @@ namespace roomgraph {
 /// Extent of a drawing in world: known cells, objects and path, with a margin. Throws RunError for an empty
 /// map.
 Eigen::AlignedBox2d drawingBounds(const CSemanticMap& map);
-/// Places at least 5 cm apart along the path.
-Polygon2 thinnedPath(const CSemanticMap& map);
+/// Places at least 5 cm apart along the path; a new piece after a gap of 1 m, as between two sessions.
+std::vector<Polygon2> pathPieces(const CSemanticMap& map);
 
 /// An SVG picture that is built up in world coordinates (m); y points upwards.
 class SvgDrawing {

@@ -89,7 +89,8 @@ std::string dxfText(const CSemanticMap& map) {
     dxf.label(landmark.position.head<2>(),
               plain(landmark.class_name + " " + std::to_string(landmark.id.value)), "LABELS");
   }
-  if (const auto path = thinnedPath(map); path.size() > 1) dxf.polyline(path, "PATH", false);
+  for (const auto& piece : pathPieces(map))
+    if (piece.size() > 1) dxf.polyline(piece, "PATH", false);
   return dxf.text() + "0\nENDSEC\n0\nEOF\n";
 }
 

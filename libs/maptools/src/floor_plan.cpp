@@ -26,7 +26,7 @@ std::string svgText(const CSemanticMap& map, const ObjectDatabase& database, dou
   SvgDrawing drawing(drawingBounds(map), scale);
   drawFloor(map, drawing);
   drawing.beginGroup("path", "stroke=\"#5c2da0\" stroke-width=\"0.03\" stroke-opacity=\"0.6\"");
-  drawing.polyline(thinnedPath(map), "");
+  for (const auto& piece : pathPieces(map)) drawing.polyline(piece, "");
   drawing.endGroup();
   drawing.beginGroup("objects", "fill-opacity=\"0.45\" stroke-width=\"0.03\"");
   for (const auto& landmark : map.landmarks)

@@ -19,6 +19,7 @@ constexpr double kStays = 0.8, kGone = 0.3;  // chance that an object is where i
 constexpr double kPairReach_m = 0.5, kMostPairEvidence = 4;
 constexpr double kSamePlace_m = 0.5, kSameTurn_rad = 0.2;
 constexpr int kPairsWithoutWalls = 4;
+constexpr std::size_t kMostObjects = 60;  // in each map; the search grows with the fourth power
 
 struct Weighed {
   MapAlignment alignment;
@@ -95,15 +96,21 @@ bool alike(const Pose2& first, const Pose2& second, const Eigen::Vector2d& at) {
          std::abs(wrapAngle(first.yaw - second.yaw)) < kSameTurn_rad;
 }
 
+std::optional<Pose2> proposedByObjects(const MapPair& maps) {
+  const auto &query = maps.b.landmarks, &map = maps.a.landmarks;
+  if (maps.haveWalls() && query.size() * map.size() > kMostObjects * kMostObjects) return std::nullopt;
+  ConstellationOptions rule;
+  rule.min_pairs = maps.haveWalls() ? 2 : kPairsWithoutWalls;
+  if (maps.haveWalls()) rule.min_lead = 0;  // the walls tell which of several is right
+  const auto match = matchConstellation(query, map, rule);
+  return match ? std::optional(match->map_from_query) : std::nullopt;
+}
+
 // Different transforms, the best one first. Maps that hardly overlap agree easily, wall against wall: such
 // transforms are none.
 std::vector<Weighed> candidatesFor(const MapPair& maps, double least_overlap) {
   std::vector<Pose2> proposed;
-  ConstellationOptions rule;
-  rule.min_pairs = maps.haveWalls() ? 2 : kPairsWithoutWalls;
-  if (maps.haveWalls()) rule.min_lead = 0;  // the walls tell which of several is right
-  if (const auto match = matchConstellation(maps.b.landmarks, maps.a.landmarks, rule))
-    proposed.push_back(match->map_from_query);
+  if (const auto pose = proposedByObjects(maps)) proposed.push_back(*pose);
   std::vector<Weighed> out;
   const Eigen::Matrix3d by_objects = Eigen::Vector3d(0.05 * 0.05, 0.05 * 0.05, 0.02 * 0.02).asDiagonal();
   if (!maps.haveWalls()) {
