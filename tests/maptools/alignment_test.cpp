@@ -40,6 +40,19 @@ TEST(MapAlignment, FindsKnownTransformsAlthoughThingsChanged) {
   }
 }
 
+TEST(MapAlignment, EnoughOfTheSmallerMapMustBeShared) {
+  const CSemanticMap a = sessionMap(test::flatWalls(), test::flatObjects(), {0, 0, 0}, 0,
+                                    [](const Eigen::Vector2d& p) { return p.x() > 6; });
+  const CSemanticMap b = sessionMap(test::flatWalls(), test::flatObjects(), {1, 2, 0.5}, 0,
+                                    [](const Eigen::Vector2d& p) { return p.x() < 1; });
+  const auto found = alignMaps(a, b);
+  ASSERT_TRUE(found) << found.reason();
+  EXPECT_NEAR(found->overlap, 5.0 / 6, 0.05) << "5 m of 6 m";
+  MapAlignmentOptions strict;
+  strict.least_overlap = 0.95;
+  EXPECT_FALSE(alignMaps(a, b, strict));
+}
+
 TEST(MapAlignment, WallsAloneSuffice) {
   const CSemanticMap a = sessionMap(test::flatWalls(), {}, {0, 0, 0}),
                      b = sessionMap(test::flatWalls(), {}, {2, 1, -2.5});
