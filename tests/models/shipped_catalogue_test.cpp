@@ -2,8 +2,8 @@
 // The catalogue that is shipped: complete, and true of the networks' files where they are at hand.
 #include <gmock/gmock.h>
 
-#include "checksum.h"
 #include "data_folder.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/models/fetch.h"
 #include "roomgraph/models/model_folder.h"

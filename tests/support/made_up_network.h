@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "checksum.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/models/catalogue.h"
 
 namespace roomgraph::test {

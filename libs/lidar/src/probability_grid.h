@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "planar_scan.h"
@@ -23,6 +24,15 @@ class ProbabilityGrid {
   static constexpr float kMin = 0.1f, kMax = 0.98f;
 
   explicit ProbabilityGrid(double cell_m) : cell_m_(cell_m) {}
+  /// From a finished map: probabilities row by row from the smallest y, 0 for cells never seen.
+  ProbabilityGrid(double cell_m, const Eigen::Vector2d& corner, int width, int height,
+                  std::vector<float> cells)
+      : cell_m_(cell_m),
+        width_(width),
+        height_(height),
+        corner_(corner),
+        cells_(std::move(cells)),
+        touched_(cells_.size(), 0) {}
 
   /// Adds a scan seen from `grid_from_robot`: the cells of the returns are hit, those on the way there
   /// missed, each at most once.

@@ -57,6 +57,9 @@ std::string problemOf(const CSemanticMap& map) {
   const auto later = [](const StampedPose& a, const StampedPose& b) { return !(a.t < b.t); };
   if (std::adjacent_find(poses.begin(), poses.end(), later) != poses.end())
     return "its trajectory is not in order of time";
+  for (const auto& [id, span] : map.seen)
+    if (!std::isfinite(span.first) || !std::isfinite(span.last) || span.last < span.first)
+      return "landmark " + std::to_string(id.value) + ": last seen before it was first seen";
   return "";
 }
 

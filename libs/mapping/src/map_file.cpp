@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// map.rgmap: gzipped MRPT archive, read with bounded memory.
+// map.rgmap: gzipped MRPT archive with a checksum, read with bounded memory.
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
@@ -10,6 +10,7 @@
 
 #include "map_check.h"
 #include "roomgraph/core/allocation_limit.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
@@ -21,6 +22,9 @@ namespace {
 
 constexpr std::size_t kLargestBytes = 128u
                                       << 20;  // a grid of 400 m x 400 m at 0.05 m, and 64 MB for the rest
+// What follows the archive: this mark and the SHA-256 of all before it.
+constexpr std::string_view kSumMark = "roomgraph map sha256 ";
+constexpr std::size_t kSumDigits = 64;
 constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 4;
 
 std::vector<std::uint8_t> inflated(const std::filesystem::path& file) {
@@ -38,8 +42,8 @@ std::vector<std::uint8_t> inflated(const std::filesystem::path& file) {
   return bytes;
 }
 
-mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& file) {
-  const auto bytes = inflated(file);
+mrpt::serialization::CSerializable::Ptr parsed(const std::vector<std::uint8_t>& bytes,
+                                               const std::filesystem::path& file) {
   mrpt::io::CMemoryStream in;
   in.assignMemoryNotOwn(bytes.data(), bytes.size());
   try {
@@ -54,6 +58,35 @@ mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& 
       throw InputError(file.string() + ": was written by a newer version of roomgraph (" + what + ")");
     throw InputError(file.string() + ": not a roomgraph map, or damaged (" + what + ")");
   }
+}
+
+// Whether the bytes end with their checksum, which is taken off; maps of version 0 have none.
+bool takeChecksum(std::vector<std::uint8_t>& bytes, const std::filesystem::path& file) {
+  const std::size_t length = kSumMark.size() + kSumDigits;
+  if (bytes.size() < length) return false;
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto content = all.substr(0, all.size() - length), end = all.substr(content.size());
+  if (!end.starts_with(kSumMark)) return false;
+  if (sha256Of(content) != end.substr(kSumMark.size()))
+    throw InputError(file.string() + ": damaged: its checksum is not that of its content");
+  bytes.resize(content.size());
+  return true;
+}
+
+// Of the first object of an archive, which begins with 0x80 | length of its class' name, the name, the
+// version.
+int versionOf(const std::vector<std::uint8_t>& bytes) {
+  const std::size_t at = bytes.empty() ? 0 : 1u + (bytes[0] & 0x7fu);
+  return at < bytes.size() ? bytes[at] : 0;
+}
+
+mrpt::serialization::CSerializable::Ptr readObject(const std::filesystem::path& file) {
+  auto bytes = inflated(file);
+  const bool checked = takeChecksum(bytes, file);
+  auto object = parsed(bytes, file);
+  if (!checked && versionOf(bytes) > 0 && std::dynamic_pointer_cast<CSemanticMap>(object))
+    throw InputError(file.string() + ": damaged: its end, which holds the checksum, is missing");
+  return object;
 }
 
 // MRPT's own function writes a temporary file, whose name two processes may share.
@@ -80,8 +113,10 @@ void saveMap(const CSemanticMap& map, const std::filesystem::path& file) {
   mrpt::io::CMemoryStream memory;
   auto archive = mrpt::serialization::archiveFrom(memory);
   archive << map;
-  writeFileAtomically(file, gzipped({static_cast<const char*>(memory.getRawBufferData()),
-                                     static_cast<std::size_t>(memory.getTotalBytesCount())}));
+  std::string bytes(static_cast<const char*>(memory.getRawBufferData()),
+                    static_cast<std::size_t>(memory.getTotalBytesCount()));
+  bytes += std::string(kSumMark) + sha256Of(bytes);
+  writeFileAtomically(file, gzipped(bytes));
 }
 
 CSemanticMap loadMap(const std::filesystem::path& file) {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "checksum.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/core/text_file.h"
 

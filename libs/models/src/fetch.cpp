@@ -10,8 +10,8 @@
 #include <fstream>
 #include <vector>
 
-#include "checksum.h"
 #include "download.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/models/model_folder.h"

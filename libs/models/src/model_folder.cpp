@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
-#include "checksum.h"
 #include "partial_file.h"
+#include "roomgraph/core/checksum.h"
 
 namespace roomgraph {
 namespace {

@@ -48,12 +48,28 @@ Landmark readLandmark(CArchive& in) {
   return landmark;
 }
 
+void writeSeen(CArchive& out, const SeenSpans& seen) {
+  out.WriteAs<std::uint32_t>(seen.size());
+  for (const auto& [id, span] : seen) out << id.value << span.first << span.last;
+}
+
+SeenSpans readSeen(CArchive& in) {
+  SeenSpans seen;
+  for (auto count = in.ReadAs<std::uint32_t>(); count > 0; --count) {
+    LandmarkId id;
+    SeenSpan span;
+    in >> id.value >> span.first >> span.last;
+    seen[id] = span;
+  }
+  return seen;
+}
+
 }  // namespace
 
 IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::serialization::CSerializable, roomgraph)
 
 std::uint8_t CSemanticMap::serializeGetVersion() const {
-  return 0;
+  return 1;
 }
 
 void CSemanticMap::serializeTo(CArchive& out) const {
@@ -66,10 +82,12 @@ void CSemanticMap::serializeTo(CArchive& out) const {
     out << stamped.t;
     writePose(out, stamped.pose);
   }
+  writeSeen(out, seen);
+  out << provenance.program << provenance.config << provenance.objects << provenance.history;
 }
 
 void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> origin;
   planar = in.ReadAs<std::uint8_t>() != 0;  // as bytes: in a damaged file they may be neither 0 nor 1
   const bool has_occupancy = in.ReadAs<std::uint8_t>() != 0;
@@ -85,6 +103,11 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
     in >> stamped.t;
     stamped.pose = readPose(in);
   }
+  seen.clear();
+  provenance = {};
+  if (version == 0) return;
+  seen = readSeen(in);
+  in >> provenance.program >> provenance.config >> provenance.objects >> provenance.history;
 }
 
 }  // namespace roomgraph

@@ -138,6 +138,21 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   return summary;
 }
 
+// Nothing that differs from one run to its repetition: the same input gives the same bytes.
+CSemanticMap withProvenance(const SlamResult& result, const Setup& setup, const RunOrigin& origin) {
+  CSemanticMap map = result.map;
+  for (const auto& landmark : map.landmarks)
+    if (const auto span = result.seen.find(landmark.id); span != result.seen.end()) map.seen.insert(*span);
+  map.provenance = {"roomgraph " + origin.version + " (" + origin.revision + ")",
+                    setup.effective_config,
+                    setup.objects,
+                    {}};
+  if (result.earlier && result.earlier->recognised)
+    map.provenance.history.push_back("in the frame of an earlier map");
+  map.provenance.history.insert(map.provenance.history.begin(), "run of " + map.origin);
+  return map;
+}
+
 LandmarksOrigin originOf(const SlamResult& result, const RunOrigin& origin) {
   LandmarksOrigin out{result.map.origin, origin.version + " (" + origin.revision + ")", result.seen, {}};
   for (const auto& [landmark, evidence] : result.candidates) {
@@ -205,7 +220,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   saveLandmarksJson(candidates, files_.pending("candidates.json"), where);
   if (result.map.occupancy)
     saveOccupancyRos(*result.map.occupancy, files_.pending("map.pgm").replace_extension());
-  saveMap(result.map, files_.pending("map.rgmap"));
+  saveMap(withProvenance(result, slam.setup(), origin), files_.pending("map.rgmap"));
   saveGraph(slam, result.map.planar, files_.pending("graph.g2o"));
   write("config.ini", slam.setup().effective_config);
   write("objects.ini", slam.setup().objects);

@@ -10,6 +10,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kPathLift = 0.02;  ///< above the floor and its grid
+constexpr double kGap_m = 1;  ///< nothing is drawn across: between two sessions, or where the robot was lost
 
 /// Poses at least `spacing` apart; a robot moves on the floor, a handheld camera where it was.
 std::vector<StampedPose> thinned(const CSemanticMap& map, double spacing) {
@@ -40,7 +41,8 @@ void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto color = palette::mix(palette::kPathStart, palette::kPathEnd, (poses[i].t - begin) / span);
     const Eigen::Vector3d to = place(poses[i].pose, lift_at(poses[i].t));
-    mesh.ribbon(place(poses[i - 1].pose, lift_at(poses[i - 1].t)), to, width, color);
+    const Eigen::Vector3d from = place(poses[i - 1].pose, lift_at(poses[i - 1].t));
+    if ((to - from).norm() < kGap_m) mesh.ribbon(from, to, width, color);
     mesh.disc(to, width / 2, color, 8);
   }
   const Eigen::Vector3d start = place(map.world_from_robot.front().pose, kPathLift + 0.01);

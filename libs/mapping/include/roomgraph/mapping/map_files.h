@@ -14,7 +14,8 @@ namespace roomgraph {
 // Every writer replaces the file atomically and throws RunError naming file and cause; every reader throws InputError
 // naming file, place and cause. Coordinates are in world: m, rad.
 
-/// Writes / reads map.rgmap (MRPT archive, gzipped).
+/// Writes / reads map.rgmap: an MRPT archive and its SHA-256, gzipped. Maps of every earlier version load:
+/// version 0 had neither checksum nor provenance.
 void saveMap(const CSemanticMap& map, const std::filesystem::path& file);
 CSemanticMap loadMap(const std::filesystem::path& file);
 

@@ -9,8 +9,17 @@
 #include <vector>
 
 #include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/seen_span.h"
 
 namespace roomgraph {
+
+/// How a map came to be.
+struct MapProvenance {
+  std::string program;  ///< name, version and revision of what wrote it; empty in maps of version 0
+  std::string config;   ///< config.ini as it was used
+  std::string objects;  ///< objects.ini as it was used
+  std::vector<std::string> history;  ///< what was done, the oldest first: "run of lab.rawlog"
+};
 
 /// The 2.5D semantic map (method.md sec. 6): occupancy grid, landmarks and the trajectory that made them, in
 /// world.
@@ -22,6 +31,8 @@ class CSemanticMap : public mrpt::serialization::CSerializable {
   std::vector<StampedPose> world_from_robot;
   bool planar = true;  ///< false: a handheld camera moved freely
   std::string origin;  ///< the recording it was made from
+  SeenSpans seen;      ///< of the landmarks for which it is known
+  MapProvenance provenance;
 };
 
 }  // namespace roomgraph

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SHA-256: published digests, files larger than a block, files that cannot be read.
-#include "checksum.h"
+#include "roomgraph/core/checksum.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SHA-256 through OpenSSL's libcrypto, files block by block.
-#include "checksum.h"
+#include "roomgraph/core/checksum.h"
 
 #include <openssl/evp.h>
 
