@@ -72,6 +72,7 @@ void addCommands(CLI::App& app) {
   addSimulateCommand(app);
   addBenchCommand(app);
   addModelsCommand(app);
+  addViewCommand(app);
 }
 
 int runCommand(CLI::App& app, int argc, char** argv) {
