@@ -165,6 +165,7 @@ void ViewerWindow::showImage() {
     } else if (const auto frame = request_.images ? request_.images->find(t) : nullptr) {
       StepReport report = *shown_->frame;
       report.image = frame.get();
+      report.frame = frame->id;
       picture = debugPicture(report, *request_.database);
     }
     if (!picture.empty()) image_t_ = t;
