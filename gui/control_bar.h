@@ -32,6 +32,8 @@ class ControlBar {
   ControlBar(nanogui::Screen& screen, Commands commands, bool player);
   void show(const BarStatus& status);
   void place(int y, int width);
+  /// Whether somebody types a number: keys mean nothing else then.
+  bool typing() const { return record_ && record_->focused(); }
 
  private:
   nanogui::Button* button(int icon, const std::string& caption, const std::string& help,

@@ -25,7 +25,8 @@ class ObjectPanel {
   };
   nanogui::Screen& screen_;
   nanogui::Window* window_;
-  nanogui::Graph* graph_;
+  nanogui::VScrollPanel* scroll_;
+  nanogui::Graph* graph_ = nullptr;
   std::vector<Lines> blocks_;
   int width_;
 };

@@ -65,7 +65,7 @@ Commands ViewerWindow::commands() {
 }
 
 bool ViewerWindow::onKey(int key, int action, int modifiers) {
-  if (action == GLFW_RELEASE || (modifiers & GLFW_MOD_ALT)) return false;
+  if (action == GLFW_RELEASE || (modifiers & GLFW_MOD_ALT) || bar_->typing()) return false;
   if (key >= GLFW_KEY_1 && key < GLFW_KEY_1 + static_cast<int>(kLayerNames.size())) {
     const auto layer = static_cast<Layer>(key - GLFW_KEY_1);
     scene_.setVisible(layer, !scene_.visible(layer));

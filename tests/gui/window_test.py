@@ -149,6 +149,12 @@ class Window(unittest.TestCase):
         self.until(lambda now: not self.chairs(now), "the map as it was at the beginning")
         self.display.key("End")
         self.two_chairs()
+        self.display.click(455, 640)  # the number of the record
+        self.display.xdotool("key", "ctrl+a")
+        self.display.xdotool("type", "--delay", "80", "15")
+        self.display.key("Return")
+        picture = self.until(lambda now: len(self.chairs(now)) == 1 and now, "the map at record 15: one chair")
+        self.assertTrue(picture.near((58, 70, 87), 4, MAP), "digits of a number switch no layers")
         self.display.key("q")
         self.expect_end(process)
 

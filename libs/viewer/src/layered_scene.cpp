@@ -105,7 +105,7 @@ void LayeredScene::showLandmarks(LandmarkId selected) {
     addLandmarks(map_, database_, scene);
     for (const auto& landmark : map_.landmarks) addName(landmark, scene);
     if (marked)
-      addFrame(marked->landmark.shape, marked->landmark.worldFromObject(), 2 * lineWidth(map_), kMarkColor,
+      addFrame(marked->landmark.shape, marked->landmark.worldFromObject(), 1.3 * lineWidth(map_), kMarkColor,
                scene);
   });
   fill(Layer::kCovariances, [&](auto& scene) {

@@ -14,6 +14,7 @@
 namespace roomgraph {
 namespace {
 
+constexpr double kFrameLift = 0.05;  ///< above the outline that a landmark has already
 constexpr double kMarkLift = 0.035;  ///< above floor and path
 constexpr int kName_px = 18;
 constexpr double kChi2Of95 = 5.991;  ///< two degrees of freedom
@@ -54,11 +55,11 @@ void addFrame(const ObjectShape& shape, const Pose3& world_from_object, double w
   const std::size_t upright = shape.kind == ShapeKind::kCylinder ? base.size() / 4 : 1;
   const auto corner = [&](std::size_t i, double z) {
     const Eigen::Vector2d& at = base[i % base.size()];
-    return Eigen::Vector3d(world_from_object * Eigen::Vector3d(at.x(), at.y(), z));
+    return Eigen::Vector3d(world_from_object * Eigen::Vector3d(at.x(), at.y(), z + kFrameLift));
   };
   TriangleSet mesh;
   for (std::size_t i = 0; i < base.size(); ++i) {
-    for (const double z : {0.02, shape.height + 0.02})
+    for (const double z : {0.0, shape.height})
       addBar(corner(i, z), corner(i + 1, z), width, color, mesh);
     if (i % upright == 0) addBar(corner(i, 0), corner(i, shape.height), width, color, mesh);
   }
