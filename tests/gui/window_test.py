@@ -75,6 +75,16 @@ class Window(unittest.TestCase):
     def two_chairs(self):
         return self.until(lambda picture: len(self.chairs(picture)) == 2 and self.chairs(picture), "two chairs")
 
+    def at_rest(self):
+        """The picture when nothing has changed in it for three seconds: a replay is at its end."""
+        picture, since = self.display.picture(), time.monotonic()
+        while time.monotonic() - since < 3:
+            time.sleep(0.25)
+            now = self.display.picture()
+            if now.rows != picture.rows:
+                picture, since = now, time.monotonic()
+        return picture
+
     def test_objects_are_at_their_places(self):
         process = self.open(self.out / "map.rgmap", "--top")
         chairs = [complex(*center(blob)) for blob in self.two_chairs()]
@@ -141,8 +151,7 @@ class Window(unittest.TestCase):
         self.assertFalse(self.chairs(early), "nothing is mapped yet")
         self.display.key("space")
         self.two_chairs()
-        time.sleep(2)
-        late = self.display.picture()
+        late = self.at_rest()
         self.keep(late, "end")
         self.assertNotEqual(early.part(*IMAGE), late.part(*IMAGE))
         self.display.key("Home")

@@ -59,8 +59,7 @@ void addFrame(const ObjectShape& shape, const Pose3& world_from_object, double w
   };
   TriangleSet mesh;
   for (std::size_t i = 0; i < base.size(); ++i) {
-    for (const double z : {0.0, shape.height})
-      addBar(corner(i, z), corner(i + 1, z), width, color, mesh);
+    for (const double z : {0.0, shape.height}) addBar(corner(i, z), corner(i + 1, z), width, color, mesh);
     if (i % upright == 0) addBar(corner(i, 0), corner(i, shape.height), width, color, mesh);
   }
   scene.insert(mesh.object("frame"));
