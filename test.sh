@@ -2,6 +2,7 @@
 # Builds roomgraph and runs all tests.
 set -euo pipefail
 cd "$(dirname "$0")"
-# mrpt-apps: whether MRPT's own tools read our files; chromium: whether the report works in a browser.
-MORE_PACKAGES="mrpt-apps chromium chromium-driver" ./setup.sh
+# mrpt-apps: whether MRPT's own tools read our files; chromium: whether the report works in a browser; xvfb, xdotool: the
+# window on a display without a screen.
+MORE_PACKAGES="mrpt-apps chromium chromium-driver xvfb xdotool" ./setup.sh
 exec ctest --test-dir build/release --output-on-failure --timeout 300 -j "$(nproc)"

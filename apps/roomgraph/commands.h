@@ -21,9 +21,13 @@ void addSimulateCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addMapCommand(CLI::App& app);
 void addModelsCommand(CLI::App& app);
+void addViewCommand(CLI::App& app);
 
 // Checks of numbers on the command line.
 CLI::Validator atLeastZero();
 CLI::Validator aboveZero();
+
+/// "1280x960" of --size: width and height, px. Throws ConfigError.
+std::pair<int, int> sizeInPixels(const std::string& text);
 
 }  // namespace roomgraph

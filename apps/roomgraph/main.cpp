@@ -73,6 +73,7 @@ void addCommands(CLI::App& app) {
   addBenchCommand(app);
   addMapCommand(app);
   addModelsCommand(app);
+  addViewCommand(app);
 }
 
 int runCommand(CLI::App& app, int argc, char** argv) {

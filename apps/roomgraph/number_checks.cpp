@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CLI11 validators for finite numbers with a lower bound.
+// CLI11 validators for finite numbers with a lower bound; sizes of pictures.
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #include "commands.h"
+#include "roomgraph/core/errors.h"
 
 namespace roomgraph {
 namespace {
@@ -28,6 +30,15 @@ CLI::Validator atLeastZero() {
 
 CLI::Validator aboveZero() {
   return numberCheck([](double value) { return value > 0; }, "a number above 0", "> 0");
+}
+
+std::pair<int, int> sizeInPixels(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 64 || height < 64 ||
+      width > 8192 || height > 8192)
+    throw ConfigError("--size " + text + ": give WIDTHxHEIGHT in pixels, 64 to 8192, as in 1280x960");
+  return {width, height};
 }
 
 }  // namespace roomgraph

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph snapshot`: PNG of a saved map from above, in orbit or from the robot.
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <tuple>
 
 #include "commands.h"
 #include "roomgraph/core/errors.h"
@@ -24,11 +24,7 @@ SnapshotOptions toOptions(const SnapshotArguments& arguments) {
   options.view = arguments.view == "orbit"   ? SnapshotView::kOrbit
                  : arguments.view == "robot" ? SnapshotView::kRobot
                                              : SnapshotView::kTop;
-  char rest = 0;
-  if (std::sscanf(arguments.size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
-      options.width < 64 || options.height < 64 || options.width > 8192 || options.height > 8192)
-    throw ConfigError("--size " + arguments.size +
-                      ": give WIDTHxHEIGHT in pixels, 64 to 8192, as in 1280x960");
+  std::tie(options.width, options.height) = sizeInPixels(arguments.size);
   options.title = arguments.title;
   const auto ending = std::filesystem::path(arguments.output).extension();
   if (ending != ".png" && ending != ".PNG")

@@ -19,6 +19,12 @@ TEST(Base64, TestVectorsOfTheStandard) {
                                                  {"foobar", "Zm9vYmFy"},
                                                  {"\xff\xfe", "//4="}};
   for (const auto& [bytes, text] : known) EXPECT_EQ(toBase64(bytes), text);
+  for (const auto& [bytes, text] : known) EXPECT_EQ(fromBase64(text), bytes);
+}
+
+TEST(Base64, WhatIsNoneIsRefused) {
+  for (const char* text : {"Z", "Zg=", "Zg", "Z===", "====", "Zm9*", "Zg==Zg=="})
+    EXPECT_THROW(fromBase64(text), std::invalid_argument) << text;
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
-#include "palette.h"
 #include "random_poses.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/rendering/palette.h"
 #include "temporary_folder.h"
 #include "wireframe.h"
 

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 
 #include "glyphs.h"
-#include "palette.h"
-#include "triangle_set.h"
+#include "roomgraph/rendering/palette.h"
+#include "roomgraph/rendering/triangle_set.h"
 #include "wireframe.h"
 
 namespace roomgraph {

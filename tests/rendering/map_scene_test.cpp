@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "overlay.h"
-#include "palette.h"
+#include "roomgraph/rendering/palette.h"
+#include "roomgraph/rendering/scene_parts.h"
 #include "sample_map.h"
 #include "scene.h"
-#include "scene_parts.h"
 
 namespace roomgraph {
 namespace {

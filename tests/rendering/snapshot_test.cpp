@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "overlay.h"
-#include "palette.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/rendering/palette.h"
 #include "sample_map.h"
 #include "scene.h"
 #include "temporary_folder.h"

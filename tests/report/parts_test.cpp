@@ -5,11 +5,11 @@
 
 #include <random>
 
-#include "graph_closures.h"
 #include "grid_image.h"
 #include "made_up_run.h"
 #include "path_thinning.h"
 #include "pose_curves.h"
+#include "roomgraph/report/graph_closures.h"
 
 namespace roomgraph::test {
 namespace {

@@ -112,6 +112,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
+  report.scan = std::move(clean);
   return report;
 }
 
@@ -322,7 +323,7 @@ SlamResult SemanticSlam::collect() {
   SlamResult result;
   result.counts = counts_;
   result.counts.key_poses = static_cast<int>(poses.nodes().size());
-  result.counts.loop_closures = estimator_.closureCount();
+  result.counts.loop_closures = static_cast<int>(estimator_.closures().size());
   result.map.planar = estimator_.planar();
   if (poses.empty()) return result;
   const ExistenceOptions& existence = setup_->options.existence;

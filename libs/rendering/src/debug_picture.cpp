@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "glyphs.h"
-#include "palette.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/rendering/palette.h"
 #include "wireframe.h"
 
 namespace roomgraph {

@@ -6,7 +6,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "palette.h"
+#include "roomgraph/rendering/palette.h"
 
 namespace roomgraph {
 

@@ -10,7 +10,7 @@
 
 #include "glyphs.h"
 #include "labels.h"
-#include "scene_parts.h"
+#include "roomgraph/rendering/scene_parts.h"
 
 namespace roomgraph {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mixing and parsing of colours, and lookup by class.
-#include "palette.h"
+#include "roomgraph/rendering/palette.h"
 
 #include <cmath>
 #include <cstdint>

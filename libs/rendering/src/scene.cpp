@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palette.h"
-#include "scene_parts.h"
+#include "roomgraph/rendering/palette.h"
+#include "roomgraph/rendering/scene_parts.h"
 
 namespace roomgraph {
 
@@ -33,6 +33,31 @@ Eigen::AlignedBox3d contentBounds(const CSemanticMap& map) {
     if (missing > 0) box.min()[k] -= missing / 2, box.max()[k] += missing / 2;
   }
   return box;
+}
+
+std::vector<Eigen::Vector3d> contentPoints(const CSemanticMap& map) {
+  std::vector<Eigen::Vector3d> points;
+  if (map.occupancy) {
+    const auto& grid = *map.occupancy;
+    const int width = static_cast<int>(grid.getSizeX());
+    for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y) {
+      int first = 0, last = width - 1;
+      while (first < width && !isKnown(grid.getCell(first, y))) ++first;
+      while (last > first && !isKnown(grid.getCell(last, y))) --last;
+      if (first == width) continue;
+      for (const int x : {first, last})
+        points.emplace_back(static_cast<double>(grid.idx2x(static_cast<std::size_t>(x))),
+                            static_cast<double>(grid.idx2y(static_cast<std::size_t>(y))), 0);
+    }
+  }
+  for (const auto& landmark : map.landmarks)
+    for (const auto& corner : footprintInWorld(landmark))
+      for (const double height : {0.0, landmark.shape.height})
+        points.push_back(corner + Eigen::Vector3d(0, 0, height));
+  for (const auto& stamped : map.world_from_robot) points.push_back(stamped.pose.translation());
+  const Eigen::AlignedBox3d box = contentBounds(map);
+  if (points.size() < 3 || !map.occupancy) points.insert(points.end(), {box.min(), box.max()});
+  return points;
 }
 
 double contentExtent(const CSemanticMap& map) {

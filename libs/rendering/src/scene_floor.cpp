@@ -5,8 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "scene_parts.h"
-#include "triangle_set.h"
+#include "roomgraph/rendering/scene_parts.h"
+#include "roomgraph/rendering/triangle_set.h"
 
 namespace roomgraph {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene_parts.h"
-#include "triangle_set.h"
+#include "roomgraph/rendering/scene_parts.h"
+#include "roomgraph/rendering/triangle_set.h"
 
 namespace roomgraph {
 namespace {

@@ -2,14 +2,13 @@
 // Camera of a picture of the map: projection and framing of the content.
 #pragma once
 
-#include <mrpt/opengl/CCamera.h>
 #include <mrpt/opengl/COpenGLScene.h>
 
 #include <Eigen/Core>
 #include <optional>
 
-#include "roomgraph/geometry/box.h"
 #include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/rendering/orbit_camera.h"
 #include "roomgraph/rendering/snapshot.h"
 
 namespace roomgraph {
@@ -22,20 +21,15 @@ class SceneView {
   SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
             const Box2& inner);
   /// Pixel (u right, v down) of a world point; nothing when it is behind the camera.
-  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& world) const;
-  bool orthographic() const { return camera_.isOrthogonal(); }
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& world) const {
+    return camera_.project(world);
+  }
+  bool orthographic() const { return camera_.orthographic; }
   /// Orthographic views: pixels per metre.
-  double pixelsPerMeter() const;
+  double pixelsPerMeter() const { return camera_.pixelsPerMeter(); }
 
  private:
-  void update();
-  void fit(const std::vector<Eigen::Vector3d>& content, const Box2& inner);
-  void shift(const Eigen::Vector2d& pixels);
-
-  mrpt::opengl::COpenGLViewport::Ptr viewport_;
-  mrpt::opengl::CCamera camera_;
-  int width_, height_;
-  Eigen::Matrix4d clip_from_world_ = Eigen::Matrix4d::Identity();
+  OrbitCamera camera_;
 };
 
 }  // namespace roomgraph

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangulation of polygons, ribbons, outlines and discs.
-#include "triangle_set.h"
+#include "roomgraph/rendering/triangle_set.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertices, stamps and edges of a g2o text, as far as loop closures need them.
-#include "graph_closures.h"
+#include "roomgraph/report/graph_closures.h"
 
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <string>
 

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "config_file.h"
-#include "graph_closures.h"
 #include "grid_image.h"
 #include "object_list.h"
 #include "path_thinning.h"
@@ -18,6 +17,7 @@
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/evaluation/trajectory_file.h"
+#include "roomgraph/report/graph_closures.h"
 #include "sightings.h"
 #include "stage_table.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roomgraph/evaluation/trajectory_error.h"
+#include "roomgraph/report/graph_closures.h"
 #include "roomgraph/report/report.h"
 
 namespace roomgraph {
@@ -60,12 +61,6 @@ struct ReportedObject {
   int observations = 0;
   std::optional<SightingSummary> sightings;
   std::string view;  ///< JPEG in Base64; empty: none
-};
-
-/// Two key poses that a loop closure ties.
-struct ClosedLoop {
-  double t_a = 0, t_b = 0;  ///< s since the run's first pose
-  std::array<double, 2> a{}, b{};
 };
 
 struct StageRow {

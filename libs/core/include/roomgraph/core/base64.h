@@ -9,5 +9,7 @@ namespace roomgraph {
 
 /// With padding.
 std::string toBase64(std::string_view bytes);
+/// The bytes of such a text, padding included. Throws std::invalid_argument saying what is wrong with it.
+std::string fromBase64(std::string_view text);
 
 }  // namespace roomgraph

@@ -37,7 +37,8 @@ class PoseEstimator {
   bool planar() const { return measurements_.planar; }
   /// Whether the floor has been seen by a handheld camera, so that z is up in world.
   bool levelled() const { return levelled_; }
-  int closureCount() const { return static_cast<int>(measurements_.closures.size()); }
+  /// Between robots at two times.
+  const std::vector<RelativePose>& closures() const { return measurements_.closures; }
 
   void setPlanar() { measurements_.planar = true; }
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.

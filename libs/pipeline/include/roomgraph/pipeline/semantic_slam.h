@@ -73,6 +73,9 @@ class SemanticSlam {
   const ObjectMapper& objects() const { return objects_; }
   /// The poses of the graph.
   const KeyPoses& keyPoses() const { return estimator_.poses(); }
+  const std::vector<RelativePose>& loopClosures() const { return estimator_.closures(); }
+  /// Whether the robot drives on the floor; else the camera is handheld.
+  bool planar() const { return estimator_.planar(); }
   const Setup& setup() const { return *setup_; }
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }

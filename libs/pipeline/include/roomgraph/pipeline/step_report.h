@@ -9,6 +9,7 @@
 #include "roomgraph/estimation/object_decision.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/proposal.h"
+#include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
 
@@ -36,6 +37,8 @@ struct StepReport {
   std::optional<FrameProposals> proposals;
   std::vector<ObjectDecision> decisions;
   const Frame* image = nullptr;  ///< valid during Sink::onStep()
+  // Scans only:
+  std::optional<Scan> scan;  ///< what of it went into the grid: returns on what moves are left out
 };
 
 /// Whoever watches a run. The pipeline never knows who.

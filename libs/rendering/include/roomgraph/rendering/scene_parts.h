@@ -20,6 +20,9 @@ inline bool isKnown(float p_free) {
 /// What a picture of the map must show: known cells, objects, path (m, world); a few metres around the origin
 /// for an empty map.
 Eigen::AlignedBox3d contentBounds(const CSemanticMap& map);
+/// Points around everything that a picture must show: the ends of every row of known cells, objects, path. A
+/// tighter fit than the corners of the bounding box when the rooms lie askew.
+std::vector<Eigen::Vector3d> contentPoints(const CSemanticMap& map);
 /// Largest horizontal side of the content, m.
 double contentExtent(const CSemanticMap& map);
 /// Width of lines that looks the same for small and large maps, m.

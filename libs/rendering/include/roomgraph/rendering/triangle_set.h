@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "palette.h"
+#include "roomgraph/rendering/palette.h"
 
 namespace roomgraph {
 
