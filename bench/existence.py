@@ -3,6 +3,9 @@
 """Fits the weights of [existence] to the landmarks of simulated flats, and says how well they do on flats left out.
 
     bench/existence.py [--seeds 1-20] [--set k=v ...] [--out DIR] [--program PATH]
+                       [--mesh-seeds 1-5 --meshes DIR --mesh-set detection.models=...]
+
+--mesh-seeds adds flats furnished with catalogue models (worlds/extract_meshes.sh), to be seen by networks.
 
 Flats 1 to 99 only: those from 1000 on are for reporting. Every flat is simulated (as by bench/flats.py, whose sequences are
 used again), run and evaluated; each landmark of candidates.json with enough sightings is one sample, true when the evaluation
@@ -32,7 +35,7 @@ BINS = (0, 0.1, 0.3, 0.5, 0.7, 0.9, 1)
 
 
 def samples_of(number, run, report):
-    """[(flat, kind of shape, evidence, is true)] of one run."""
+    """[(flat, kind of shape, evidence, is true)] of one run; the number of a flat with meshes is negative."""
     verdicts = {entry["id"]: entry["verdict"] for entry in report["landmarks"]}
     out = []
     for landmark in json.loads((run / "candidates.json").read_text())["landmarks"]:
@@ -139,31 +142,39 @@ def decisions(samples, probabilities, limit):
     return f"from {limit} on: {false} false landmarks kept, {lost} true ones lost"
 
 
-def collect(program, number, out, settings):
-    truth = flats.flat(program, argparse.Namespace(rooms=0, handheld=False), number, out / "sequences")
-    run = out / "runs" / "existence" / f"flat_{number}"
+def collect(program, number, out, settings, meshes=None):
+    truth = flats.flat(program, argparse.Namespace(rooms=0, handheld=False, meshes=meshes), number, out / "sequences")
+    run = out / "runs" / "existence" / (f"meshes_{number}" if meshes else f"flat_{number}")
     _, problems = seeds.measure(program, truth, run, False, settings, 0)
     report = run / "candidates_score.json"
     problem = program.call("evaluate", "objects", truth / "objects.json", run / "candidates.json", "--truth-trajectory",
                            truth / "groundtruth_robot.txt", "--trajectory", run / "trajectory.tum", "--json", report)
     if problem:
         sys.exit("\n".join([problem, *problems]))
-    return samples_of(number, run, json.loads(report.read_text()))
+    return samples_of(-number if meshes else number, run, json.loads(report.read_text()))
 
 
 def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=flats.parse_seeds, default=flats.parse_seeds("1-20"), metavar="1-20", help="numbers of the flats")
     parser.add_argument("--set", nargs="+", action="extend", default=[], metavar="K=V")
+    parser.add_argument("--mesh-seeds", type=flats.parse_seeds, default=[], metavar="1-5", help="numbers of the flats with --meshes")
+    parser.add_argument("--meshes", type=Path, metavar="DIR")
+    parser.add_argument("--mesh-set", nargs="+", action="extend", default=[], metavar="K=V")
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "flats")
     parser.add_argument("--program", type=Path, default=seeds.PROGRAM)
     arguments = parser.parse_args(argv)
-    if arguments.seeds[0] in flats.REPORTING:
+    if arguments.mesh_seeds and not arguments.meshes:
+        parser.error("--mesh-seeds needs --meshes")
+    if any(seeds_of and seeds_of[0] in flats.REPORTING for seeds_of in (arguments.seeds, arguments.mesh_seeds)):
         parser.error("flats from 1000 on are for reporting: nothing is fitted to them")
     program, samples = seeds.Program(arguments.program), []
     for number in arguments.seeds:
         samples += collect(program, number, arguments.out.resolve(), arguments.set)
         print(f"flat {number}: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
+    for number in arguments.mesh_seeds:
+        samples += collect(program, number, arguments.out.resolve(), arguments.mesh_set, arguments.meshes)
+        print(f"flat {number} with meshes: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
     print(summary(samples))
     return 0
 

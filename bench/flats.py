@@ -135,6 +135,7 @@ def arguments_of(argv):
     parser.add_argument("--variants", nargs="+", action="extend", default=[], type=seeds.parse_variant, metavar="NAME=K=V,K=V")
     parser.add_argument("--rooms", type=int, default=0, help="of every flat; 0: drawn (default)")
     parser.add_argument("--handheld", action="store_true", help="a camera carried by hand, no robot")
+    parser.add_argument("--meshes", type=Path, metavar="DIR", help="furnished with the catalogue models in this folder")
     parser.add_argument("--threads", type=int, default=0, help="of each run; 0: all cores")
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "flats")
     parser.add_argument("--program", type=Path, default=seeds.PROGRAM)
@@ -145,6 +146,7 @@ def flat(program, arguments, number, folder):
     """Folder of the recording of a flat."""
     options = ["--rooms", arguments.rooms] if arguments.rooms else []
     options += ["--handheld"] if arguments.handheld else []
+    options += ["--meshes", arguments.meshes.resolve()] if arguments.meshes else []
     return seeds.simulated(program, "flat", repr(options).encode(), number, folder, ["--flat", number, *options])
 
 
