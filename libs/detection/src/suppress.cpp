@@ -58,9 +58,11 @@ void setRivals(std::vector<Detection>& detections, const std::vector<Detection>&
     if (!mapped(detection)) rivals.push_back(&detection);
   for (auto& detection : detections) {
     if (!mapped(detection)) continue;
-    for (const Detection* rival : rivals)
-      if (iou(rival->box, detection.box) > kSameThing)
-        detection.rival_score = std::max(detection.rival_score, rival->score);
+    for (const Detection* rival : rivals) {
+      if (rival->score <= detection.rival_score || iou(rival->box, detection.box) <= kSameThing) continue;
+      detection.rival_score = rival->score;
+      detection.rival_label = rival->class_name.empty() ? rival->label : "";
+    }
   }
 }
 

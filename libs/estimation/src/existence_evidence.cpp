@@ -293,7 +293,7 @@ void setBeams(ExistenceEvidence& evidence, const Landmark& landmark, double soli
       views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height));
 }
 
-// Without depth images what they would say of most landmarks is taken.
+// Without depth images what they would say of most landmarks is taken, and beams alone say what is crossed.
 void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
              const PosedViews& views) {
   if (views.hasImages()) {
@@ -303,6 +303,7 @@ void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid
     evidence.spread = kUsualSpread;
   }
   setBeams(evidence, landmark, solid_share, views);
+  if (!views.hasImages()) evidence.crossed = evidence.beams_crossed;  // the only witness of the same
 }
 
 }  // namespace

@@ -20,9 +20,9 @@ struct Detection {
   double score = 0;        ///< alpha in [0, 1]
   cv::Mat mask;            ///< CV_8UC1 over the box (rows x cols = its rounded size), or empty
   TrackId track;           ///< id from the source when it tracks; may change for the same object
-  double rival_score =
-      0;  ///< of the best box in the same place whose label is of nothing that is mapped; 0: none
   bool carried = false;    ///< the detector did not run on this frame: features moved the box here
+  double rival_score = 0;   ///< of the best box in the same place whose label is of nothing that is mapped; 0: none
+  std::string rival_label;  ///< of that box, where no class of the object database has it
 };
 
 }  // namespace roomgraph
