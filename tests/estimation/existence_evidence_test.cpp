@@ -244,6 +244,7 @@ TEST_F(Evidence, BeamsThroughWhatIsSolid) {
   scan.robot_from_lidar.translation().z() = 0.3;
   memory_.add(scan, Pose3::Identity());
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 1, 1e-12);
+  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).crossed, 1, 1e-12) << "no image saw anything of it";
   EXPECT_NEAR(of({landmarkOf(1, "chair", 3, 0)}).beams_crossed, 0, 1e-12) << "beams pass between its legs";
   memory_ = {};
   scan.robot_from_lidar.translation().z() = 0.5;

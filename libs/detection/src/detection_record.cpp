@@ -28,8 +28,14 @@ CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>
     out.items.push_back({d.label.empty() ? d.class_name : d.label, d.score, d.box.u_min, d.box.v_min,
                          d.box.u_max, d.box.v_max, d.track.value, toRuns(d.mask)});
     if (!d.rival_label.empty())
-      out.items.push_back(
-          {d.rival_label, d.rival_score, d.box.u_min, d.box.v_min, d.box.u_max, d.box.v_max, TrackId{}.value, {}});
+      out.items.push_back({d.rival_label,
+                           d.rival_score,
+                           d.box.u_min,
+                           d.box.v_min,
+                           d.box.u_max,
+                           d.box.v_max,
+                           TrackId{}.value,
+                           {}});
   }
   return out;
 }

@@ -293,17 +293,16 @@ void setBeams(ExistenceEvidence& evidence, const Landmark& landmark, double soli
       views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height));
 }
 
-// Without depth images what they would say of most landmarks is taken, and beams alone say what is crossed.
+// Without depth images what they would say of most landmarks is taken. Beams alone say what is crossed where
+// images saw nothing of it.
 void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
              const PosedViews& views) {
-  if (views.hasImages()) {
-    setDepthRays(evidence, landmark, solid_share, views);
-  } else {
-    evidence.filled = kUsuallyFilled;
-    evidence.spread = kUsualSpread;
-  }
+  if (views.hasImages()) setDepthRays(evidence, landmark, solid_share, views);
   setBeams(evidence, landmark, solid_share, views);
-  if (!views.hasImages()) evidence.crossed = evidence.beams_crossed;  // the only witness of the same
+  if (evidence.filled == 0 && evidence.crossed == 0) evidence.crossed = evidence.beams_crossed;
+  if (views.hasImages()) return;
+  evidence.filled = kUsuallyFilled;
+  evidence.spread = kUsualSpread;
 }
 
 }  // namespace

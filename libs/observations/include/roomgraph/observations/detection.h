@@ -21,7 +21,8 @@ struct Detection {
   cv::Mat mask;            ///< CV_8UC1 over the box (rows x cols = its rounded size), or empty
   TrackId track;           ///< id from the source when it tracks; may change for the same object
   bool carried = false;    ///< the detector did not run on this frame: features moved the box here
-  double rival_score = 0;   ///< of the best box in the same place whose label is of nothing that is mapped; 0: none
+  double rival_score =
+      0;  ///< of the best box in the same place whose label is of nothing that is mapped; 0: none
   std::string rival_label;  ///< of that box, where no class of the object database has it
 };
 
