@@ -24,7 +24,7 @@ namespace {
 constexpr double kStampTolerance = 0.02;  // s
 
 struct BenchOptions {
-  std::string input, boxes, objects, trajectory, detections, config, json;
+  std::string input, boxes, objects, trajectory, detections, config, json, each;
   std::vector<std::string> overrides;
   double min_visible = 0.6, max_distance_m = 4.5, min_iou = 0.5;
   int every = 1;
@@ -109,6 +109,9 @@ ProposalCase caseOf(int index, const Pairing& pairing, const FrameProposals& mad
   if (made.ground) c.camera_from_ground = cameraFromGround(made.ground->plane);
   for (const Proposal& p : made.proposals)
     if (p.detection == index) c.proposals.push_back(p);
+  c.t = made.t;
+  c.object = pairing.object->id;
+  c.box = pairing.detection.box;
   return c;
 }
 
@@ -160,10 +163,16 @@ void benchProposals(const BenchOptions& options) {
   ProposalBenchmark result{evaluateProposals(run.cases), evaluateGround(run.grounds), {}};
   for (auto& [boxes, ms] : run.cpu_ms) result.cpu_ms[boxes] = summarize(std::move(ms));
   std::cout << toTable(result);
-  if (options.json.empty()) return;
-  requireOther(options.json,
-               {options.input, options.boxes, options.objects, options.trajectory, options.detections});
-  writeFileAtomically(options.json, toJson(result));
+  const auto write = [&](const std::string& file, const std::string& text) {
+    requireOther(file,
+                 {options.input, options.boxes, options.objects, options.trajectory, options.detections});
+    writeFileAtomically(file, text);
+  };
+  if (!options.json.empty()) write(options.json, toJson(result));
+  if (options.each.empty()) return;
+  std::string lines;
+  for (const ProposalCase& c : run.cases) lines += toJsonLine(c);
+  write(options.each, lines);
 }
 
 void addProposals(CLI::App& parent) {
@@ -188,6 +197,8 @@ void addProposals(CLI::App& parent) {
       ->check(aboveZero())
       ->capture_default_str();
   command->add_option("--json", o->json, "Write the figures here, too");
+  command->add_option("--each", o->each,
+                      "Write each box, its first proposal and its errors here, as JSON lines");
   command->footer(
       "Example:\n"
       "  roomgraph bench proposals lab_a/lab_a.rawlog --boxes lab_a/boxes.jsonl --objects "

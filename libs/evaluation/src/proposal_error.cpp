@@ -13,26 +13,9 @@ namespace {
 
 constexpr double kGoodIou = 0.4;
 
-// Errors of one proposal.
-struct Error {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // ground frame, estimate minus truth
-  double yaw_deg = 0, iou3d = 0;
-};
-
 double yawError(const Pose3& ground_from_a, const Pose3& ground_from_b, int symmetry) {
   const double difference = planarPart(ground_from_a).yaw - planarPart(ground_from_b).yaw;
   return std::abs(wrapAngle(difference * symmetry)) / symmetry * kDegreesPerRadian;
-}
-
-Error errorOf(const Proposal& p, const ProposalCase& c) {
-  const Pose3 ground_from_camera = c.camera_from_ground.inverse();
-  const Pose3 estimate = ground_from_camera * p.camera_from_object,
-              truth = ground_from_camera * c.camera_from_truth;
-  Error e;
-  e.center = (estimate.translation() - truth.translation()).head<2>();
-  if (c.rule.symmetry > 0) e.yaw_deg = yawError(estimate, truth, c.rule.symmetry);
-  e.iou3d = iou3d(p.shape, estimate, c.truth, truth);
-  return e;
 }
 
 // Errors of a class, to be summarised.
@@ -41,7 +24,7 @@ struct Samples {
   Eigen::Vector2d along_sum = Eigen::Vector2d::Zero();
 };
 
-void addTop(const Error& e, const Proposal& p, const ProposalCase& c, Samples& s) {
+void addTop(const ProposalError& e, const Proposal& p, const ProposalCase& c, Samples& s) {
   const Eigen::Matrix2d covariance = p.covariance.topLeftCorner<2, 2>();
   const Eigen::Vector2d place =
       (c.camera_from_ground.inverse() * p.camera_from_object).translation().head<2>();
@@ -57,7 +40,7 @@ void addTop(const Error& e, const Proposal& p, const ProposalCase& c, Samples& s
 void addCase(const ProposalCase& c, Samples& s) {
   double center = 1e9, yaw = 1e9, overlap = 0;
   for (std::size_t i = 0; i < c.proposals.size(); ++i) {
-    const Error e = errorOf(c.proposals[i], c);
+    const ProposalError e = errorOf(c.proposals[i], c);
     if (i == 0) addTop(e, c.proposals[i], c, s);
     center = std::min(center, e.center.norm());
     yaw = std::min(yaw, e.yaw_deg);
@@ -108,6 +91,17 @@ double groundNees(const GroundEstimate& estimate, const Plane& truth) {
 }
 
 }  // namespace
+
+ProposalError errorOf(const Proposal& p, const ProposalCase& c) {
+  const Pose3 ground_from_camera = c.camera_from_ground.inverse();
+  const Pose3 estimate = ground_from_camera * p.camera_from_object,
+              truth = ground_from_camera * c.camera_from_truth;
+  ProposalError e;
+  e.center = (estimate.translation() - truth.translation()).head<2>();
+  if (c.rule.symmetry > 0) e.yaw_deg = yawError(estimate, truth, c.rule.symmetry);
+  e.iou3d = iou3d(p.shape, estimate, c.truth, truth);
+  return e;
+}
 
 std::map<std::string, ProposalFigures> evaluateProposals(const std::vector<ProposalCase>& cases) {
   std::map<std::string, Samples> samples;

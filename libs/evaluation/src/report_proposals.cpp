@@ -78,4 +78,21 @@ std::string toJson(const ProposalBenchmark& b) {
   return out.dump(2) + "\n";
 }
 
+std::string toJsonLine(const ProposalCase& c) {
+  ordered_json out = {{"timestamp", c.t},
+                      {"object", c.object},
+                      {"class", c.class_name},
+                      {"bbox", {c.box.u_min, c.box.v_min, c.box.u_max, c.box.v_max}}};
+  if (!c.proposals.empty()) {
+    const Proposal& top = c.proposals.front();
+    const ProposalError error = errorOf(top, c);
+    out["proposal"] = {
+        {"source", top.source},           {"score", top.score},
+        {"has_yaw", top.has_yaw},         {"center_error_m", {error.center.x(), error.center.y()}},
+        {"yaw_error_deg", error.yaw_deg}, {"iou3d", error.iou3d},
+        {"reasons", top.reasons}};
+  }
+  return out.dump() + "\n";
+}
+
 }  // namespace roomgraph

@@ -21,7 +21,19 @@ struct ProposalCase {
   Pose3 camera_from_truth = Pose3::Identity();   ///< object frame: bottom centre, x front, z up
   Pose3 camera_from_ground = Pose3::Identity();  ///< frame of the proposals' covariances
   std::vector<Proposal> proposals;
+  double t = 0;     ///< of the frame, s
+  int object = -1;  ///< id of the true one
+  Box2 box;         ///< that went in
 };
+
+/// Errors of one proposal, on the ground.
+struct ProposalError {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< ground frame, estimate minus truth, m
+  double yaw_deg = 0;                                ///< modulo symmetry
+  double iou3d = 0;
+};
+
+ProposalError errorOf(const Proposal& proposal, const ProposalCase& c);
 
 /// Errors of a class. `top`: of the first proposal; `best`: the least among all proposals of a detection.
 struct ProposalFigures {

@@ -20,4 +20,8 @@ struct ProposalBenchmark {
 std::string toTable(const ProposalBenchmark& benchmark);
 std::string toJson(const ProposalBenchmark& benchmark);
 
+/// One box as a line of JSON: time, id and class of the true object, box, and of the first proposal, when
+/// there is one, source, score and errors.
+std::string toJsonLine(const ProposalCase& c);
+
 }  // namespace roomgraph
