@@ -209,7 +209,8 @@ void addRunCommand(CLI::App& app) {
                       "recorded one; may be repeated");
   command->add_option(
       "--map", options->map,
-      "map.rgmap of an earlier run: results are in its frame once its objects are recognised");
+      "map.rgmap of an earlier run, which this one continues once objects, scans or images tell where in it the "
+      "robot is; OUT/map.rgmap then holds both, in the frame of the earlier one");
   command->add_option(
       "--models", options->networks.models,
       "model folder, whose networks run when none is named and the recording has no boxes (default: "
