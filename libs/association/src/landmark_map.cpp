@@ -295,7 +295,8 @@ void LandmarkMap::rename(LandmarkId own, LandmarkId earlier) {
   records_.insert(std::move(record));
   SeenTogether renamed;
   for (const auto& [pair, count] : together_) {
-    const LandmarkId a = pair.first == own ? earlier : pair.first, b = pair.second == own ? earlier : pair.second;
+    const LandmarkId a = pair.first == own ? earlier : pair.first,
+                     b = pair.second == own ? earlier : pair.second;
     renamed[{std::min(a, b), std::max(a, b)}] += count;
   }
   together_ = std::move(renamed);

@@ -364,8 +364,8 @@ PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::v
   std::vector<Eigen::Vector2d> ground;
   for (const auto& p : footprintPoints(landmark.shape))
     ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
-  std::tie(look.beams_known, look.beams_filled) = knownAndFilled(
-      views.byScans(ground, bottom - kFloorSlack_m, bottom + solid * landmark.shape.height));
+  std::tie(look.beams_known, look.beams_filled) =
+      knownAndFilled(views.byScans(ground, bottom - kFloorSlack_m, bottom + solid * landmark.shape.height));
   return look;
 }
 

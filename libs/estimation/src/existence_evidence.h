@@ -17,8 +17,8 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
                                                  const KeyPoses& poses, const PosedViews& views,
                                                  const ObjectDatabase& database);
 
-/// What images and scans saw of the place of a landmark of an earlier map. `searched`: times of the images that a
-/// detector saw, `sighted`: of those with the landmark in them, both in order.
+/// What images and scans saw of the place of a landmark of an earlier map. `searched`: times of the images
+/// that a detector saw, `sighted`: of those with the landmark in them, both in order.
 PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::vector<double>& searched,
                  const std::vector<double>& sighted, const ObjectDatabase& database);
 

@@ -14,13 +14,14 @@ namespace roomgraph {
 namespace {
 
 constexpr double kOneThing = 0.5;  // overlap in space from which two classes are two labels of one thing
-// Of a place that was seen: log ratio when nothing fills it, and when enough does. Of true landmarks about a third is
-// filled, as shapes are boxes around things (existence.h: filled).
+// Of a place that was seen: log ratio when nothing fills it, and when enough does. Of true landmarks about a
+// third is filled, as shapes are boxes around things (existence.h: filled).
 constexpr double kEmpty = -3, kFull = 2;
 constexpr double kFilledEnough = 0.15;
-constexpr double kMissed = -0.75;  // log((1 - 0.6) / (1 - 0.15)): [landmarks] detection_probability, false_alarm_...
-constexpr int kMostMissed = 5;     // a detector that overlooks a thing once does so again
-constexpr double kSurest = 0.99;   // things are moved between two sessions
+constexpr double kMissed =
+    -0.75;  // log((1 - 0.6) / (1 - 0.15)): [landmarks] detection_probability, false_alarm_...
+constexpr int kMostMissed = 5;    // a detector that overlooks a thing once does so again
+constexpr double kSurest = 0.99;  // things are moved between two sessions
 
 double ofRays(double known, double filled) {
   const double share = std::min(1.0, filled / kFilledEnough);
@@ -32,8 +33,8 @@ double probabilityOf(double log_odds) {
 }
 
 const WeighedLandmark* findIn(const std::vector<WeighedLandmark>& all, LandmarkId id) {
-  const auto found =
-      std::find_if(all.begin(), all.end(), [id](const WeighedLandmark& one) { return one.landmark.id == id; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [id](const WeighedLandmark& one) { return one.landmark.id == id; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -89,8 +90,7 @@ std::map<LandmarkId, LandmarkId> sameLandmarks(const std::vector<Landmark>& own,
                             ? rule.same(landmark, old, 0)
                             : iou3d(landmark.shape, landmark.worldFromObject(), old.shape,
                                     old.worldFromObject()) > kOneThing;
-      if (same)
-        pairs.emplace_back((landmark.position - old.position).head<2>().norm(), landmark.id, old.id);
+      if (same) pairs.emplace_back((landmark.position - old.position).head<2>().norm(), landmark.id, old.id);
     }
   std::sort(pairs.begin(), pairs.end());
   std::map<LandmarkId, LandmarkId> out;
@@ -117,8 +117,7 @@ ContinuedLandmarks continuedLandmarks(const std::vector<WeighedLandmark>& earlie
     // Few sightings of what is known to be there do not speak against it.
     const double said = now ? std::max(look, now->landmark.existence) : look;
     const bool untouched = !now && logRatioOf(looks[i]) == 0;
-    kept.landmark.existence =
-        untouched ? earlier[i].landmark.existence : combinedExistence(before, said);
+    kept.landmark.existence = untouched ? earlier[i].landmark.existence : combinedExistence(before, said);
     const bool replaced = !now && std::any_of(fresh.begin(), fresh.end(), [&](const WeighedLandmark& other) {
       return overlap(kept.landmark, other.landmark, rule.exclusive_overlap);
     });
@@ -130,9 +129,10 @@ ContinuedLandmarks continuedLandmarks(const std::vector<WeighedLandmark>& earlie
     out.landmarks.push_back(std::move(kept));
   }
   for (const WeighedLandmark& one : fresh) {
-    const bool free = std::none_of(out.landmarks.begin(), out.landmarks.end(), [&](const WeighedLandmark& kept) {
-      return overlap(kept.landmark, one.landmark, rule.exclusive_overlap);
-    });
+    const bool free =
+        std::none_of(out.landmarks.begin(), out.landmarks.end(), [&](const WeighedLandmark& kept) {
+          return overlap(kept.landmark, one.landmark, rule.exclusive_overlap);
+        });
     if (!free) continue;
     ++out.appeared;
     out.landmarks.push_back(one);

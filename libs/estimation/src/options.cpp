@@ -203,8 +203,9 @@ void declareAgreement(RelocalisationOptions& o, ParameterVisitor& v) {
          .unit = "m",
          .min = 0.01,
          .max = 5});
-  v.add("tolerance_rad", o.tolerance_rad,
-        {.doc = "Two sightings of the place agree within this angle.", .unit = "rad", .min = 0.005, .max = 1});
+  v.add(
+      "tolerance_rad", o.tolerance_rad,
+      {.doc = "Two sightings of the place agree within this angle.", .unit = "rad", .min = 0.005, .max = 1});
   v.add("recent_s", o.recent_s,
         {.doc = "Sightings older than this are forgotten.", .unit = "s", .min = 1, .max = 1000});
   v.add("agreeing", o.agreeing,

@@ -64,8 +64,8 @@ std::optional<ConfirmedPlace> PlaceConsensus::confirmed(const KeyPoses& poses) c
   const int others = static_cast<int>(sightings_.size()) - out.sightings;
   if (others > options_.rival_share * out.sightings) return std::nullopt;
   if (out.sources.size() > 1 && out.sightings >= options_.agreeing) return out;
-  const bool on_a_way = latest.t - first_t >= options_.alone_s &&
-                        wayBetween(poses, first_t, latest.t) >= options_.alone_m;
+  const bool on_a_way =
+      latest.t - first_t >= options_.alone_s && wayBetween(poses, first_t, latest.t) >= options_.alone_m;
   if (out.sightings >= options_.agreeing_alone && on_a_way) return out;
   return std::nullopt;
 }

@@ -15,7 +15,9 @@ void ViewMemory::add(const Frame& frame, const std::vector<Box2>& people, const 
   const Pose3 world_from_camera = world_from_robot * frame.robot_from_camera;
   if (!views_.empty()) {
     const Pose3 moved = last_from_.inverse() * world_from_camera;
-    if (moved.translation().norm() / options_.view_distance_m + rotationAngle(moved) / options_.view_angle_rad < kShare)
+    if (moved.translation().norm() / options_.view_distance_m +
+            rotationAngle(moved) / options_.view_angle_rad <
+        kShare)
       return;
   }
   KeyView view = makeKeyView(frame, people, options_.view_corners);

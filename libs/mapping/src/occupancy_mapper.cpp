@@ -49,7 +49,8 @@ mrpt::maps::COccupancyGridMap2D::Ptr emptyGrid(const Eigen::AlignedBox2d& area, 
 }
 
 /// The area, and that of the grid, in whole cells of the grid.
-Eigen::AlignedBox2d onLatticeOf(const mrpt::maps::COccupancyGridMap2D& grid, const Eigen::AlignedBox2d& area) {
+Eigen::AlignedBox2d onLatticeOf(const mrpt::maps::COccupancyGridMap2D& grid,
+                                const Eigen::AlignedBox2d& area) {
   const double cell = static_cast<double>(grid.getResolution());
   const Eigen::Vector2d low(static_cast<double>(grid.getXMin()), static_cast<double>(grid.getYMin()));
   const Eigen::Vector2d high(static_cast<double>(grid.getXMax()), static_cast<double>(grid.getYMax()));
@@ -120,8 +121,7 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(
     area.extend(fan.origin);
     for (const auto& ray : fan.rays) area.extend(ray.end);
   }
-  if (area.isEmpty())
-    return earlier ? mrpt::maps::COccupancyGridMap2D::Create(*earlier) : nullptr;
+  if (area.isEmpty()) return earlier ? mrpt::maps::COccupancyGridMap2D::Create(*earlier) : nullptr;
   area.min().array() -= kMargin_m;
   area.max().array() += kMargin_m;
   auto grid = earlier ? grown(*earlier, area) : emptyGrid(area, options_.resolution_m);

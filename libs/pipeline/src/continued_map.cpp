@@ -60,9 +60,10 @@ void continueMap(const MapAnchor& anchor, const RunForContinuation& run, SlamRes
     candidates.push_back({landmark, run.objects.landmarks().weightOf(landmark.id)});
   std::vector<LandmarkId> own;
   for (const Landmark& landmark : result.map.landmarks) own.push_back(landmark.id);
-  const ContinuationRule rule{run.options.existence.least_probability, run.options.landmarks.exclusive_overlap};
-  const ContinuedLandmarks both =
-      continuedLandmarks(weighed(before), run.objects.looksAt(before.landmarks, run.database), candidates, own, rule);
+  const ContinuationRule rule{run.options.existence.least_probability,
+                              run.options.landmarks.exclusive_overlap};
+  const ContinuedLandmarks both = continuedLandmarks(
+      weighed(before), run.objects.looksAt(before.landmarks, run.database), candidates, own, rule);
   result.map.landmarks.clear();
   result.map.weights.clear();
   for (const auto& [landmark, weight] : both.landmarks) {

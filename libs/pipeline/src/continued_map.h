@@ -19,8 +19,8 @@ std::string missingIn(const CSemanticMap& map);
 /// Whether the run is in the earlier map's frame, when it knew, and by what.
 EarlierMap earlierMapOf(const MapAnchor& anchor, double first_t);
 
-/// Landmarks, spans and history of the result's map, which is in the earlier one's frame, become those of both. Grid
-/// and views are not touched.
+/// Landmarks, spans and history of the result's map, which is in the earlier one's frame, become those of
+/// both. Grid and views are not touched.
 void continueMap(const MapAnchor& anchor, const RunForContinuation& run, SlamResult& result);
 
 }  // namespace roomgraph

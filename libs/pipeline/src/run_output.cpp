@@ -153,10 +153,8 @@ CSemanticMap withProvenance(const SlamResult& result, const Setup& setup, const 
   CSemanticMap map = result.map;
   for (const auto& landmark : map.landmarks)
     if (const auto span = result.seen.find(landmark.id); span != result.seen.end()) map.seen.insert(*span);
-  map.provenance = {"roomgraph " + origin.version + " (" + origin.revision + ")",
-                    setup.effective_config,
-                    setup.objects,
-                    result.map.provenance.history};
+  map.provenance = {"roomgraph " + origin.version + " (" + origin.revision + ")", setup.effective_config,
+                    setup.objects, result.map.provenance.history};
   const bool continued = result.earlier && result.earlier->recognised;
   map.provenance.history.push_back((continued ? "continued by a run of " : "run of ") + map.origin);
   return map;

@@ -292,8 +292,8 @@ void SemanticSlam::setMap(CSemanticMap map) {
   map_.emplace(std::move(map), setup_->options.relocalisation, setup_->options.object_loops.constellation);
 }
 
-// Looks for the run's place in the map given to it, and moves the world there when it is known; from then on ties
-// it to the map.
+// Looks for the run's place in the map given to it, and moves the world there when it is known; from then on
+// ties it to the map.
 void SemanticSlam::anchor() {
   if (!map_ || estimator_.poses().empty()) return;
   const auto timing = times_.measure("earlier map");

@@ -110,7 +110,8 @@ ViewLocator::ViewLocator(std::vector<KeyView> views) : views_(std::make_unique<V
     Views::View out{view.world_from_camera, {}, {}};
     for (const KeyCorner& corner : view.corners) {
       out.descriptors.push_back(corner.descriptor);
-      out.points.push_back(Eigen::Vector3d(corner.place_mm[0], corner.place_mm[1], corner.place_mm[2]) / 1000);
+      out.points.push_back(Eigen::Vector3d(corner.place_mm[0], corner.place_mm[1], corner.place_mm[2]) /
+                           1000);
     }
     views_->all.push_back(std::move(out));
   }
@@ -135,11 +136,13 @@ std::optional<ViewMatch> ViewLocator::locate(const Frame& frame, const std::vect
   if (promising.size() > kTried) promising.resize(kTried);
   std::vector<ViewMatch> found;
   for (const auto& [pairs, index] : promising)
-    if (const ViewMatch match = views_->match(index, pairs, features, frame.camera); match.inliers >= kLeastInliers)
+    if (const ViewMatch match = views_->match(index, pairs, features, frame.camera);
+        match.inliers >= kLeastInliers)
       found.push_back(match);
   if (found.empty()) return std::nullopt;
-  const ViewMatch best = *std::max_element(
-      found.begin(), found.end(), [](const ViewMatch& a, const ViewMatch& b) { return a.inliers < b.inliers; });
+  const ViewMatch best =
+      *std::max_element(found.begin(), found.end(),
+                        [](const ViewMatch& a, const ViewMatch& b) { return a.inliers < b.inliers; });
   for (const ViewMatch& other : found)
     if (isOther(other, best) && 2 * other.inliers > best.inliers) return std::nullopt;
   return best;

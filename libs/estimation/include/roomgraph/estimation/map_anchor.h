@@ -23,12 +23,13 @@ struct Anchoring {
   std::vector<PlaceSource> sources;  ///< that agreed on it
 };
 
-/// An earlier map in whose frame the run is to be (method.md sec. 4.9). Objects, scans and images each say where in
-/// it the robot is; what enough of them agree on is believed, and afterwards scans and images hold the run in
-/// the map.
+/// An earlier map in whose frame the run is to be (method.md sec. 4.9). Objects, scans and images each say
+/// where in it the robot is; what enough of them agree on is believed, and afterwards scans and images hold
+/// the run in the map.
 class MapAnchor {
  public:
-  MapAnchor(CSemanticMap map, const RelocalisationOptions& options, const ConstellationOptions& constellation);
+  MapAnchor(CSemanticMap map, const RelocalisationOptions& options,
+            const ConstellationOptions& constellation);
 
   const CSemanticMap& map() const { return map_; }
   /// Set once the place in the map is known; the world is now the map's frame.
@@ -38,12 +39,12 @@ class MapAnchor {
   void add(const Scan& scan, const KeyPoses& poses);
   void add(const Frame& frame, const std::vector<Box2>& people, const KeyPoses& poses);
 
-  /// map_from_world at the moment at which it is known, once; the caller moves its world there. `planar`: the robot
-  /// drives on the floor, so that only x, y and yaw are unknown. There must be a key pose.
+  /// map_from_world at the moment at which it is known, once; the caller moves its world there. `planar`: the
+  /// robot drives on the floor, so that only x, y and yaw are unknown. There must be a key pose.
   std::optional<Pose3> recognise(const std::vector<Landmark>& seen, const KeyPoses& poses, bool planar);
 
-  /// Where in the map the robot is by the latest scan, or image where there are no scans, once for each stretch of
-  /// way; nothing when it does not fit the map where the robot is.
+  /// Where in the map the robot is by the latest scan, or image where there are no scans, once for each
+  /// stretch of way; nothing when it does not fit the map where the robot is.
   std::optional<MapFix> fix(const KeyPoses& poses);
 
  private:

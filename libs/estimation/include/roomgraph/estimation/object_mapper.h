@@ -64,7 +64,8 @@ class ObjectMapper {
   /// Ids of an earlier map, up to this one, are left free.
   void reserveIds(LandmarkId last) { landmarks_.reserveIds(last); }
   /// What the run saw of the places of these landmarks, in order.
-  std::vector<PlaceLook> looksAt(const std::vector<Landmark>& landmarks, const ObjectDatabase& database) const;
+  std::vector<PlaceLook> looksAt(const std::vector<Landmark>& landmarks,
+                                 const ObjectDatabase& database) const;
 
   /// Moves the landmarks that were first seen then or later.
   void move(const PathShift& shift);

@@ -29,8 +29,8 @@ struct ConfirmedPlace {
   int sightings = 0;
 };
 
-/// Holds sightings back until enough of them agree (method.md sec. 4.9). One alone may be wrong, however well it
-/// looks: rooms look alike.
+/// Holds sightings back until enough of them agree (method.md sec. 4.9). One alone may be wrong, however well
+/// it looks: rooms look alike.
 class PlaceConsensus {
  public:
   explicit PlaceConsensus(const RelocalisationOptions& options) : options_(options) {}

@@ -15,8 +15,8 @@ namespace roomgraph {
 struct GridFit {
   Pose2 grid_from_points;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in the grid's frame
-  double explained = 0;     ///< share of the points on walls
-  double contradicted = 0;  ///< share of the points in free space
+  double explained = 0;                                      ///< share of the points on walls
+  double contradicted = 0;                                   ///< share of the points in free space
 };
 
 /// A pose found by the search.

@@ -35,7 +35,7 @@ class CSemanticMap : public mrpt::serialization::CSerializable {
   std::string origin;  ///< the recording it was made from
   SeenSpans seen;      ///< of the landmarks for which it is known
   MapProvenance provenance;
-  std::vector<KeyView> views;             ///< for re-localisation by images, in order of time
+  std::vector<KeyView> views;            ///< for re-localisation by images, in order of time
   std::map<LandmarkId, double> weights;  ///< sum of the weights of a landmark's sightings, where known
 };
 

@@ -19,7 +19,7 @@ struct KeyCorner {
 
 /// An image reduced to corners with depth, and the pose of its camera.
 struct KeyView {
-  double t = 0;                                   ///< s
+  double t = 0;                                 ///< s
   Pose3 world_from_camera = Pose3::Identity();  ///< optical frame
   std::vector<KeyCorner> corners;
 };

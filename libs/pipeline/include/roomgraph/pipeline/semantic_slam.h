@@ -129,11 +129,11 @@ class SemanticSlam {
   ObjectLoopCloser object_loops_;
   OccupancyMapper mapper_;                ///< scans and depth images, for the grid
   std::unique_ptr<PeopleInView> people_;  ///< in the last frame, for the scans after it
-  std::optional<MapAnchor> map_;  ///< an earlier map that is continued
-  ViewMemory views_;              ///< for whoever continues this one
+  std::optional<MapAnchor> map_;          ///< an earlier map that is continued
+  ViewMemory views_;                      ///< for whoever continues this one
   RunCounts counts_;
   double last_frame_t_, last_scan_t_;
-  std::optional<double> first_t_;  ///< of the first record
+  std::optional<double> first_t_;                        ///< of the first record
   std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };

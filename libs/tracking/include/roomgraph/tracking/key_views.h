@@ -12,14 +12,15 @@
 
 namespace roomgraph {
 
-/// ORB corners with depth of a frame, spread over the image, at most `most_corners`; none without depth. Image
-/// regions in `excluded` (px: people) are left out. The pose is left at identity.
+/// ORB corners with depth of a frame, spread over the image, at most `most_corners`; none without depth.
+/// Image regions in `excluded` (px: people) are left out. The pose is left at identity.
 KeyView makeKeyView(const Frame& frame, const std::vector<Box2>& excluded, int most_corners);
 
 /// Views of which no two look from nearly one place in nearly one direction; of two such the later one in the
 /// list is kept. "Nearly" starts at `apart_m` or `apart_rad` (their shares add up) and grows until at most
 /// `most` views are left. By time.
-std::vector<KeyView> thinnedViews(std::vector<KeyView> views, std::size_t most, double apart_m, double apart_rad);
+std::vector<KeyView> thinnedViews(std::vector<KeyView> views, std::size_t most, double apart_m,
+                                  double apart_rad);
 
 /// Where a camera is, as the corners of one view tell.
 struct ViewMatch {
@@ -36,8 +37,8 @@ class ViewLocator {
 
   bool empty() const;
   /// The pose of the camera by the view with the most inliers: descriptors of every view against those of the
-  /// frame, then PnP with RANSAC for the most promising ones. Nothing when fewer than 20 corners agree, or when
-  /// another view, with a clearly different pose, has more than half as many.
+  /// frame, then PnP with RANSAC for the most promising ones. Nothing when fewer than 20 corners agree, or
+  /// when another view, with a clearly different pose, has more than half as many.
   std::optional<ViewMatch> locate(const Frame& frame, const std::vector<Box2>& excluded) const;
 
  private:
