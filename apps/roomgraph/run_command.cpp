@@ -207,9 +207,10 @@ void addRunCommand(CLI::App& app) {
   command->add_option("--pose", options->poses,
                       "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
                       "recorded one; may be repeated");
-  command->add_option(
-      "--map", options->map,
-      "map.rgmap of an earlier run: results are in its frame once its objects are recognised");
+  command->add_option("--map", options->map,
+                      "map.rgmap of an earlier run, which this one continues once objects, scans or images "
+                      "tell where in it the "
+                      "robot is; OUT/map.rgmap then holds both, in the frame of the earlier one");
   command->add_option(
       "--models", options->networks.models,
       "model folder, whose networks run when none is named and the recording has no boxes (default: "

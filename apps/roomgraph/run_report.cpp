@@ -19,8 +19,14 @@ std::string format(const char* pattern, Values... values) {
 }
 
 std::string describeEarlier(const EarlierMap& earlier) {
-  if (!earlier.recognised) return "earlier map recognised: no; results are in the run's own frame\n";
-  return format("earlier map recognised: yes, %d objects in common\n", earlier.common);
+  if (!earlier.recognised)
+    return "relocalised in the earlier map: no; the map is not continued, and all results are in the run's "
+           "own frame" +
+           (earlier.missing.empty() ? "" : " (the earlier map lacks " + earlier.missing + ")") + "\n";
+  return format("relocalised in the earlier map: yes, after %.1f s, by %s; ", earlier.after_s,
+                earlier.by.c_str()) +
+         format("of its objects %d seen again, %d not seen, %d gone; %d new\n", earlier.common,
+                earlier.unseen, earlier.vanished, earlier.appeared);
 }
 
 }  // namespace

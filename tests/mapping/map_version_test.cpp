@@ -11,6 +11,7 @@
 #include <random>
 
 #include "errors_of.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
 #include "sample_map.h"
@@ -35,7 +36,8 @@ std::string archived(const Values&... values) {
 /// gzipped ones.
 std::string bytesOfVersion0(const CSemanticMap& map) {
   const std::string empty;
-  const std::string added = archived(std::uint32_t{0}, empty, empty, empty, std::vector<std::string>());
+  const std::string added = archived(std::uint32_t{0}, empty, empty, empty, std::vector<std::string>(),
+                                     std::uint32_t{0}, std::uint32_t{0});
   std::string bytes = archived(map);
   const char end_of_object = bytes.back();
   bytes.resize(bytes.size() - 1 - added.size());
@@ -56,6 +58,46 @@ TEST(MapVersions, Version0Loads) {
   EXPECT_TRUE(old.provenance.program.empty() && old.provenance.history.empty() && old.seen.empty());
   saveMap(old, folder.file("new.rgmap"));
   EXPECT_EQ(archived(loadMap(folder.file("new.rgmap"))), archived(map)) << "kept by the present version";
+}
+
+// Version 1 had neither views nor weights.
+TEST(MapVersions, Version1Loads) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  map.provenance.history = {"run of a"};
+  std::string bytes = archived(map);
+  const char end_of_object = bytes.back();
+  bytes.resize(bytes.size() - 1 - 2 * sizeof(std::uint32_t));
+  bytes[1 + std::string(map.GetRuntimeClass()->className).size()] = 1;
+  bytes += end_of_object;
+  bytes += "roomgraph map sha256 " + sha256Of(bytes);
+  const CSemanticMap old = loadMap(folder.write("old.rgmap", bytes));
+  EXPECT_EQ(old.landmarks.size(), 3u);
+  EXPECT_THAT(old.provenance.history, ::testing::ElementsAre("run of a"));
+  EXPECT_TRUE(old.views.empty() && old.weights.empty());
+}
+
+TEST(MapVersions, ViewsAndWeightsComeBack) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  KeyView view{1001, poseFromYpr(1, 2, 0.8, 0.3, 0.1, 0), {}};
+  view.corners.resize(2);
+  view.corners[1].descriptor[31] = 255;
+  view.corners[1].place_mm = {-1234, 32000, 5};
+  map.views = {view};
+  map.weights[map.landmarks[0].id] = 7.25;
+  saveMap(map, folder.file("map.rgmap"));
+  const CSemanticMap again = loadMap(folder.file("map.rgmap"));
+  ASSERT_EQ(again.views.size(), 1u);
+  EXPECT_EQ(again.views[0].t, 1001);
+  EXPECT_EQ(again.views[0].world_from_camera.matrix(), view.world_from_camera.matrix());
+  ASSERT_EQ(again.views[0].corners.size(), 2u);
+  EXPECT_EQ(again.views[0].corners[1].descriptor, view.corners[1].descriptor);
+  EXPECT_EQ(again.views[0].corners[1].place_mm, view.corners[1].place_mm);
+  EXPECT_EQ(again.weights, map.weights);
+  map.weights[map.landmarks[0].id] = -1;
+  saveMap(map, folder.file("map.rgmap"));
+  EXPECT_THAT(test::messageOf<InputError>([&] { loadMap(folder.file("map.rgmap")); }), HasSubstr("weight"));
 }
 
 TEST(MapVersions, ProvenanceAndSpansComeBack) {

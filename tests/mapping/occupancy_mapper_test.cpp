@@ -117,6 +117,43 @@ TEST(OccupancyMapper, MovesWithTheTrajectory) {
   EXPECT_LT(after->getPos(static_cast<float>(kEast + 10.01), -3.97f), 0.4f);
 }
 
+// Log odds are sums: two sessions one after the other are one session, cell by cell.
+TEST(OccupancyMapper, AnEarlierGridIsContinuedExactly) {
+  OccupancyMapper first, second, all;
+  Trajectory way;  // no wall on the border of two cells, where rounding decides
+  for (int i = 0; i <= 10; ++i) way.add(i, toPose3(Pose2{0.013, 0.017, 0}) * robotAt(i));
+  for (int i = 0; i < 8; ++i)
+    for (OccupancyMapper* mapper : {i < 4 ? &first : &second, &all}) mapper->add(scanAt(i, robotAt(i)));
+  const auto earlier = first.build(way);
+  const auto both = second.build(way, earlier.get());
+  const auto once = all.build(way);
+  int known = 0;
+  for (unsigned y = 0; y < once->getSizeY(); ++y)
+    for (unsigned x = 0; x < once->getSizeX(); ++x) {
+      const float at_x = once->idx2x(x), at_y = once->idx2y(y);
+      EXPECT_EQ(once->getPos(at_x, at_y), both->getPos(at_x, at_y)) << at_x << ' ' << at_y;
+      known += std::abs(once->getPos(at_x, at_y) - earlier->getPos(at_x, at_y)) > 0.05f;
+    }
+  EXPECT_GT(known, 1000) << "the second session tells more";
+  const OccupancyMapper nothing;
+  EXPECT_EQ(nothing.build({}, earlier.get())->getRawMap(), earlier->getRawMap());
+}
+
+TEST(OccupancyMapper, AnEarlierGridGrowsOnItsLattice) {
+  OccupancyMapper mapper;
+  mapper.add(scanAt(0, robotAt(0)));
+  auto small = mrpt::maps::COccupancyGridMap2D::Create(-0.3f, 0.3f, -0.3f, 0.3f, 0.1f);
+  small->fill(0.5f);
+  small->setPos(0.25f, -0.15f, 0.1f);
+  Trajectory elsewhere;
+  elsewhere.add(0, toPose3(Pose2{20, 20, 0}));
+  const auto grown = mapper.build(elsewhere, small.get());
+  EXPECT_FLOAT_EQ(grown->getResolution(), 0.1f);
+  EXPECT_EQ(grown->getPos(0.25f, -0.15f), small->getPos(0.25f, -0.15f));
+  EXPECT_FLOAT_EQ(grown->getXMin(), small->getXMin());
+  EXPECT_GT(grown->getXMax(), 20);
+}
+
 TEST(OccupancyMapper, WithoutScansOrPosesThereIsNoGrid) {
   OccupancyMapper mapper;
   EXPECT_FALSE(mapper.build(roomTrajectory()));

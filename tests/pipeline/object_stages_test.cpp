@@ -2,6 +2,8 @@
 // SemanticSlam with true object stages: mapping, levelling, loop closing and earlier maps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "drive.h"
 #include "fake_stages.h"
 #include "roomgraph/backend/g2o_file.h"
@@ -272,6 +274,7 @@ TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
   ASSERT_EQ(map.landmarks.size(), 6u);
   Landmark gone = map.landmarks.front();  // what is not seen again stays in the map
   gone.position = {9, 9, 0};
+  gone.id = LandmarkId{99};
   map.landmarks.push_back(gone);
 
   SemanticSlam second(setupWith(config));
@@ -292,13 +295,23 @@ TEST_F(ObjectStagesTest, ObjectsTellWhereInAnEarlierMapTheRunIs) {
   EXPECT_TRUE(result.earlier->recognised);
   EXPECT_GE(result.earlier->common, 3);
 
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto same = std::find_if(
+        result.map.landmarks.begin(), result.map.landmarks.end(),
+        [&](const Landmark& now) { return (now.position - map.landmarks[i].position).norm() < 0.2; });
+    ASSERT_NE(same, result.map.landmarks.end()) << i;
+    EXPECT_EQ(same->id, map.landmarks[i].id) << "an object keeps its id";
+  }
+
   // Objects that stand elsewhere are not recognised, and that is said.
   for (auto& landmark : map.landmarks) landmark.position *= 1.7;
+  map.occupancy.reset();
   SemanticSlam third(setupWith(config));
   third.setMap(map);
   const auto own = drive(third);
   ASSERT_TRUE(own.earlier);
   EXPECT_FALSE(own.earlier->recognised);
+  EXPECT_NE(own.earlier->missing.find("a grid for scans, views for images"), std::string::npos);
   EXPECT_LT((own.world_from_robot.front().pose.translation()).norm(), 0.05);
 }
 

@@ -285,6 +285,30 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   }
 }
 
+void LandmarkMap::rename(LandmarkId own, LandmarkId earlier) {
+  Landmark* landmark = get(own);
+  if (!landmark) return;
+  landmark->id = earlier;
+  identity_.merge(own, earlier);
+  auto record = records_.extract(own);
+  record.key() = earlier;
+  records_.insert(std::move(record));
+  SeenTogether renamed;
+  for (const auto& [pair, count] : together_) {
+    const LandmarkId a = pair.first == own ? earlier : pair.first,
+                     b = pair.second == own ? earlier : pair.second;
+    renamed[{std::min(a, b), std::max(a, b)}] += count;
+  }
+  together_ = std::move(renamed);
+  std::sort(landmarks_.begin(), landmarks_.end(),
+            [](const Landmark& a, const Landmark& b) { return a.id < b.id; });
+}
+
+double LandmarkMap::weightOf(LandmarkId id) const {
+  const auto found = records_.find(id);
+  return found == records_.end() ? 0 : found->second.evidence;
+}
+
 bool LandmarkMap::isConfirmed(const Landmark& landmark) const {
   return landmark.existence >= options_.confirm_existence &&
          landmark.observations >= options_.confirm_observations;

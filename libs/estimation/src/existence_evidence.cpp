@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/projection.h"
@@ -330,6 +331,42 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
     out.push_back(evidence);
   }
   return out;
+}
+
+namespace {
+
+bool within(const std::vector<double>& times, double t) {
+  const auto next = std::lower_bound(times.begin(), times.end(), t - kSameMoment_s);
+  return next != times.end() && *next <= t + kSameMoment_s;
+}
+
+// Shares: of the points, those about which something is known; of these, those that are filled.
+std::pair<double, double> knownAndFilled(const std::vector<RayCounts>& counts) {
+  const double filled = share(counts, mostlyFilled), known = filled + share(counts, mostlyCrossed);
+  return {known, known > 0 ? filled / known : 0};
+}
+
+}  // namespace
+
+PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::vector<double>& searched,
+                 const std::vector<double>& sighted, const ObjectDatabase& database) {
+  PlaceLook look;
+  for (const double t : views.timesInGoodView(landmark))
+    look.missed += within(searched, t) && !within(sighted, t);
+  // An open door is crossed, too; that it is gone, the wall around it shows.
+  if (landmark.shape.kind == ShapeKind::kPlanar) return look;
+  const Pose3 world_from_object = landmark.worldFromObject();
+  std::tie(look.known, look.filled) =
+      knownAndFilled(views.byImages(inWorld(insidePoints(landmark.shape), world_from_object)));
+  const ObjectModel* model = database.find(landmark.class_name);
+  const double solid = model ? model->solid_share : 0, bottom = landmark.position.z();
+  if (solid == 0) return look;
+  std::vector<Eigen::Vector2d> ground;
+  for (const auto& p : footprintPoints(landmark.shape))
+    ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
+  std::tie(look.beams_known, look.beams_filled) =
+      knownAndFilled(views.byScans(ground, bottom - kFloorSlack_m, bottom + solid * landmark.shape.height));
+  return look;
 }
 
 }  // namespace roomgraph

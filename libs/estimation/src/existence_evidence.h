@@ -3,6 +3,7 @@
 #pragma once
 
 #include "roomgraph/estimation/existence.h"
+#include "roomgraph/estimation/landmark_continuation.h"
 #include "roomgraph/estimation/object_decision.h"
 #include "roomgraph/observations/object_database.h"
 #include "space_memory.h"
@@ -15,5 +16,10 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
                                                  const std::vector<ObjectFrame>& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
                                                  const ObjectDatabase& database);
+
+/// What images and scans saw of the place of a landmark of an earlier map. `searched`: times of the images
+/// that a detector saw, `sighted`: of those with the landmark in them, both in order.
+PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::vector<double>& searched,
+                 const std::vector<double>& sighted, const ObjectDatabase& database);
 
 }  // namespace roomgraph

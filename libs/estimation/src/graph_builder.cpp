@@ -11,7 +11,8 @@
 namespace roomgraph {
 namespace {
 
-const NodeId kAnchor{1'000'000'000};
+const NodeId kAnchor{1'000'000'000}, kEarlierMap{1'000'000'001};
+constexpr double kFixRobustWidth = 2;  // Cauchy, in standard deviations: things were moved since
 
 // Steps of wheels add up their errors; so do those of images and scans when no local maps are wanted.
 void addSteps(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion, bool local_maps) {
@@ -112,10 +113,26 @@ bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
   return false;
 }
 
+namespace {
+
+// The frame of an earlier map is a fixed pose from which the robot is seen.
+void addFixes(FactorGraph& graph, const KeyPoses& poses, const std::vector<MapFix>& fixes) {
+  graph.addPose(kEarlierMap, Pose3::Identity(), true);
+  for (const MapFix& fix : fixes) {
+    const KeyPose& node = poses.nearest(fix.t);
+    graph.add(BetweenFactor{kEarlierMap, node.id, fix.world_from_robot * poses.offset(node, fix.t).inverse(),
+                            fix.covariance, kFixRobustWidth});
+  }
+}
+
+}  // namespace
+
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options) {
   FactorGraph graph;
-  addPoses(graph, poses, motion, measurements, options, 0, true);
+  const bool fixed = !measurements.fixes.empty();
+  addPoses(graph, poses, motion, measurements, options, 0, !fixed);
+  if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
     if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
   addObjects(graph, objects);

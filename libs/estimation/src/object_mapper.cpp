@@ -88,6 +88,7 @@ std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeas
 
 void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
                               const std::vector<Detection>& detections, const Frame& frame) {
+  searched_times_.push_back(frame.t);
   std::set<LandmarkId> seen;
   for (const auto& decision : decisions) seen.insert(decision.landmark);
   const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
@@ -96,6 +97,26 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
     if (!seen.contains(landmark.id) && shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks_.miss(id, frame.id);
+}
+
+void ObjectMapper::continueIds(const std::vector<Landmark>& earlier) {
+  const auto same = sameLandmarks(landmarks_.landmarks(), earlier, landmarks_.rules().duplicates);
+  for (const auto& [own, id] : same) landmarks_.rename(own, id);
+  if (!same.empty()) renameSightings();
+}
+
+std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landmarks,
+                                             const ObjectDatabase& database) const {
+  const PosedViews views = space_->posed(poses_);
+  std::vector<PlaceLook> out;
+  for (const Landmark& landmark : landmarks) {
+    std::vector<double> sighted;
+    for (const auto& frame : frames_)
+      for (const auto& decision : frame.decisions)
+        if (decision.landmark == landmark.id) sighted.push_back(frame.t);
+    out.push_back(lookAt(landmark, views, searched_times_, sighted, database));
+  }
+  return out;
 }
 
 void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot) {
@@ -136,7 +157,11 @@ void ObjectMapper::tidy() {
   const auto split = landmarks_.splitMixed();
   for (const auto& [first, second] : split) shareSightings(first, second);
   const auto merged = landmarks_.mergeDuplicates();
-  if (merged.empty() && split.empty()) return;
+  if (!merged.empty() || !split.empty()) renameSightings();
+}
+
+// After merges and splits.
+void ObjectMapper::renameSightings() {
   const LandmarkIdentity& identity = landmarks_.identity();
   for (auto& frame : frames_)
     for (auto& decision : frame.decisions)

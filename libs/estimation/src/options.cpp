@@ -181,4 +181,72 @@ void ObjectLoopOptions::declareParameters(ParameterVisitor& v) {
          .max = 100});
 }
 
+namespace {
+
+void declareViews(RelocalisationOptions& o, ParameterVisitor& v) {
+  v.add("views", o.views,
+        {.doc = "Images that a map keeps at most, to be re-localised by; 0: none.", .min = 0, .max = 10000});
+  v.add("view_corners", o.view_corners,
+        {.doc = "Corners of an image that a map keeps at most, 38 bytes each.", .min = 20, .max = 5000});
+  v.add("view_distance_m", o.view_distance_m,
+        {.doc = "Images of a map are at least so far apart, or turned by view_angle_rad.",
+         .unit = "m",
+         .min = 0.05,
+         .max = 100});
+  v.add("view_angle_rad", o.view_angle_rad,
+        {.doc = "See view_distance_m.", .unit = "rad", .min = 0.05, .max = 7});
+}
+
+void declareAgreement(RelocalisationOptions& o, ParameterVisitor& v) {
+  v.add("tolerance_m", o.tolerance_m,
+        {.doc = "Two sightings of the place in an earlier map agree within this distance.",
+         .unit = "m",
+         .min = 0.01,
+         .max = 5});
+  v.add(
+      "tolerance_rad", o.tolerance_rad,
+      {.doc = "Two sightings of the place agree within this angle.", .unit = "rad", .min = 0.005, .max = 1});
+  v.add("recent_s", o.recent_s,
+        {.doc = "Sightings older than this are forgotten.", .unit = "s", .min = 1, .max = 1000});
+  v.add("agreeing", o.agreeing,
+        {.doc = "Sightings that must agree, of at least two sources (objects, scans, images).",
+         .min = 2,
+         .max = 1000});
+  v.add("agreeing_alone", o.agreeing_alone,
+        {.doc = "Sightings that must agree when they are all of one source.", .min = 2, .max = 1000});
+  v.add("alone_s", o.alone_s,
+        {.doc = "Time that sightings of one source must span.", .unit = "s", .min = 0, .max = 1000});
+  v.add("alone_m", o.alone_m,
+        {.doc = "Way that sightings of one source must span; a radian turned counts as 0.5 m.",
+         .unit = "m",
+         .min = 0,
+         .max = 1000});
+  v.add("rival_share", o.rival_share,
+        {.doc = "Sightings of other places, against those that agree, up to which these are believed.",
+         .min = 0,
+         .max = 1});
+}
+
+}  // namespace
+
+void RelocalisationOptions::declareParameters(ParameterVisitor& v) {
+  declareViews(*this, v);
+  v.add("min_explained", min_explained,
+        {.doc = "Share of the returns of the last scans that must lie on walls of the earlier map.",
+         .min = 0,
+         .max = 1});
+  v.add("max_contradicted", max_contradicted,
+        {.doc = "Largest share of these returns that may lie in its free space.", .min = 0, .max = 1});
+  v.add("ambiguity_ratio", ambiguity_ratio,
+        {.doc = "Scans tell no place when a second one reaches this share of the best score.",
+         .min = 0,
+         .max = 1});
+  declareAgreement(*this, v);
+  v.add("fix_distance_m", fix_distance_m,
+        {.doc = "Way between two key poses that are tied to the earlier map.",
+         .unit = "m",
+         .min = 0.01,
+         .max = 100});
+}
+
 }  // namespace roomgraph

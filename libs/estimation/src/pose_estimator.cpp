@@ -81,6 +81,7 @@ Pose3 PoseEstimator::level(const Plane& floor_in_world) {
   const Pose2 kept = planarPart(first), turned = planarPart(ground_from_world * first);
   Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
   measurements_.grounds.clear();  // of a floor that was none
+  for (MapFix& fix : measurements_.fixes) fix.world_from_robot = level_from_world * fix.world_from_robot;
   transform(level_from_world);
   levelled_ = true;
   return level_from_world;

@@ -56,6 +56,12 @@ GridLocator::GridLocator(const mrpt::maps::COccupancyGridMap2D& grid) {
 GridLocator::~GridLocator() = default;
 
 std::vector<Pose2> GridLocator::search(const std::vector<Eigen::Vector2d>& points) const {
+  std::vector<Pose2> out;
+  for (const GridPlace& place : places(points)) out.push_back(place.grid_from_points);
+  return out;
+}
+
+std::vector<GridPlace> GridLocator::places(const std::vector<Eigen::Vector2d>& points) const {
   if (points.empty()) return {};
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& p : points) middle += p / static_cast<double>(points.size());
@@ -68,13 +74,13 @@ std::vector<Pose2> GridLocator::search(const std::vector<Eigen::Vector2d>& point
   const SearchWindow window{size.maxCoeff() / 2, std::numbers::pi, 0, 0, kMinScore};
   const Pose2 start{centre.x(), centre.y(), 0};
   const Pose2 centred_from_points{-middle.x(), -middle.y(), 0};
-  std::vector<Pose2> out;
+  std::vector<GridPlace> out;
   const auto best = correlativeSearch(grids_->pyramid, centred, start, window);
   if (!best) return out;
-  out.push_back(best->grid_from_scan * centred_from_points);
+  out.push_back({best->grid_from_scan * centred_from_points, best->score});
   const ExcludedPose around{best->grid_from_scan, kOtherPlace_m, kOtherTurn_rad};
   if (const auto other = correlativeSearch(grids_->pyramid, centred, start, window, around))
-    out.push_back(other->grid_from_scan * centred_from_points);
+    out.push_back({other->grid_from_scan * centred_from_points, other->score});
   return out;
 }
 
@@ -82,7 +88,8 @@ GridFit GridLocator::refine(const std::vector<Eigen::Vector2d>& points, const Po
   const auto fit = refineOnGrid(grids_->fine, points, start, {start, kStartWeight, kStartWeight}, 40);
   // Neighbouring points lie on the same surface: their errors are alike.
   return {fit.grid_from_scan,
-          poseCovariance(fit, {.inflation = 3, .floor_sigma_m = 0.01, .floor_sigma_rad = 0.002})};
+          poseCovariance(fit, {.inflation = 3, .floor_sigma_m = 0.01, .floor_sigma_rad = 0.002}),
+          fit.explained, fit.contradicted};
 }
 
 }  // namespace roomgraph

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLargestSize_m = 1000;
 constexpr double kRounding = 1e-6;
+constexpr double kMostWeight = 1e9;
 
 std::string problemOf(const mrpt::maps::COccupancyGridMap2D& grid) {
   const auto cells = std::uint64_t{grid.getSizeX()} * grid.getSizeY();
@@ -60,6 +61,11 @@ std::string problemOf(const CSemanticMap& map) {
   for (const auto& [id, span] : map.seen)
     if (!std::isfinite(span.first) || !std::isfinite(span.last) || span.last < span.first)
       return "landmark " + std::to_string(id.value) + ": last seen before it was first seen";
+  for (const auto& view : map.views)
+    if (!isPose({view.t, view.world_from_camera})) return "the pose of a view is none";
+  for (const auto& [id, weight] : map.weights)
+    if (!(weight >= 0 && weight < kMostWeight))
+      return "landmark " + std::to_string(id.value) + ": the weight of its sightings is not in [0, 1e9)";
   return "";
 }
 

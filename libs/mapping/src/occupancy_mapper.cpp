@@ -3,6 +3,7 @@
 #include "roomgraph/mapping/occupancy_mapper.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -47,6 +48,31 @@ mrpt::maps::COccupancyGridMap2D::Ptr emptyGrid(const Eigen::AlignedBox2d& area, 
   return grid;
 }
 
+/// The area, and that of the grid, in whole cells of the grid.
+Eigen::AlignedBox2d onLatticeOf(const mrpt::maps::COccupancyGridMap2D& grid,
+                                const Eigen::AlignedBox2d& area) {
+  const double cell = static_cast<double>(grid.getResolution());
+  const Eigen::Vector2d low(static_cast<double>(grid.getXMin()), static_cast<double>(grid.getYMin()));
+  const Eigen::Vector2d high(static_cast<double>(grid.getXMax()), static_cast<double>(grid.getYMax()));
+  const Eigen::Array2d before = ((low - area.min()).array() / cell).ceil().max(0.0);
+  const Eigen::Array2d after = ((area.max() - high).array() / cell).ceil().max(0.0);
+  return {(low.array() - cell * before).matrix(), (high.array() + cell * after).matrix()};
+}
+
+/// A larger grid on the lattice of this one, with its cells.
+mrpt::maps::COccupancyGridMap2D::Ptr grown(const mrpt::maps::COccupancyGridMap2D& grid,
+                                           const Eigen::AlignedBox2d& area) {
+  const double cell = static_cast<double>(grid.getResolution());
+  auto out = emptyGrid(onLatticeOf(grid, area), cell);
+  const auto offset = [cell](float from, float to) {
+    return std::lround((static_cast<double>(to) - static_cast<double>(from)) / cell);
+  };
+  const auto x0 = offset(out->getXMin(), grid.getXMin()), y0 = offset(out->getYMin(), grid.getYMin());
+  for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
+    std::copy_n(grid.getRow(y), grid.getSizeX(), out->getRow(y + static_cast<int>(y0)) + x0);
+  return out;
+}
+
 }  // namespace
 
 struct OccupancyMapper::PosedFan {
@@ -82,7 +108,8 @@ void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory
   }
 }
 
-mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(const Trajectory& world_from_robot) const {
+mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(
+    const Trajectory& world_from_robot, const mrpt::maps::COccupancyGridMap2D* earlier) const {
   const std::string& source = options_.source;
   const bool use_scans = source == "lidar" || source == "both" || (source == "auto" && !scans_.empty());
   const bool use_depth = source == "depth" || source == "both" || (source == "auto" && scans_.empty());
@@ -94,10 +121,10 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(const Trajectory& wo
     area.extend(fan.origin);
     for (const auto& ray : fan.rays) area.extend(ray.end);
   }
-  if (area.isEmpty()) return nullptr;
+  if (area.isEmpty()) return earlier ? mrpt::maps::COccupancyGridMap2D::Create(*earlier) : nullptr;
   area.min().array() -= kMargin_m;
   area.max().array() += kMargin_m;
-  auto grid = emptyGrid(area, options_.resolution_m);
+  auto grid = earlier ? grown(*earlier, area) : emptyGrid(area, options_.resolution_m);
   RayGrid rays(*grid, options_.hit_probability, options_.pass_probability);
   for (const auto& fan : posed) rays.insert(fan.origin, fan.rays);
   return grid;

@@ -2,9 +2,8 @@
 // Log odds of two grids, fused objects, trajectories in order of time.
 #include "roomgraph/maptools/map_union.h"
 
-#include <numbers>
-
 #include "region.h"
+#include "roomgraph/association/landmark_union.h"
 
 namespace roomgraph {
 namespace {
@@ -51,29 +50,14 @@ COccupancyGridMap2D::Ptr unitedGrids(const COccupancyGridMap2D::Ptr& a, const CO
   return out;
 }
 
-// Of two estimates of one object, weighed by their information (place, yaw) or sightings (size, class).
-Landmark fused(const Landmark& a, Landmark b) {
-  Landmark out = a;
-  if (std::abs(wrapAngle(b.yaw - a.yaw)) > std::numbers::pi / 2) b.yaw = wrapAngle(b.yaw + std::numbers::pi);
-  const Eigen::Matrix4d total = a.covariance + b.covariance;
-  const Eigen::Matrix4d gain = total.ldlt().solve(a.covariance).transpose();
-  Eigen::Vector4d step;
-  step << b.position - a.position, wrapAngle(b.yaw - a.yaw);
-  const Eigen::Vector4d change = gain * step;
-  out.position += change.head<3>();
-  if (a.has_yaw && b.has_yaw) out.yaw = wrapAngle(a.yaw + change[3]);
-  if (!a.has_yaw && b.has_yaw) out.yaw = b.yaw, out.has_yaw = true;
-  out.covariance = a.covariance - gain * a.covariance;
-  out.covariance = (out.covariance + out.covariance.transpose()).eval() / 2;
+// Of two estimates of one object; the class by their sightings.
+Landmark fused(const Landmark& a, const Landmark& b) {
+  Landmark out = fusedEstimates(a, b);
   const double seen_a = std::max(1, a.observations), seen_b = std::max(1, b.observations),
                weight = seen_b / (seen_a + seen_b);
-  out.shape.width += weight * (b.shape.width - a.shape.width);
-  out.shape.depth += weight * (b.shape.depth - a.shape.depth);
-  out.shape.height += weight * (b.shape.height - a.shape.height);
   for (auto& [name, probability] : out.class_posterior) probability *= 1 - weight;
   for (const auto& [name, probability] : b.class_posterior) out.class_posterior[name] += weight * probability;
   out.existence = std::min(kSurest, 1 - (1 - a.existence) * (1 - b.existence));
-  out.observations = a.observations + b.observations;
   return out;
 }
 

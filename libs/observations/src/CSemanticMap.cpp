@@ -64,12 +64,49 @@ SeenSpans readSeen(CArchive& in) {
   return seen;
 }
 
+void writeView(CArchive& out, const KeyView& view) {
+  out << view.t;
+  writePose(out, view.world_from_camera);
+  out.WriteAs<std::uint32_t>(view.corners.size());
+  for (const KeyCorner& corner : view.corners) {
+    out.WriteBuffer(corner.descriptor.data(), corner.descriptor.size());
+    for (const std::int16_t along : corner.place_mm) out << along;
+  }
+}
+
+KeyView readView(CArchive& in) {
+  KeyView view;
+  in >> view.t;
+  view.world_from_camera = readPose(in);
+  view.corners.resize(in.ReadAs<std::uint32_t>());
+  for (KeyCorner& corner : view.corners) {
+    in.ReadBuffer(corner.descriptor.data(), corner.descriptor.size());
+    for (std::int16_t& along : corner.place_mm) in >> along;
+  }
+  return view;
+}
+
+void writeWeights(CArchive& out, const std::map<LandmarkId, double>& weights) {
+  out.WriteAs<std::uint32_t>(weights.size());
+  for (const auto& [id, weight] : weights) out << id.value << weight;
+}
+
+std::map<LandmarkId, double> readWeights(CArchive& in) {
+  std::map<LandmarkId, double> weights;
+  for (auto count = in.ReadAs<std::uint32_t>(); count > 0; --count) {
+    LandmarkId id;
+    in >> id.value;
+    in >> weights[id];
+  }
+  return weights;
+}
+
 }  // namespace
 
 IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::serialization::CSerializable, roomgraph)
 
 std::uint8_t CSemanticMap::serializeGetVersion() const {
-  return 1;
+  return 2;
 }
 
 void CSemanticMap::serializeTo(CArchive& out) const {
@@ -84,10 +121,13 @@ void CSemanticMap::serializeTo(CArchive& out) const {
   }
   writeSeen(out, seen);
   out << provenance.program << provenance.config << provenance.objects << provenance.history;
+  out.WriteAs<std::uint32_t>(views.size());
+  for (const auto& view : views) writeView(out, view);
+  writeWeights(out, weights);
 }
 
 void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
-  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 2) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> origin;
   planar = in.ReadAs<std::uint8_t>() != 0;  // as bytes: in a damaged file they may be neither 0 nor 1
   const bool has_occupancy = in.ReadAs<std::uint8_t>() != 0;
@@ -105,9 +145,15 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
   }
   seen.clear();
   provenance = {};
+  views.clear();
+  weights.clear();
   if (version == 0) return;
   seen = readSeen(in);
   in >> provenance.program >> provenance.config >> provenance.objects >> provenance.history;
+  if (version == 1) return;
+  views.resize(in.ReadAs<std::uint32_t>());
+  for (auto& view : views) view = readView(in);
+  weights = readWeights(in);
 }
 
 }  // namespace roomgraph

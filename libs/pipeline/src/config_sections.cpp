@@ -115,6 +115,8 @@ std::vector<ConfigSection> allSections() {
           "existence",
           "Existence of landmarks at the end of a run, from all that speaks for and against it."),
       plain<&O::object_loops>("object_loop_closing", "Loop closures found by constellations of objects."),
+      plain<&O::relocalisation>("relocalisation",
+                                "The place in an earlier map (`--map`), and what a map keeps for it."),
       plain<&O::backend>("backend", "Key poses, factors and optimisation of the factor graph."),
       plain<&O::mapping>("mapping", "The occupancy grid."),
   };

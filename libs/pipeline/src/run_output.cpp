@@ -114,6 +114,18 @@ ordered_json detectorJson(const Detector& detector, const RunOrigin& origin) {
   return {{"model", identity.model}, {"model_hash", identity.hash}, {"installed_networks", origin.networks}};
 }
 
+ordered_json earlierMapJson(const EarlierMap& earlier) {
+  ordered_json out{{"relocalised", earlier.recognised ? "yes" : "no"}, {"missing", earlier.missing}};
+  if (!earlier.recognised) return out;
+  out["after_s"] = earlier.after_s;
+  out["by"] = earlier.by;
+  out["objects"] = {{"seen_again", earlier.common},
+                    {"not_seen", earlier.unseen},
+                    {"vanished", earlier.vanished},
+                    {"new", earlier.appeared}};
+  return out;
+}
+
 ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
                          const ReplayState& replayed, const RunOrigin& origin) {
   ordered_json summary{{"input", origin.input},
@@ -125,9 +137,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
                        {"counts", countsJson(result)}};
   if (const auto& detector = slam.setup().stages.detector)
     summary["detector"] = detectorJson(*detector, origin);
-  if (result.earlier)
-    summary["earlier_map"] = {{"recognised", result.earlier->recognised},
-                              {"objects_in_common", result.earlier->common}};
+  if (result.earlier) summary["earlier_map"] = earlierMapJson(*result.earlier);
   summary["reasons"] = result.counts.reasons;
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
@@ -143,13 +153,10 @@ CSemanticMap withProvenance(const SlamResult& result, const Setup& setup, const 
   CSemanticMap map = result.map;
   for (const auto& landmark : map.landmarks)
     if (const auto span = result.seen.find(landmark.id); span != result.seen.end()) map.seen.insert(*span);
-  map.provenance = {"roomgraph " + origin.version + " (" + origin.revision + ")",
-                    setup.effective_config,
-                    setup.objects,
-                    {}};
-  if (result.earlier && result.earlier->recognised)
-    map.provenance.history.push_back("in the frame of an earlier map");
-  map.provenance.history.insert(map.provenance.history.begin(), "run of " + map.origin);
+  map.provenance = {"roomgraph " + origin.version + " (" + origin.revision + ")", setup.effective_config,
+                    setup.objects, result.map.provenance.history};
+  const bool continued = result.earlier && result.earlier->recognised;
+  map.provenance.history.push_back((continued ? "continued by a run of " : "run of ") + map.origin);
   return map;
 }
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "continued_map.h"
 #include "detection_schedule.h"
 #include "people_in_view.h"
 #include "roomgraph/core/errors.h"
@@ -40,6 +41,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
       object_loops_(setup_->options.object_loops),
       mapper_(setup_->options.mapping),
       people_(std::make_unique<PeopleInView>()),
+      views_(setup_->options.relocalisation),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
 
@@ -47,6 +49,7 @@ SemanticSlam::~SemanticSlam() = default;
 
 void SemanticSlam::process(const Record& record) {
   times_.startRecord(timeOf(record));
+  if (!first_t_) first_t_ = timeOf(record);
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
   for (const auto& sink : sinks_) sink->onStep(report);
 }
@@ -59,7 +62,9 @@ StepReport SemanticSlam::step(const Frame& frame) {
   FrameDetections detections = detect(frame);                             // sec. 1.1
   const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
   const TrackingResult tracked = track(frame, people);                    // sec. 4, factor 1
+  if (map_) map_->add(frame, people, estimator_.poses());                 // sec. 4.9
   localize(frame.t);                                                      // sec. 4, M-step
+  views_.add(frame, people, estimator_.poses().at(frame.t));
   FrameProposals proposals = propose(frame, detections.boxes);            // sec. 1.2 to 1.D
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
@@ -108,7 +113,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   mapper_.add(clean);
   localize(scan.t);
   objects_.observe(clean, estimator_.poses().at(scan.t), setup_->database);
-  if (map_) map_->add(clean);
+  if (map_) map_->add(clean, estimator_.poses());
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);
@@ -283,17 +288,27 @@ bool SemanticSlam::optimizeAll() {
 }
 
 void SemanticSlam::setMap(CSemanticMap map) {
-  map_.emplace(std::move(map), setup_->options.object_loops.constellation);
+  for (const Landmark& landmark : map.landmarks) objects_.reserveIds(landmark.id);
+  map_.emplace(std::move(map), setup_->options.relocalisation, setup_->options.object_loops.constellation);
 }
 
-// Looks for the landmarks seen so far in the map given to the run; moves the world there when they are found.
+// Looks for the run's place in the map given to it, and moves the world there when it is known; from then on
+// ties it to the map.
 void SemanticSlam::anchor() {
   if (!map_ || estimator_.poses().empty()) return;
-  const auto map_from_world = map_->recognise(objects_.landmarks().confirmed(), estimator_.poses());
+  const auto timing = times_.measure("earlier map");
+  if (const auto fix = map_->fix(estimator_.poses())) estimator_.addFix(*fix);
+  const auto map_from_world =
+      map_->recognise(objects_.landmarks().confirmed(), estimator_.poses(), estimator_.planar());
   if (!map_from_world) return;
-  estimator_.transform(toPose3(*map_from_world));
+  estimator_.transform(*map_from_world);
   floors_.clear();
-  objects_.move({-std::numeric_limits<double>::infinity(), toPose3(*map_from_world)});
+  objects_.move({-std::numeric_limits<double>::infinity(), *map_from_world});
+}
+
+// Landmarks of the map that were seen again take over their ids.
+void SemanticSlam::continueInMap() {
+  if (map_ && map_->anchoring()) objects_.continueIds(map_->map().landmarks);
 }
 
 SlamResult SemanticSlam::finish() {
@@ -315,6 +330,7 @@ void SemanticSlam::refine() {
   optimizeAll();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
+  continueInMap();
   optimizeAll();  // the map is the optimum: the last re-association set places of its own
 }
 
@@ -334,25 +350,29 @@ SlamResult SemanticSlam::collect() {
         landmark.covariance = found->second;
   result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
   result.seen = objects_.seenSpans();
-  if (map_) result.earlier = EarlierMap{};
-  if (map_ && map_->recognised()) {
-    const auto& earlier = map_->map().landmarks;
-    const std::size_t apart = result.map.landmarks.size() + earlier.size();
-    result.map.landmarks = joined(result.map.landmarks, earlier);
-    result.earlier = EarlierMap{true, static_cast<int>(apart - result.map.landmarks.size())};
-  }
+  for (const Landmark& landmark : result.map.landmarks)
+    result.map.weights[landmark.id] = objects_.landmarks().weightOf(landmark.id);
+  if (map_) result.earlier = earlierMapOf(*map_, first_t_.value_or(0));
+  if (map_ && map_->anchoring()) continueMap(*map_, {objects_, setup_->database, setup_->options}, result);
   Trajectory dense;
   for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
   result.world_from_robot = result.map.world_from_robot = dense.poses();
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
+  mapOccupancy(result, dense);
+  return result;
+}
+
+// The grid and the views, of an earlier map, too.
+void SemanticSlam::mapOccupancy(SlamResult& result, const Trajectory& dense) {
   const auto timing = times_.measure("occupancy map");
+  const CSemanticMap* earlier = map_ && map_->anchoring() ? &map_->map() : nullptr;
+  result.map.views = views_.views(estimator_.poses(), earlier ? earlier->views : std::vector<KeyView>());
   try {
-    result.map.occupancy = mapper_.build(dense);
+    result.map.occupancy = mapper_.build(dense, earlier ? earlier->occupancy.get() : nullptr);
   } catch (const RunError& error) {  // all else is still good
     ++result.counts.reasons[error.what()];
   }
-  return result;
 }
 
 }  // namespace roomgraph

@@ -57,6 +57,13 @@ class LandmarkMap {
   /// the sightings assigned to each landmark and, in the order of time, its recorded misses and rays.
   void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
 
+  /// Ids up to this one belong to the landmarks of an earlier map: new ones come after it.
+  void reserveIds(LandmarkId last) { identity_.reserve(last); }
+  /// Gives a landmark the id that an earlier map has for it; no landmark has had it in this run.
+  void rename(LandmarkId own, LandmarkId earlier);
+  /// Sum of the weights of its sightings; 0 for an unknown one.
+  double weightOf(LandmarkId id) const;
+
   /// Landmarks for the map: confirmed ones, as far as they are exclusive().
   std::vector<Landmark> confirmed() const;
   /// Whether existence and number of observations reach the configured limits.

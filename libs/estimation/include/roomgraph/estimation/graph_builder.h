@@ -12,11 +12,19 @@
 
 namespace roomgraph {
 
+/// Where in world the robot is, as an earlier map whose frame world is tells it.
+struct MapFix {
+  double t = 0;
+  Pose3 world_from_robot = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  ///< of (translation, rotation), in world
+};
+
 /// Measurements of the poses other than by the sources of motion.
 struct Measurements {
   std::vector<RelativePose> closures;  ///< between robots at two times
   std::vector<GroundFactor> grounds;   ///< handheld camera only
   bool planar = true;                 ///< a robot on the floor
+  std::vector<MapFix> fixes;          ///< with any, world is held by them and not by the first key pose
 };
 
 /// Whether any source of motion covers the time from one key pose to the other.

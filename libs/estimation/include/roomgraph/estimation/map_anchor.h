@@ -1,49 +1,82 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Localisation in an earlier map by the constellation of objects, confirmed by a scan.
+// Localisation in an earlier map by objects, scans and images.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "roomgraph/association/constellation.h"
-#include "roomgraph/estimation/key_poses.h"
+#include "roomgraph/estimation/graph_builder.h"
+#include "roomgraph/estimation/place_consensus.h"
+#include "roomgraph/lidar/grid_locator.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/observations/scan.h"
+#include "roomgraph/tracking/key_views.h"
 
 namespace roomgraph {
 
-/// An earlier map in whose frame the run is to be: the constellation of the objects seen so far gives the transform,
-/// the latest scan in the map's grid verifies it (method.md sec. 4 and 6).
-class MapAnchor {
- public:
-  MapAnchor(CSemanticMap map, const ConstellationOptions& rule) : map_(std::move(map)), rule_(rule) {}
-
-  const CSemanticMap& map() const { return map_; }
-  /// Whether the map was recognised: the world is now the map's frame.
-  bool recognised() const { return recognised_; }
-
-  /// The latest scan, kept until the map is recognised.
-  void add(const Scan& scan);
-
-  /// map_from_world at the moment at which the map is recognised, once; the caller moves its world there. Nothing
-  /// when the objects do not match those of the map, or the latest scan contradicts it. Without a scan or a grid one
-  /// more object than usual must agree. There must be a key pose.
-  std::optional<Pose2> recognise(const std::vector<Landmark>& seen, const KeyPoses& poses);
-
- private:
-  std::optional<Pose2> find(const std::vector<Landmark>& seen, const std::vector<Eigen::Vector2d>& returns) const;
-
-  CSemanticMap map_;
-  ConstellationOptions rule_;
-  std::optional<Scan> scan_;
-  bool recognised_ = false;
+/// How a run was laid into the frame of an earlier map.
+struct Anchoring {
+  Pose3 map_from_world = Pose3::Identity();
+  double t = 0;                      ///< s, when it was known
+  std::vector<PlaceSource> sources;  ///< that agreed on it
 };
 
-/// Share of the points that lie within `reach_m` of an occupied cell; 0 without points.
-double shareOnWalls(const mrpt::maps::COccupancyGridMap2D& grid, const std::vector<Eigen::Vector2d>& points,
-                    double reach_m = 0.15);
+/// An earlier map in whose frame the run is to be (method.md sec. 4.9). Objects, scans and images each say
+/// where in it the robot is; what enough of them agree on is believed, and afterwards scans and images hold
+/// the run in the map.
+class MapAnchor {
+ public:
+  MapAnchor(CSemanticMap map, const RelocalisationOptions& options,
+            const ConstellationOptions& constellation);
 
-/// The landmarks, and those of an earlier map where none of their class is now; these get new ids.
-std::vector<Landmark> joined(std::vector<Landmark> landmarks, const std::vector<Landmark>& earlier);
+  const CSemanticMap& map() const { return map_; }
+  /// Set once the place in the map is known; the world is now the map's frame.
+  const std::optional<Anchoring>& anchoring() const { return anchoring_; }
+
+  /// The latest scan and image, after the pose of their time is known. `people`: regions of the image, px.
+  void add(const Scan& scan, const KeyPoses& poses);
+  void add(const Frame& frame, const std::vector<Box2>& people, const KeyPoses& poses);
+
+  /// map_from_world at the moment at which it is known, once; the caller moves its world there. `planar`: the
+  /// robot drives on the floor, so that only x, y and yaw are unknown. There must be a key pose.
+  std::optional<Pose3> recognise(const std::vector<Landmark>& seen, const KeyPoses& poses, bool planar);
+
+  /// Where in the map the robot is by the latest scan, or image where there are no scans, once for each
+  /// stretch of way; nothing when it does not fit the map where the robot is.
+  std::optional<MapFix> fix(const KeyPoses& poses);
+
+ private:
+  struct KeptScan {
+    double t;
+    std::vector<Eigen::Vector2d> in_robot;
+  };
+  struct ViewAt {
+    double t;
+    Pose3 map_from_robot;
+  };
+
+  bool grounded() const { return locator_ && !scans_.empty(); }
+  std::vector<Eigen::Vector2d> recentReturns(const KeyPoses& poses) const;
+  std::optional<GridFit> fitOnWalls(const Pose2& map_from_robot, const KeyPoses& poses) const;
+  void sightByObjects(const std::vector<Landmark>& seen, const KeyPoses& poses);
+  void sightByScans(const KeyPoses& poses);
+  void sightByImage(const KeyPoses& poses, bool planar);
+  void sight(PlaceSource source, double t, const Pose3& map_from_robot, const KeyPoses& poses);
+  std::optional<MapFix> fixByScan(const KeyPoses& poses) const;
+
+  CSemanticMap map_;
+  RelocalisationOptions options_;
+  ConstellationOptions constellation_;
+  std::unique_ptr<GridLocator> locator_;  ///< null: the map has no grid
+  ViewLocator views_;
+  PlaceConsensus consensus_;
+  std::vector<KeptScan> scans_;  ///< of the last metres, the latest one last
+  std::optional<ViewAt> view_;   ///< by the latest image that was recognised, until it was used
+  double next_search_t_ = 0, next_view_t_ = 0, first_t_ = 0;
+  std::optional<Pose3> last_fix_from_;
+  std::optional<Anchoring> anchoring_;
+};
 
 }  // namespace roomgraph

@@ -11,6 +11,7 @@
 #include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/existence.h"
 #include "roomgraph/estimation/key_poses.h"
+#include "roomgraph/estimation/landmark_continuation.h"
 #include "roomgraph/estimation/object_factors.h"
 #include "roomgraph/estimation/pose_estimator.h"
 #include "roomgraph/observations/frame.h"
@@ -58,6 +59,14 @@ class ObjectMapper {
   /// decision changed. Does nothing with an associator whose decisions are final.
   bool reassociate();
 
+  /// The landmarks of an earlier map, in whose frame world is: those measured again take over their ids.
+  void continueIds(const std::vector<Landmark>& earlier);
+  /// Ids of an earlier map, up to this one, are left free.
+  void reserveIds(LandmarkId last) { landmarks_.reserveIds(last); }
+  /// What the run saw of the places of these landmarks, in order.
+  std::vector<PlaceLook> looksAt(const std::vector<Landmark>& landmarks,
+                                 const ObjectDatabase& database) const;
+
   /// Moves the landmarks that were first seen then or later.
   void move(const PathShift& shift);
 
@@ -73,6 +82,7 @@ class ObjectMapper {
  private:
   std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
   std::map<LandmarkId, double> driftVariances(const Drift& drift) const;
+  void renameSightings();
   void shareSightings(LandmarkId first, LandmarkId second);
   void respan();
   void span(const ObjectFrame& frame);
@@ -85,6 +95,7 @@ class ObjectMapper {
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
   std::unique_ptr<SpaceMemory> space_;
+  std::vector<double> searched_times_;  ///< of the images that the detector saw
 };
 
 }  // namespace roomgraph

@@ -47,4 +47,16 @@ struct ObjectLoopOptions : Configurable {
   void declareParameters(ParameterVisitor& v) override;
 };
 
+/// [relocalisation]
+struct RelocalisationOptions : Configurable {
+  int views = 100, view_corners = 200;
+  double view_distance_m = 1, view_angle_rad = 0.7;
+  double min_explained = 0.75, max_contradicted = 0.1, ambiguity_ratio = 0.85;
+  double tolerance_m = 0.25, tolerance_rad = 0.08, recent_s = 15;
+  int agreeing = 3, agreeing_alone = 5;
+  double alone_s = 3, alone_m = 1, rival_share = 0.25;
+  double fix_distance_m = 0.3;
+  void declareParameters(ParameterVisitor& v) override;
+};
+
 }  // namespace roomgraph

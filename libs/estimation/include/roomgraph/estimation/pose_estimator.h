@@ -61,7 +61,9 @@ class PoseEstimator {
   std::optional<LandmarkEstimates> optimizeLive(const ObjectsInGraph& objects);
   /// Optimises everything to the end; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects);
-  /// Moves the world frame rigidly.
+  /// World is the frame of an earlier map, which tells where the robot is.
+  void addFix(const MapFix& fix) { measurements_.fixes.push_back(fix); }
+  /// Moves the world frame rigidly; there are no fixes yet.
   void transform(const Pose3& new_from_old);
 
  private:

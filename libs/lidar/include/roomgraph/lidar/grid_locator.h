@@ -15,6 +15,14 @@ namespace roomgraph {
 struct GridFit {
   Pose2 grid_from_points;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in the grid's frame
+  double explained = 0;                                      ///< share of the points on walls
+  double contradicted = 0;                                   ///< share of the points in free space
+};
+
+/// A pose found by the search.
+struct GridPlace {
+  Pose2 grid_from_points;
+  double score = 0;  ///< mean probability at the points that they lie on walls
 };
 
 /// An occupancy grid in which points are looked for. Poses are grid_from_points: m, rad.
@@ -28,6 +36,8 @@ class GridLocator {
   /// rad): exact correlative search on cells of 0.1 m (Hess et al. 2016). Empty without points, or when less
   /// than a third of them comes to lie on walls.
   std::vector<Pose2> search(const std::vector<Eigen::Vector2d>& points) const;
+  /// The same, with scores.
+  std::vector<GridPlace> places(const std::vector<Eigen::Vector2d>& points) const;
   /// The nearest pose of best agreement (Gauss-Newton on the interpolated grid). There must be points.
   GridFit refine(const std::vector<Eigen::Vector2d>& points, const Pose2& start) const;
 

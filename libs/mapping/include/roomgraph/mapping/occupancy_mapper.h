@@ -22,9 +22,11 @@ class OccupancyMapper {
   /// frame without depth is left out.
   void add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {});
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
-  /// without any. Cells hold the probability of being free (MRPT). Throws RunError when the grid would be too large to
-  /// be right (a wrong trajectory).
-  mrpt::maps::COccupancyGridMap2D::Ptr build(const Trajectory& world_from_robot) const;
+  /// without any. Cells hold the probability of being free (MRPT). Throws RunError when the grid would be too
+  /// large to be right (a wrong trajectory). With an `earlier` grid, in world too, the result is that grid,
+  /// as large as needed, with the scans' log odds added to its own; its cells stay where they are.
+  mrpt::maps::COccupancyGridMap2D::Ptr build(const Trajectory& world_from_robot,
+                                             const mrpt::maps::COccupancyGridMap2D* earlier = nullptr) const;
 
  private:
   struct PosedFan;

@@ -5,9 +5,11 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/serialization/CSerializable.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "roomgraph/observations/key_view.h"
 #include "roomgraph/observations/landmark.h"
 #include "roomgraph/observations/seen_span.h"
 
@@ -33,6 +35,8 @@ class CSemanticMap : public mrpt::serialization::CSerializable {
   std::string origin;  ///< the recording it was made from
   SeenSpans seen;      ///< of the landmarks for which it is known
   MapProvenance provenance;
+  std::vector<KeyView> views;            ///< for re-localisation by images, in order of time
+  std::map<LandmarkId, double> weights;  ///< sum of the weights of a landmark's sightings, where known
 };
 
 }  // namespace roomgraph

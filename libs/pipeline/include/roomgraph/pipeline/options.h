@@ -86,6 +86,7 @@ struct Options {
   ObjectLoopOptions object_loops;
   BackendOptions backend;
   OccupancyOptions mapping;
+  RelocalisationOptions relocalisation;
 };
 
 }  // namespace roomgraph

@@ -13,6 +13,7 @@
 #include "roomgraph/estimation/object_loop_closer.h"
 #include "roomgraph/estimation/object_mapper.h"
 #include "roomgraph/estimation/pose_estimator.h"
+#include "roomgraph/estimation/view_memory.h"
 #include "roomgraph/mapping/occupancy_mapper.h"
 #include "roomgraph/observations/CSemanticMap.h"
 #include "roomgraph/pipeline/front_ends.h"
@@ -34,8 +35,12 @@ struct RunCounts {
 
 /// What came of the earlier map that a run was given.
 struct EarlierMap {
-  bool recognised = false;  ///< the results are in its frame
+  bool recognised = false;  ///< the results are in its frame, and the map continues it
   int common = 0;           ///< objects in it that were seen again
+  double after_s = 0;       ///< from the first record of the run
+  std::string by;           ///< "scans and images"
+  std::string missing;      ///< what the earlier map does not hold for re-localisation, in words
+  int appeared = 0, vanished = 0, unseen = 0;  ///< objects that are new, gone, and not looked at
 };
 
 /// The result of a run.
@@ -60,7 +65,7 @@ class SemanticSlam {
   ~SemanticSlam();
 
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
-  /// The run is to be in the frame of this map; until its objects are recognised it is in its own.
+  /// The run is to continue this map; until its place in it is known the run is in its own frame.
   void setMap(CSemanticMap map);
   /// One record, in order of time. Records whose time goes backwards are counted and left out.
   void process(const Record& record);
@@ -103,6 +108,8 @@ class SemanticSlam {
   ObjectsInGraph inGraph() const;
   bool optimizeAll();
   void anchor();
+  void continueInMap();
+  void mapOccupancy(SlamResult& result, const Trajectory& dense);
   void refine();
   SlamResult collect();
 
@@ -122,9 +129,11 @@ class SemanticSlam {
   ObjectLoopCloser object_loops_;
   OccupancyMapper mapper_;                ///< scans and depth images, for the grid
   std::unique_ptr<PeopleInView> people_;  ///< in the last frame, for the scans after it
-  std::optional<MapAnchor> map_;
+  std::optional<MapAnchor> map_;          ///< an earlier map that is continued
+  ViewMemory views_;                      ///< for whoever continues this one
   RunCounts counts_;
   double last_frame_t_, last_scan_t_;
+  std::optional<double> first_t_;                        ///< of the first record
   std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Landmarks of an earlier map after another session: ids, sums of evidence, what fades and what is new.
+#include "roomgraph/estimation/landmark_continuation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace roomgraph::test {
+namespace {
+
+WeighedLandmark stool(std::int64_t id, double x, double existence) {
+  WeighedLandmark out;
+  out.landmark.id = LandmarkId{id};
+  out.landmark.class_name = "chair";
+  out.landmark.shape = {ShapeKind::kCylinder, 0.6, 0.6, 0.9};
+  out.landmark.position = {x, 0, 0};
+  out.landmark.covariance = 0.01 * Eigen::Matrix4d::Identity();
+  out.landmark.existence = existence;
+  out.landmark.class_posterior = {{"chair", 1}};
+  out.landmark.observations = 10;
+  out.weight = 5;
+  return out;
+}
+
+TEST(LandmarkContinuation, EachIsMatchedOnceAndTheNearestFirst) {
+  const std::vector<Landmark> earlier = {stool(1, 0, 1).landmark, stool(2, 3, 1).landmark,
+                                         stool(4, 9, 1).landmark};
+  const auto same =
+      sameLandmarks({stool(7, 0.3, 1).landmark, stool(8, 0.1, 1).landmark, stool(9, 6, 1).landmark,
+                     stool(4, 9, 1).landmark, stool(10, 9, 1).landmark},
+                    earlier, {});
+  EXPECT_EQ(same, (std::map<LandmarkId, LandmarkId>{{LandmarkId{8}, LandmarkId{1}}}))
+      << "7 comes second, 9 is far, and what is 4 already leaves nothing to 10";
+}
+
+TEST(LandmarkContinuation, LooksAtAPlace) {
+  EXPECT_EQ(logRatioOf({}), 0) << "nothing seen, nothing said";
+  EXPECT_NEAR(logRatioOf({2, 0, 0, 0, 0}), -1.5, 1e-12);
+  EXPECT_NEAR(logRatioOf({0, 1, 0, 0, 0}), -3, 1e-12) << "empty";
+  EXPECT_NEAR(logRatioOf({0, 0.5, 0.4, 0, 0}), 1, 1e-12) << "half of it seen, something is there";
+  EXPECT_NEAR(logRatioOf({100, 0, 0, 1, 0}), -3.75 - 3, 1e-12) << "misses are bounded; beams count, too";
+}
+
+TEST(LandmarkContinuation, EvidenceAddsUpAndIdsAreKept) {
+  const auto both = continuedLandmarks({stool(1, 0, 0.8)}, {{}}, {stool(1, 0.2, 0.75)}, {LandmarkId{1}}, {});
+  ASSERT_EQ(both.landmarks.size(), 1u);
+  const auto& [landmark, weight] = both.landmarks[0];
+  EXPECT_EQ(landmark.id.value, 1);
+  EXPECT_NEAR(landmark.existence, 12.0 / 13, 1e-9);
+  EXPECT_NEAR(landmark.position.x(), 0.1, 1e-9);
+  EXPECT_NEAR(landmark.covariance(0, 0), 0.005, 1e-9);
+  EXPECT_EQ(landmark.observations, 20);
+  EXPECT_EQ(weight, 10);
+  EXPECT_EQ(both.seen_again, 1);
+}
+
+TEST(LandmarkContinuation, WhatIsSeenThroughFadesAndWhatIsNotSeenStays) {
+  const PlaceLook gone{5, 1, 0, 0, 0};
+  const auto both = continuedLandmarks({stool(1, 0, 0.99), stool(2, 3, 0.97), stool(3, 6, 0.9)},
+                                       {gone, {}, {1, 0, 0, 0, 0}}, {stool(8, -4, 0.9)}, {LandmarkId{8}}, {});
+  ASSERT_EQ(both.landmarks.size(), 3u);
+  EXPECT_EQ(both.landmarks[0].landmark.id.value, 2);
+  EXPECT_EQ(both.landmarks[0].landmark.existence, 0.97) << "unseen: as it was";
+  EXPECT_NEAR(both.landmarks[1].landmark.existence, 1 / (1 + std::exp(0.75) / 9), 1e-9) << "missed once";
+  EXPECT_EQ(both.landmarks[2].landmark.id.value, 8);
+  EXPECT_EQ(both.vanished, 1);
+  EXPECT_EQ(both.unseen, 2);
+  EXPECT_EQ(both.appeared, 1);
+}
+
+TEST(LandmarkContinuation, WhatStandsInItsPlaceReplacesIt) {
+  WeighedLandmark sofa = stool(8, 0, 0.9);
+  sofa.landmark.class_name = "sofa";
+  const auto both = continuedLandmarks({stool(1, 0, 0.99)}, {{}}, {sofa}, {LandmarkId{8}}, {});
+  ASSERT_EQ(both.landmarks.size(), 1u);
+  EXPECT_EQ(both.landmarks[0].landmark.id.value, 8);
+}
+
+}  // namespace
+}  // namespace roomgraph::test
