@@ -3,6 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 # mrpt-apps: whether MRPT's own tools read our files; chromium: whether the report works in a browser; xvfb, xdotool: the
-# window on a display without a screen.
-MORE_PACKAGES="mrpt-apps chromium chromium-driver xvfb xdotool" ./setup.sh
+# window on a display without a screen; poppler-utils: whether other programs see in our PDFs what we drew.
+MORE_PACKAGES="mrpt-apps chromium chromium-driver xvfb xdotool poppler-utils" ./setup.sh
 exec ctest --test-dir build/release --output-on-failure --timeout 300 -j "$(nproc)"

@@ -14,6 +14,8 @@
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/maptools/map_crop.h"
 #include "roomgraph/maptools/map_export.h"
+#include "roomgraph/rendering/floor_plan.h"
+#include "roomgraph/rendering/palette.h"
 #include "roomgraph/rendering/scene_file.h"
 #include "run_report.h"
 #include "shared_files.h"
@@ -21,10 +23,12 @@
 namespace roomgraph {
 namespace {
 
+// Made by libraries above that of the other formats.
 const char* const kSceneFormat = "3dscene";
+const char* const kPdfFormat = "pdf";
 
 struct MapExportArguments {
-  std::string map, folder, objects;
+  std::string map, folder, objects, page = "auto";
   std::vector<std::string> formats, margins;
   double scale = 50;
 };
@@ -37,6 +41,7 @@ struct MapCropArguments {
 std::vector<std::string> allFormats() {
   auto formats = exportFormats();
   formats.emplace_back(kSceneFormat);
+  formats.emplace_back(kPdfFormat);
   return formats;
 }
 
@@ -57,6 +62,24 @@ MapExportOptions exportOptions(const MapExportArguments& arguments) {
   return options;
 }
 
+/// Files that were written, as they are listed.
+std::vector<std::string> exportOne(const CSemanticMap& map, const ObjectDatabase& database,
+                                   const std::string& format, const MapExportArguments& arguments,
+                                   const MapExportOptions& options) {
+  const std::filesystem::path folder = arguments.folder;
+  if (format == kSceneFormat) {
+    saveScene(map, database, folder / "map.3Dscene");
+    return {"map.3Dscene"};
+  }
+  if (format == kPdfFormat) {
+    const FloorPlanOptions plan{arguments.scale, arguments.page, map.origin};
+    return {"plan.pdf (" + writeFloorPlan(map, palette::withSafeColors(database), plan, folder / "plan.pdf") +
+            ")"};
+  }
+  exportMap(map, database, format, folder, options);
+  return exportedFiles(format);
+}
+
 void exportFormatsOf(const MapExportArguments& arguments) {
   const auto options = exportOptions(arguments);
   const auto formats = arguments.formats.empty() ? allFormats() : arguments.formats;
@@ -65,18 +88,11 @@ void exportFormatsOf(const MapExportArguments& arguments) {
   std::error_code error;
   std::filesystem::create_directories(arguments.folder, error);
   if (error) throw RunError("cannot make the folder " + arguments.folder + ": " + error.message());
-  const std::filesystem::path folder = arguments.folder;
   std::vector<std::string> written;
   for (const auto& format : formats) {
-    if (format == kSceneFormat) {
-      saveScene(map, database, folder / "map.3Dscene");
-      written.emplace_back("map.3Dscene");
-      continue;
-    }
-    exportMap(map, database, format, folder, options);
-    for (const auto& file : exportedFiles(format)) written.push_back(file);
+    for (const auto& file : exportOne(map, database, format, arguments, options)) written.push_back(file);
   }
-  std::cout << folder.string() << ": " << join(written) << "\n";
+  std::cout << arguments.folder << ": " << join(written) << "\n";
 }
 
 std::vector<Eigen::Vector2d> polygonOf(const MapCropArguments& arguments) {
@@ -138,6 +154,9 @@ void addMapExport(CLI::App& parent) {
   command->add_option("--scale", a->scale, "drawings are 1 : this")
       ->check(CLI::Range(1.0, 10000.0))
       ->capture_default_str();
+  command->add_option("--page", a->page, "sheet of plan.pdf; auto: the smallest that is large enough")
+      ->check(CLI::IsMember(pageNames()))
+      ->capture_default_str();
   command->add_option(
       "--objects", a->objects,
       "object database with the classes' colours (default: that of the map, else the shipped one)");
@@ -146,6 +165,7 @@ void addMapExport(CLI::App& parent) {
       "  roomgraph map export out/lab/map.rgmap -o lab\n"
       "  roomgraph map export out/lab/map.rgmap -o lab --format nav2,keepout --margin sofa=0.3 --margin "
       "door=off\n"
+      "  roomgraph map export out/lab/map.rgmap -o lab --format pdf --scale 100 --page A4\n"
       "What each file holds: docs/formats.md.");
   command->callback([a] { exportFormatsOf(*a); });
 }

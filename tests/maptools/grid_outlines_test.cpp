@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Outlines of random cells against the cells themselves.
-#include "grid_outlines.h"
+#include "roomgraph/maptools/grid_outlines.h"
 
 #include <gtest/gtest.h>
 

@@ -81,6 +81,11 @@ TEST(Snapshot, WorksWithoutOccupancyObjectsOrPath) {
   EXPECT_FALSE(snapshot(CSemanticMap(), {SnapshotView::kRobot, 320, 240, "empty"}).empty());
 }
 
+TEST(Snapshot, AnyWidthIsFine) {
+  for (const int width : {201, 202, 203})
+    EXPECT_EQ(snapshot(test::sampleMap(), {SnapshotView::kTop, width, 151, ""}).size(), cv::Size(width, 151));
+}
+
 TEST(Snapshot, UnwritablePlaceIsARunError) {
   const TemporaryFolder folder;
   EXPECT_THROW(renderSnapshot(test::sampleMap(), database(), {SnapshotView::kTop, 320, 240, ""},

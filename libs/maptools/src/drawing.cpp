@@ -2,8 +2,8 @@
 // SVG elements, floor and walls, extent of a drawing.
 #include "drawing.h"
 
-#include "grid_outlines.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/maptools/grid_outlines.h"
 #include "text_numbers.h"
 
 namespace roomgraph {

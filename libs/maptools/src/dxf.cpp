@@ -4,7 +4,7 @@
 
 #include "drawing.h"
 #include "exporters.h"
-#include "grid_outlines.h"
+#include "roomgraph/maptools/grid_outlines.h"
 #include "text_numbers.h"
 
 namespace roomgraph {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walk along the directed sides of cells; simplification by OpenCV.
-#include "grid_outlines.h"
+#include "roomgraph/maptools/grid_outlines.h"
 
 #include <cstdint>
 #include <opencv2/imgproc.hpp>

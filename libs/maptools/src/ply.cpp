@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Walls and objects as a coloured mesh in PLY.
 #include "exporters.h"
-#include "grid_outlines.h"
+#include "roomgraph/maptools/grid_outlines.h"
 #include "text_numbers.h"
 
 namespace roomgraph {

@@ -9,19 +9,10 @@
 #include <cmath>
 #include <vector>
 
+#include "roomgraph/maptools/grid_outlines.h"
 #include "roomgraph/observations/CSemanticMap.h"
 
 namespace roomgraph {
-
-using Polygon2 = std::vector<Eigen::Vector2d>;
-
-/// Cells hold the probability of being free. The limits are map_server's.
-inline bool isOccupiedCell(float p_free) {
-  return p_free < 0.35f;
-}
-inline bool isFreeCell(float p_free) {
-  return p_free > 0.65f;
-}
 
 /// By crossings of a ray; the polygon may be concave.
 bool contains(const Polygon2& polygon, const Eigen::Vector2d& point);

@@ -51,42 +51,39 @@ Box2 imageBox(const Landmark& landmark, const SceneView& view) {
   return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
 }
 
-void drawLabels(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options,
+bool has(const CSemanticMap& map, LandmarkId id) {
+  return std::any_of(map.landmarks.begin(), map.landmarks.end(),
+                     [id](const Landmark& landmark) { return landmark.id == id; });
+}
+
+void drawLabels(cv::Mat& image, const MapPicture& picture, const SnapshotOptions& options,
                 const SceneView& view) {
   const TextStyle style{unit(options) * 0.9, palette::kInk, 2.2};
-  const Box2 picture{0, 0, static_cast<double>(image.cols), static_cast<double>(image.rows)};
+  const Box2 frame{0, 0, static_cast<double>(image.cols), static_cast<double>(image.rows)};
   std::vector<Label> labels;
-  for (const auto& landmark : map.landmarks) {
+  std::vector<LandmarkId> ids;
+  for (const auto& landmark : picture.whole.landmarks) {
     const Box2 object = imageBox(landmark, view);
-    if (object.empty() || !picture.contains(object.center().x(), object.center().y()) ||
+    if (object.empty() || !frame.contains(object.center().x(), object.center().y()) ||
         object.width() > image.cols / 2.0)
       continue;
     const std::string text = readable(landmark.class_name) + " " + std::to_string(landmark.id.value);
     labels.push_back({text, object, textWidth(text, style), style.cap_height_px, {}});
+    ids.push_back(landmark.id);
   }
   const double margin = unit(options);
   placeLabels(labels, {margin, margin * (options.title.empty() ? 1 : 4.5), image.cols - margin,
                        mapArea(options).v_max + margin});
-  for (const auto& label : labels) drawText(image, label.text, {label.place.u_min, label.place.v_max}, style);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (has(picture.shown, ids[i]))
+      drawText(image, labels[i].text, {labels[i].place.u_min, labels[i].place.v_max}, style);
 }
 
-void drawTitle(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options) {
+void drawTitle(cv::Mat& image, const MapPicture& picture, const SnapshotOptions& options) {
   if (options.title.empty()) return;
   const double u = unit(options);
   drawText(image, options.title, {3 * u, 4 * u}, {1.5 * u, palette::kInk, 2});
-  double length = 0;
-  for (std::size_t i = 1; i < map.world_from_robot.size(); ++i)
-    length +=
-        (map.world_from_robot[i].pose.translation() - map.world_from_robot[i - 1].pose.translation()).norm();
-  const Eigen::Vector3d size = contentBounds(map).sizes();
-  std::ostringstream facts;
-  facts.setf(std::ios::fixed);
-  facts.precision(1);
-  facts << size.x() << " x " << size.y() << " m";
-  if (!map.landmarks.empty())
-    facts << ",  " << map.landmarks.size() << (map.landmarks.size() == 1 ? " object" : " objects");
-  if (length > 0) facts << ",  path " << length << " m";
-  drawText(image, facts.str(), {3 * u, 6.2 * u}, {0.9 * u, palette::kFaintInk, 2});
+  drawText(image, factsOf(picture), {3 * u, 6.2 * u}, {0.9 * u, palette::kFaintInk, 2});
 }
 
 /// One row at the bottom, filled from the left.
@@ -120,23 +117,24 @@ class Legend {
   double unit_, u_, v_;
 };
 
-void drawLegend(cv::Mat& image, const CSemanticMap& map, const ObjectDatabase& database,
+void drawLegend(cv::Mat& image, const MapPicture& picture, const ObjectDatabase& database,
                 const SnapshotOptions& options) {
   Legend legend(image, unit(options));
   std::map<std::string, int> counts;
-  for (const auto& landmark : map.landmarks) ++counts[landmark.class_name];
+  for (const auto& landmark : picture.whole.landmarks) counts[landmark.class_name] = 0;
+  for (const auto& landmark : picture.shown.landmarks) ++counts[landmark.class_name];
   for (const auto& [name, count] : counts) {
     const auto color = palette::ofClass(database, name);
     legend.swatch(palette::mix(color, palette::kFree, 0.25), palette::mix(color, {0, 0, 0}, 0.25),
                   readable(name) + " (" + std::to_string(count) + ")");
   }
   if (!counts.empty()) legend.gap();
-  if (map.occupancy) {
+  if (picture.whole.occupancy) {
     legend.swatch(palette::kOccupied, palette::kOccupied, "obstacle");
     legend.swatch(palette::kFree, palette::kGridLine, "free");
     legend.gap();
   }
-  if (!map.world_from_robot.empty()) legend.path("path, start to end");
+  if (!picture.whole.world_from_robot.empty()) legend.path("path, start to end");
 }
 
 void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options,
@@ -160,17 +158,33 @@ void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& o
 
 }  // namespace
 
+std::string factsOf(const MapPicture& picture) {
+  const auto& path = picture.shown.world_from_robot;
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    length += (path[i].pose.translation() - path[i - 1].pose.translation()).norm();
+  const Eigen::Vector3d size = contentBounds(picture.whole).sizes();
+  const std::size_t objects = picture.shown.landmarks.size();
+  std::ostringstream facts;
+  facts.setf(std::ios::fixed);
+  facts.precision(1);
+  facts << size.x() << " x " << size.y() << " m";
+  if (!picture.whole.landmarks.empty()) facts << ",  " << objects << (objects == 1 ? " object" : " objects");
+  if (length > 0) facts << ",  path " << length << " m";
+  return facts.str() + picture.note;
+}
+
 Box2 mapArea(const SnapshotOptions& options) {
   const double u = unit(options);
   return {3 * u, (options.title.empty() ? 3 : 8) * u, options.width - 3 * u, options.height - 6 * u};
 }
 
-void drawOverlay(cv::Mat& image, const CSemanticMap& map, const ObjectDatabase& database,
+void drawOverlay(cv::Mat& image, const MapPicture& picture, const ObjectDatabase& database,
                  const SnapshotOptions& options, const SceneView& view) {
-  drawLabels(image, map, options, view);
-  drawTitle(image, map, options);
-  drawLegend(image, map, database, options);
-  drawScale(image, map, options, view);
+  drawLabels(image, picture, options, view);
+  drawTitle(image, picture, options);
+  drawLegend(image, picture, database, options);
+  drawScale(image, picture.whole, options, view);
 }
 
 }  // namespace roomgraph

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 namespace roomgraph::palette {
 
@@ -31,6 +32,30 @@ TColor parse(const std::string& text) {
 TColor ofClass(const ObjectDatabase& database, const std::string& class_name) {
   const ObjectModel* model = database.find(class_name);
   return parse(model ? model->color : "");
+}
+
+const std::vector<TColor>& colorBlindSafe() {
+  static const std::vector<TColor> colors{{230, 159, 0}, {0, 114, 178},  {213, 94, 0},  {204, 121, 167},
+                                          {0, 158, 115}, {86, 180, 233}, {240, 228, 66}};
+  return colors;
+}
+
+ObjectDatabase withSafeColors(const ObjectDatabase& database) {
+  const auto& safe = colorBlindSafe();
+  std::string text;
+  std::size_t index = 0;
+  for (const auto& model : database.models()) {
+    const std::size_t round = index / safe.size() % 3;
+    const TColor color = round == 0   ? safe[index % safe.size()]
+                         : round == 1 ? mix(safe[index % safe.size()], {0, 0, 0}, 0.45)
+                                      : mix(safe[index % safe.size()], {255, 255, 255}, 0.5);
+    ++index;
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "#%02x%02x%02x", color.R, color.G, color.B);
+    text += "[" + model.class_name + "]\nlabels = " + model.class_name + "\nshape = " + model.shape +
+            "\nlandmark = " + (model.landmark ? "true" : "false") + "\ncolor = " + hex + "\n";
+  }
+  return ObjectDatabase::fromText(text, "colours");
 }
 
 }  // namespace roomgraph::palette

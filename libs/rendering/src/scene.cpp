@@ -7,6 +7,7 @@
 
 #include "roomgraph/rendering/palette.h"
 #include "roomgraph/rendering/scene_parts.h"
+#include "roomgraph/rendering/triangle_set.h"
 
 namespace roomgraph {
 
@@ -78,14 +79,38 @@ double gridStep(double extent_m) {
   }
 }
 
-mrpt::opengl::COpenGLScene::Ptr buildScene(const CSemanticMap& map, const ObjectDatabase& database) {
+namespace {
+
+constexpr double kSightHeight = 0.05;  ///< above the path
+
+/// From the robot to what it measures at this moment.
+void addSightLines(const MapPicture& picture, const ObjectDatabase& database,
+                   mrpt::opengl::COpenGLScene& scene, double width) {
+  if (picture.in_sight.empty() || picture.shown.world_from_robot.empty()) return;
+  Eigen::Vector3d robot = picture.shown.world_from_robot.back().pose.translation();
+  robot.z() = kSightHeight + (picture.shown.planar ? 0 : robot.z());
+  TriangleSet mesh;
+  for (const auto& landmark : picture.shown.landmarks) {
+    const auto& seen = picture.in_sight;
+    if (std::find(seen.begin(), seen.end(), landmark.id) == seen.end()) continue;
+    const auto color = palette::mix(palette::ofClass(database, landmark.class_name), {0, 0, 0}, 0.25);
+    mesh.ribbon(robot, landmark.position + Eigen::Vector3d(0, 0, kSightHeight), width, color);
+  }
+  scene.insert(mesh.object("sight"));
+}
+
+}  // namespace
+
+mrpt::opengl::COpenGLScene::Ptr buildScene(const MapPicture& picture, const ObjectDatabase& database) {
   auto scene = mrpt::opengl::COpenGLScene::Create();
   scene->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(palette::kUnknown));
-  addFloor(map, *scene);
-  addGridLines(map, *scene);
-  addWalls(map, *scene);
-  addPath(map, *scene);
-  addLandmarks(map, database, *scene);
+  const double width = lineWidth(picture.whole);
+  addFloor(picture.shown, *scene);
+  addGridLines(picture.whole, *scene);
+  addWalls(picture.shown, *scene);
+  addPath(picture.shown, *scene, width);
+  addLandmarks(picture.shown, database, *scene, width);
+  addSightLines(picture, database, *scene, width);
   return scene;
 }
 

@@ -55,9 +55,9 @@ std::vector<Eigen::Vector3d> footprintInWorld(const Landmark& landmark) {
   return corners;
 }
 
-void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database,
-                  mrpt::opengl::COpenGLScene& scene) {
-  const double width = std::min(lineWidth(map), 0.04);
+void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database, mrpt::opengl::COpenGLScene& scene,
+                  std::optional<double> line_width) {
+  const double width = std::min(line_width ? *line_width : lineWidth(map), 0.04);
   for (const auto& landmark : map.landmarks) {
     const auto color = palette::ofClass(database, landmark.class_name);
     const auto edge = palette::mix(color, {0, 0, 0}, 0.25);

@@ -23,9 +23,9 @@ std::vector<StampedPose> thinned(const CSemanticMap& map, double spacing) {
 
 }  // namespace
 
-void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene) {
+void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene, std::optional<double> line_width) {
   if (map.world_from_robot.empty()) return;
-  const double width = lineWidth(map);
+  const double width = line_width ? *line_width : lineWidth(map);
   const auto place = [&](const Pose3& pose, double lift) {
     Eigen::Vector3d p = pose.translation();
     if (map.planar) p.z() = 0;

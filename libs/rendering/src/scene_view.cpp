@@ -11,8 +11,10 @@
 
 namespace roomgraph {
 
-SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map,
+SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const MapPicture& picture,
                      const SnapshotOptions& options, const Box2& inner) {
+  const CSemanticMap& map = picture.whole;
+  const auto& path = picture.shown.world_from_robot;
   const double extent = contentExtent(map);
   scene.getViewport()->setViewportClipDistances(0.1f, static_cast<float>(10 * extent + 100));
   camera_.width = options.width;
@@ -22,12 +24,12 @@ SceneView::SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map,
   if (options.view == SnapshotView::kTop) {
     camera_.orthographic = true;
     camera_.fit(contentPoints(map), inner);
-  } else if (options.view == SnapshotView::kOrbit || map.world_from_robot.empty()) {
+  } else if (options.view == SnapshotView::kOrbit || path.empty()) {
     camera_.azimuth = -65 * kDegree;
     camera_.elevation = 42 * kDegree;
     camera_.fit(contentPoints(map), inner);
   } else {
-    camera_ = behindRobot(map.world_from_robot.back().pose, options.width, options.height);
+    camera_ = behindRobot(path.back().pose, options.width, options.height);
   }
   camera_.applyTo(scene.getViewport()->getCamera());
 }

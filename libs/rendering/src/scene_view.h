@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "roomgraph/observations/CSemanticMap.h"
+#include "map_picture.h"
 #include "roomgraph/rendering/orbit_camera.h"
 #include "roomgraph/rendering/snapshot.h"
 
@@ -18,7 +18,7 @@ class SceneView {
  public:
   /// Camera for `options.view` that shows the map's content inside `inner` (px). Sets it in the scene's
   /// viewport.
-  SceneView(mrpt::opengl::COpenGLScene& scene, const CSemanticMap& map, const SnapshotOptions& options,
+  SceneView(mrpt::opengl::COpenGLScene& scene, const MapPicture& picture, const SnapshotOptions& options,
             const Box2& inner);
   /// Pixel (u right, v down) of a world point; nothing when it is behind the camera.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& world) const {

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "overlay.h"
+#include "picture.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "scene.h"
@@ -17,9 +18,21 @@ namespace {
 
 constexpr int kLargestBuffer = 8192;  ///< px; what software renderers can do
 
+int oversampling(const SnapshotOptions& options) {
+  return 2 * std::max(options.width, options.height) <= kLargestBuffer ? 2 : 1;
+}
+
+/// OpenGL pads rows of pixels to four bytes, which CFBORender (MRPT 2.5) has no room for: it would write
+/// behind its image.
+SnapshotOptions withWholeRows(SnapshotOptions options) {
+  const int step = 4 / oversampling(options);
+  options.width = (options.width + step - 1) / step * step;
+  return options;
+}
+
 /// BGR image of the scene, anti-aliased by rendering it at twice the size.
 cv::Mat render(const mrpt::opengl::COpenGLScene& scene, const SnapshotOptions& options) {
-  const int factor = 2 * std::max(options.width, options.height) <= kLargestBuffer ? 2 : 1;
+  const int factor = oversampling(options);
   mrpt::img::CImage image;
   try {
     mrpt::opengl::CFBORender renderer(static_cast<unsigned>(factor * options.width),
@@ -38,12 +51,19 @@ cv::Mat render(const mrpt::opengl::COpenGLScene& scene, const SnapshotOptions& o
 
 }  // namespace
 
+cv::Mat renderPicture(const MapPicture& picture, const ObjectDatabase& database,
+                      const SnapshotOptions& options) {
+  const SnapshotOptions wide = withWholeRows(options);
+  const auto scene = buildScene(picture, database);
+  const SceneView view(*scene, picture, wide, mapArea(wide));
+  cv::Mat image = render(*scene, wide);
+  drawOverlay(image, picture, database, wide, view);
+  return image(cv::Rect(0, 0, options.width, options.height)).clone();
+}
+
 void renderSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const SnapshotOptions& options,
                     const std::filesystem::path& png) {
-  const auto scene = buildScene(map, database);
-  const SceneView view(*scene, map, options, mapArea(options));
-  cv::Mat image = render(*scene, options);
-  drawOverlay(image, map, database, options, view);
+  const cv::Mat image = renderPicture(map, database, options);
   std::vector<unsigned char> bytes;
   cv::imencode(".png", image, bytes);
   writeFileAtomically(png, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

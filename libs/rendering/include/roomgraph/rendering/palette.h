@@ -5,6 +5,7 @@
 #include <mrpt/img/TColor.h>
 
 #include <string>
+#include <vector>
 
 #include "roomgraph/observations/object_database.h"
 
@@ -28,5 +29,13 @@ TColor withAlpha(TColor color, int alpha);
 TColor parse(const std::string& text);
 /// Colour of a class in the object database; grey when it is not there.
 TColor ofClass(const ObjectDatabase& database, const std::string& class_name);
+
+/// Seven colours that people with any of the three dichromacies tell apart, from one another, from walls and
+/// from the path: M. Okabe and K. Ito, "Color universal design", 2008 (jfly.uni-koeln.de/color), without
+/// their black.
+const std::vector<TColor>& colorBlindSafe();
+/// The same classes in these colours, in the order of the database; from the eighth class on darker, then
+/// lighter ones, which differ by their labels and hatching only.
+ObjectDatabase withSafeColors(const ObjectDatabase& database);
 
 }  // namespace roomgraph::palette

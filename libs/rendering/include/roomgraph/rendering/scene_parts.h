@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "roomgraph/observations/CSemanticMap.h"
@@ -35,7 +36,10 @@ std::vector<Eigen::Vector3d> footprintInWorld(const Landmark& landmark);
 void addFloor(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
 void addGridLines(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
 void addWalls(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
-void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene);
-void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database, mrpt::opengl::COpenGLScene& scene);
+// Lines are `line_width` wide, m; without it as lineWidth() says of the map.
+void addPath(const CSemanticMap& map, mrpt::opengl::COpenGLScene& scene,
+             std::optional<double> line_width = std::nullopt);
+void addLandmarks(const CSemanticMap& map, const ObjectDatabase& database, mrpt::opengl::COpenGLScene& scene,
+                  std::optional<double> line_width = std::nullopt);
 
 }  // namespace roomgraph

@@ -2,11 +2,23 @@
 // Outlines of cells of a grid as polygons.
 #pragma once
 
-#include <functional>
+#include <mrpt/maps/COccupancyGridMap2D.h>
 
-#include "region.h"
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
 
 namespace roomgraph {
+
+using Polygon2 = std::vector<Eigen::Vector2d>;
+
+/// Cells hold the probability of being free. The limits are map_server's.
+inline bool isOccupiedCell(float p_free) {
+  return p_free < 0.35f;
+}
+inline bool isFreeCell(float p_free) {
+  return p_free > 0.65f;
+}
 
 /// Borders of the cells that `chosen` takes, in world: closed polygons, counter-clockwise around cells and
 /// clockwise around holes, along the cells' sides. Cells that touch at a corner only are apart.

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures and floor plans: to scale, the same every time, symbols that differ without colour, pages that are
+// too small.
+#include "roomgraph/rendering/figure.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <opencv2/imgcodecs.hpp>
+
+#include "canvas.h"
+#include "errors_of.h"
+#include "figure_legend.h"
+#include "figure_picture.h"
+#include "map_drawing.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/rendering/floor_plan.h"
+#include "sample_map.h"
+#include "symbols.h"
+#include "temporary_folder.h"
+
+namespace roomgraph {
+namespace {
+
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+ObjectDatabase furniture() {
+  return ObjectDatabase::fromText(
+      "[swivel_chair]\nlabels = chair\nshape = cylinder\ncolor = #e69f00\n"
+      "[sofa]\nlabels = sofa\nshape = cuboid\ncolor = #0072b2\n"
+      "[door]\nlabels = door\nshape = planar\ncolor = #d55e00\n"
+      "[person]\nlabels = person\nshape = cylinder\nlandmark = false\ncolor = #c04070\n"
+      "[stool]\nlabels = stool\nshape = cylinder\ncolor = #e69f00\n"
+      "[bed]\nlabels = bed\nshape = cuboid\ncolor = #0072b2\n"
+      "[table]\nlabels = table\nshape = cuboid\ncolor = #0072b2\n");
+}
+
+bool poppler() {
+  return std::system("pdftoppm -v > /dev/null 2>&1") == 0;
+}
+
+/// A page by another program, in pixels.
+cv::Mat pageOf(const TemporaryFolder& folder, const std::string& pdf, int dpi) {
+  const std::string command = "pdftoppm -singlefile -png -r " + std::to_string(dpi) + " " +
+                              folder.file(pdf).string() + " " + folder.file("page").string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return cv::imread(folder.file("page.png").string());
+}
+
+bool dark(const cv::Vec3b& pixel) {
+  return std::max({pixel[0], pixel[1], pixel[2]}) < 60;
+}
+
+TEST(FloorPlan, ARoomOfSixMetresIsTwelveCentimetresWide) {
+  if (!poppler()) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();  // 6 m x 4 m from outside to outside
+  map.landmarks.clear();
+  for (const double scale : {50.0, 25.0}) {
+    EXPECT_EQ(writeFloorPlan(map, furniture(), {scale, "A3", "x"}, folder.file("plan.pdf")), "A3 landscape");
+    const cv::Mat page = pageOf(folder, "plan.pdf", 254);  // ten pixels a millimetre
+    ASSERT_NEAR(page.cols, 4200, 2);
+    ASSERT_NEAR(page.rows, 2970, 2);
+    // Along a row and a column through the room: the first and last dark pixel within the frame.
+    const int row = (2970 - 300) / 2, column = 2100 + 300;
+    int left = 5000, right = 0, top = 5000, bottom = 0;
+    for (int u = 150; u < 4050; ++u)
+      if (dark(page.at<cv::Vec3b>(row - 60, u))) left = std::min(left, u), right = std::max(right, u);
+    for (int v = 150; v < 2500; ++v)
+      if (dark(page.at<cv::Vec3b>(v, column))) top = std::min(top, v), bottom = std::max(bottom, v);
+    EXPECT_NEAR(right + 1 - left, 6 / scale * 10000, 3);
+    EXPECT_NEAR(bottom + 1 - top, 4 / scale * 10000, 3);
+  }
+}
+
+TEST(FloorPlan, TakesTheSmallestSheetAndSaysWhatFits) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  const auto plan = [&](double scale, const std::string& page) {
+    return writeFloorPlan(map, furniture(), {scale, page, ""}, folder.file("plan.pdf"));
+  };
+  EXPECT_EQ(plan(50, "auto"), "A4 landscape");
+  // With margins of .12 m less half a cell: 6.19 x 4.19 m; 28 mm of frame, 30 of title block.
+  EXPECT_EQ(plan(23, "auto"), "A3 landscape");
+  EXPECT_THAT(plan(5, "auto"), StartsWith("1266 x 89"));
+  EXPECT_THAT(test::messageOf<RunError>([&] { plan(20, "A4"); }),
+              HasSubstr("too large for A4: take --page A3 or --scale 50"))
+      << "at 1 : 25 the room is 168 mm deep, and A4 has 152 for it";
+  EXPECT_THAT(test::messageOf<RunError>([&] { plan(1, "auto"); }), HasSubstr("too large for A0"));
+  map.occupancy.reset();
+  map.landmarks.clear();
+  map.world_from_robot = {{0, poseFromYpr(0, 0, 0, 0, 0, 0)}, {1, poseFromYpr(0, 9, 0, 0, 0, 0)}};
+  EXPECT_EQ(plan(50, "auto"), "A4 portrait");
+  EXPECT_THAT(test::messageOf<RunError>(
+                  [&] { writeFloorPlan(CSemanticMap(), furniture(), {}, folder.file("plan.pdf")); }),
+              HasSubstr("empty"));
+}
+
+TEST(Figure, TheSameMapGivesTheSameBytesInEveryFormat) {
+  const TemporaryFolder folder;
+  for (const auto style : {FigureStyle::kScreen, FigureStyle::kPaper}) {
+    for (const auto& [ending, begin] :
+         std::map<std::string, std::string>{{".pdf", "%PDF-1"}, {".svg", "<?xml"}, {".png", "\x89PNG"}}) {
+      writeFigure(test::sampleMap(), furniture(), {style, 640, 480, "A room"}, folder.file("a" + ending));
+      writeFigure(test::sampleMap(), furniture(), {style, 640, 480, "A room"}, folder.file("b" + ending));
+      EXPECT_THAT(folder.read("a" + ending), StartsWith(begin));
+      EXPECT_TRUE(folder.read("a" + ending) == folder.read("b" + ending)) << ending;
+    }
+  }
+  EXPECT_THROW(writeFigure(test::sampleMap(), furniture(), {}, folder.file("a.gif")), std::invalid_argument);
+}
+
+TEST(Figure, PdfAndPixelsShowTheSame) {
+  if (!poppler()) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  const TemporaryFolder folder;
+  for (const auto style : {FigureStyle::kScreen, FigureStyle::kPaper}) {
+    const FigureOptions options{style, 640, 480, "A room"};
+    writeFigure(test::sampleMap(), furniture(), options, folder.file("a.pdf"));
+    const cv::Mat page = pageOf(folder, "a.pdf", 96),
+                  own = figurePixels(test::sampleMap(), furniture(), options);
+    ASSERT_LE(std::abs(page.rows - own.rows), 1);
+    const cv::Rect both(0, 0, std::min(page.cols, own.cols), std::min(page.rows, own.rows));
+    EXPECT_LT(cv::norm(page(both), own(both), cv::NORM_L1) / (3.0 * both.area()), 3) << "mean of 255";
+  }
+}
+
+TEST(Figure, PaperEndsWhereTheMapEndsAndScreenHasTheSizeAskedFor) {
+  const auto size = [](FigureStyle style) {
+    return figurePixels(test::sampleMap(), furniture(), {style, 800, 800, ""}).size();
+  };
+  EXPECT_EQ(size(FigureStyle::kScreen), cv::Size(800, 800));
+  EXPECT_EQ(size(FigureStyle::kPaper).width, 800);
+  EXPECT_LT(size(FigureStyle::kPaper).height, 640) << "the room is 6 m x 4 m";
+}
+
+TEST(Figure, TakesAnyBytesForATitleAndMapsWithoutAnything) {
+  const TemporaryFolder folder;
+  for (const std::string title :
+       {"caf\xc3\xa9 \xe2\x82\xac", "broken \xff\xc3", "\xed\xa0\x80", "line\nbreak", "<&>\""})
+    for (const char* ending : {"a.pdf", "a.svg", "a.png"})
+      EXPECT_NO_THROW(writeFigure(test::sampleMap(), furniture(), {FigureStyle::kPaper, 320, 240, title},
+                                  folder.file(ending)));
+  for (const char* ending : {"a.pdf", "a.svg", "a.png"})
+    EXPECT_NO_THROW(writeFigure(CSemanticMap(), furniture(), {}, folder.file(ending)));
+}
+
+/// One object alone on white, 10 px a pt of the page, without colour.
+cv::Mat grey(const std::string& class_name, ShapeKind kind, bool has_yaw) {
+  Canvas canvas(CanvasFormat::kPixels, {150, 150});
+  canvas.area({Polygon2{{0, 0}, {150, 0}, {150, 150}, {0, 150}}}, palette::kFree);
+  drawSymbol(canvas, symbolOf(furniture(), class_name), {kind, 1, kind == ShapeKind::kPlanar ? 0.1 : 0.8, 1},
+             has_yaw, FigureStyle::kPaper,
+             [](const Eigen::Vector2d& at) { return Eigen::Vector2d(75 + 100 * at.y(), 75 + 100 * at.x()); });
+  cv::Mat channel;
+  cv::extractChannel(canvas.pixels(), channel, 1);
+  return channel;
+}
+
+TEST(Symbols, ClassesDifferWithoutColour) {
+  const std::vector<cv::Mat> symbols{grey("swivel_chair", ShapeKind::kCylinder, false),
+                                     grey("stool", ShapeKind::kCylinder, false),
+                                     grey("sofa", ShapeKind::kCuboid, true),
+                                     grey("bed", ShapeKind::kCuboid, true),
+                                     grey("table", ShapeKind::kCuboid, true),
+                                     grey("unheard of", ShapeKind::kCuboid, true),
+                                     grey("door", ShapeKind::kPlanar, true)};
+  for (std::size_t i = 0; i < symbols.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      cv::Mat apart = cv::abs(symbols[i] - symbols[j]);
+      EXPECT_GT(cv::countNonZero(apart > 40), 300) << i << " and " << j;
+    }
+}
+
+TEST(Symbols, ADoorIsDashed) {
+  const cv::Mat door = grey("door", ShapeKind::kPlanar, true);
+  int changes = 0;
+  const int row = door.rows / 2;
+  for (int u = 1; u < door.cols; ++u)
+    changes += (door.at<uchar>(row, u) < 170) != (door.at<uchar>(row, u - 1) < 170);
+  EXPECT_GE(changes, 2 * 100 / 6) << "a dash and a gap are 5.8 pt of 100";
+}
+
+TEST(Legend, RowsTakeWhatThereIsAndTheScaleBarIsRound) {
+  Canvas canvas(CanvasFormat::kPixels, {8, 8});
+  const auto entries = legendOf(test::sampleMap(), furniture(), FigureStyle::kPaper);
+  ASSERT_EQ(entries.size(), 6u) << "three classes, obstacle, free, path";
+  EXPECT_EQ(entries[2].text, "swivel chair (1)");
+  EXPECT_EQ(legendRows(canvas, entries, 1e6), 1);
+  EXPECT_EQ(legendRows(canvas, entries, 1), 6);
+  double widest = 0, all = 0;
+  for (const auto& entry : entries) {
+    const double width = entry.width + 20 + canvas.textWidth(entry.text, {kLegendText_pt});
+    widest = std::max(widest, width), all += width;
+  }
+  EXPECT_GE(legendRows(canvas, entries, all / 2), 2);
+  for (const double width : {0.7, 6.0, 14.1, 50.0, 333.0}) {
+    const double bar = scaleBarLength(width), digit = bar / std::pow(10, std::floor(std::log10(bar) + 1e-9));
+    EXPECT_TRUE(std::abs(digit - 1) < 1e-9 || std::abs(digit - 2) < 1e-9 || std::abs(digit - 5) < 1e-9)
+        << bar;
+    EXPECT_GT(bar, width / 8);
+    EXPECT_LT(bar, width / 3.1);
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph
