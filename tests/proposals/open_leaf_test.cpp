@@ -110,5 +110,15 @@ TEST(OpenLeaf, NoDoorwayInAWholeWall) {
   }
 }
 
+// Where the hinge is cannot be told, as something stands before it; but the leaf is plainly open: no door is
+// better than one that stands in the room. At the end of a corridor, whose walls are across the door too, it
+// is closed.
+TEST(OpenLeaf, IsNoDoorWhereItStands) {
+  Scene scene = test::sceneAhead();
+  scene.addBox(3.0, 0, 0, 6.0, 0.1, 0, 2.5, 2);
+  addLeaf(scene, 0.55, std::numbers::pi / 2);
+  EXPECT_TRUE(test::hypotheses<DoorGenerator>(leafEvidence(scene)).empty());
+}
+
 }  // namespace
 }  // namespace roomgraph

@@ -82,8 +82,13 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
     adjustHeight(placed, evidence);
     judge(placed, evidence);
   }
-  if (leaf && !guesses.empty())
-    if (const auto doorway = doorwayOfLeaf(*leaf, guesses.front(), evidence)) guesses = {*doorway};
+  if (leaf && !guesses.empty()) {
+    if (const auto doorway = doorwayOfLeaf(*leaf, guesses.front(), evidence)) {
+      guesses = {*doorway};
+    } else if (standsOpen(*leaf, evidence)) {
+      guesses.clear();
+    }
+  }
   return keepBest(guesses, {}, limits);
 }
 

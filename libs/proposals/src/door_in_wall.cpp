@@ -2,6 +2,7 @@
 // Plane of the wall beside and above a box, and the door between the box's sides on it.
 #include "door_in_wall.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -111,6 +112,15 @@ bool endsFreely(const VerticalPlane& leaf, const Eigen::Vector2d& hinge, const B
   return all >= kLeastOnWall && behind > (1 - kStrayShare) * all;
 }
 
+// Of the points, those that are behind the leaf, as nothing is that is part of its wall; 0 of too few.
+double shareBehind(const VerticalPlane& leaf, const std::vector<Eigen::Vector2d>& points) {
+  if (points.size() < kLeastOnWall) return 0;
+  const auto behind = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector2d& p) {
+    return leaf.normal.dot(p) < leaf.offset - kBehind_m;
+  });
+  return static_cast<double>(behind) / static_cast<double>(points.size());
+}
+
 // The doorway beside the hinge of an open leaf, where the wall ends: on the camera's side of the leaf, or,
 // when the leaf plainly does not stand in a wall itself, hidden behind it.
 std::optional<Doorway> besideLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
@@ -178,6 +188,19 @@ std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const Placed
     best->box_iou = on_leaf.box_iou;
   }
   return best;
+}
+
+bool standsOpen(const VerticalPlane& leaf, const BoxEvidence& evidence) {
+  bool across = false, before_space = false;
+  for (const auto& points : {wallPoints(evidence, -kEverywhere, evidence.box.u_min),
+                             wallPoints(evidence, evidence.box.u_max, kEverywhere)}) {
+    before_space |= shareBehind(leaf, points) > kStrayShare;
+    const auto wall = fitVerticalPlane(points);
+    if (!wall) continue;
+    if (isFlush(leaf, *wall)) return false;
+    across |= angleBetween(leaf, *wall) > kAjar_rad;
+  }
+  return across && before_space;
 }
 
 bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence) {

@@ -24,6 +24,10 @@ std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, 
 std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
                                          const BoxEvidence& evidence);
 
+/// Whether a wall beside the box stands across the leaf, none is flush with it, and beside it something is
+/// farther than it, as beside no closed door: the leaf is open, and the door is elsewhere.
+bool standsOpen(const VerticalPlane& leaf, const BoxEvidence& evidence);
+
 /// Whether a wall is seen on at least one side of the box and the leaf is flush with it.
 bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence);
 
