@@ -21,6 +21,7 @@ constexpr double kMinHeight = 0.15;  // m; lower points may be floor
 constexpr double kInset = 0.08;      // of the box's width, at both sides: there the points are the door frame's
 constexpr double kMaybeOpen_m = 0.25,
                  kMaybeOpen_rad = 0.6;  // standard deviations of the doorway from a leaf that may be open
+constexpr double kOfOpenLeaf = 0.3;     // of the quality: the leaf tells that there is a door, but not where
 constexpr double kHeightGate = 2;    // standard deviations by which the height may differ from the usual
 
 std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
@@ -86,7 +87,8 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
     if (const auto doorway = doorwayOfLeaf(*leaf, guesses.front(), evidence)) {
       guesses = {*doorway};
     } else if (standsOpen(*leaf, evidence)) {
-      guesses.clear();
+      addDoubt(guesses.front());
+      guesses.front().quality *= kOfOpenLeaf;
     }
   }
   return keepBest(guesses, {}, limits);
