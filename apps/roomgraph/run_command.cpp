@@ -246,6 +246,8 @@ void addRunCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
       "      --record-detections lab_boxes.rawlog\n"
       "  roomgraph run lab_boxes.rawlog -o out/again\n"
+      "The same place another day: continues the map of the first run:\n"
+      "  roomgraph run later.rawlog -o out/later --map out/lab/map.rgmap\n"
       "The same again, from the files of a run:\n"
       "  roomgraph run lab.rawlog -o out/again --config out/lab/config.ini\n"
       "Ctrl-C (or SIGTERM, SIGHUP) ends the replay; the results then cover what was replayed, and the exit "
