@@ -131,6 +131,19 @@ TEST_F(Evidence, YawsAcrossAreTurnedAndOppositeOnesAreNot) {
   EXPECT_NEAR(of({sofa}).turned, 1 / 2.5, 1e-12) << "weighted by score";
 }
 
+// One sighting .2 s after an image that shows the sofa well, one when no image did, laid across.
+TEST_F(Evidence, SightingsInGoodViewSayHowItIsTurnedWhenThereAreAny) {
+  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  frames_ = {frameWith(0, 0.2, {sofa}), frameWith(1, 5, {sofa})};
+  for (auto& frame : frames_) frame.decisions[0].seen.measurement.proposal.has_yaw = true;
+  frames_[1].decisions[0].seen.world_from_object = poseFromYpr(3, 0, 0, M_PI / 2, 0, 0);
+  EXPECT_NEAR(of({sofa}).turned, 0.5, 1e-12) << "without images all count";
+  memory_.add(frameOfDepth(0, 0, 2.6F), Pose3::Identity());
+  EXPECT_NEAR(of({sofa}).turned, 0, 1e-12);
+  frames_.erase(frames_.begin());
+  EXPECT_NEAR(of({sofa}).turned, 1, 1e-12) << "seen in no good view at all";
+}
+
 // A chair before another one covers its box; the boxes of the one behind are contested in frames that do not
 // show the first beside it.
 TEST_F(Evidence, BoxesThatAnUnseenLandmarkCoversAreContested) {

@@ -127,5 +127,21 @@ TEST(OpenLeaf, SaysLittleWhereTheDoorIs) {
   EXPECT_GT(std::sqrt(open[0].covariance->trace() / 2), 0.5);
 }
 
+// What a detector takes for a door, parallel to its wall and well before it, is a cupboard's front; in the
+// wall's face it is a door.
+TEST(OpenLeaf, ACupboardsFrontSaysLittle) {
+  const auto before = [](double wall_m) {
+    Scene scene = test::sceneAhead();
+    scene.addBox(3.0, 0, 0, 6.0, 0.1, 0, 2.5, 2);
+    scene.addBox(kFace_m - wall_m, 0, 0, 0.9, 0.03, 0.01, 2.05, 1);
+    return test::hypotheses<DoorGenerator>(leafEvidence(scene));
+  };
+  const auto cupboard = before(0.4), door = before(0.02);
+  ASSERT_FALSE(cupboard.empty());
+  ASSERT_FALSE(door.empty());
+  EXPECT_LT(cupboard[0].quality, 0.3);
+  EXPECT_GT(door[0].quality, 0.5);
+}
+
 }  // namespace
 }  // namespace roomgraph

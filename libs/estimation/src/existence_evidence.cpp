@@ -38,14 +38,19 @@ struct LengthSeen {
   double weight = 0, information = 0;  // 1/m^2
 };
 
+// Sums of the weights of sightings that have a yaw, and of those whose yaw is another one.
+struct YawsSeen {
+  double weight = 0, turned = 0;
+};
+
 struct SightingSums {
   int count = 0, contested = 0, placed = 0;
-  double weight = 0, score = 0, with_yaw = 0, turned = 0, outdone = 0,
-         mislabelled = 0;  // weighted by the sightings' weights
+  double weight = 0, score = 0, outdone = 0, mislabelled = 0;  // weighted by the sightings' weights
   double scatter = 0;
+  YawsSeen yaws, in_good_view;
   std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
   std::map<int, LengthSeen> lengths;  // by direction
-  std::set<double> times;  // s
+  std::set<double> times;             // s
 };
 
 double normalisedDistance2(const Landmark& landmark, const WorldMeasurement& seen) {
@@ -103,8 +108,14 @@ bool isOutdone(const ObjectDecision& decision, const ObjectFrame& frame) {
   });
 }
 
+// `views`: times, sorted.
+bool within(const std::vector<double>& views, double t) {
+  const auto next = std::lower_bound(views.begin(), views.end(), t - kSameMoment_s);
+  return next != views.end() && *next <= t + kSameMoment_s;
+}
+
 void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& seen, NodeId node, double t,
-         const Eigen::Vector3d& camera_in_world) {
+         const Eigen::Vector3d& camera_in_world, const std::vector<double>& good_views) {
   const double weight = sightingWeight(seen.measurement);
   const Proposal& proposal = seen.measurement.proposal;
   ++sums.count;
@@ -123,13 +134,17 @@ void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& s
   // One that took width for depth does not measure the length.
   if (!turned) length.information += weight * proposal.size_information[longerSide(landmark.shape)];
   if (!proposal.has_yaw) return;
-  sums.with_yaw += weight;
-  if (turned) sums.turned += weight;
+  const double turned_weight = turned ? weight : 0;
+  sums.yaws.weight += weight, sums.yaws.turned += turned_weight;
+  if (!within(good_views, t)) return;
+  sums.in_good_view.weight += weight, sums.in_good_view.turned += turned_weight;
 }
+
+using GoodViews = std::map<LandmarkId, std::vector<double>>;  // times, sorted, s
 
 std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
                                                    const std::vector<ObjectFrame>& frames,
-                                                   const KeyPoses& poses) {
+                                                   const KeyPoses& poses, const GoodViews& good_views) {
   std::map<LandmarkId, const Landmark*> known;
   for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
   std::map<LandmarkId, SightingSums> out;
@@ -142,7 +157,8 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
       if (found == known.end()) continue;
       const Landmark& landmark = *found->second;
       SightingSums& sums = out[landmark.id];
-      add(sums, landmark, decision.seen, poses.nearest(frame.t).id, frame.t, world_from_camera.translation());
+      add(sums, landmark, decision.seen, poses.nearest(frame.t).id, frame.t, world_from_camera.translation(),
+          good_views.at(landmark.id));
       const Detection& detection = decision.seen.measurement.detection;
       const double weight = sightingWeight(decision.seen.measurement);
       if (isOutdone(decision, frame)) sums.outdone += weight;
@@ -166,8 +182,10 @@ void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
   evidence.mislabelled = sums.mislabelled / sums.weight;
   evidence.outdone = sums.outdone / sums.weight;
-  evidence.turned = sums.with_yaw > 0 ? sums.turned / sums.with_yaw : 0;
   evidence.scatter = std::log(kLeastScatter + (sums.placed ? sums.scatter / sums.placed : 0));
+  // What is far off or half hidden is often laid across: that says little about the object.
+  const YawsSeen& yaws = sums.in_good_view.weight > 0 ? sums.in_good_view : sums.yaws;
+  evidence.turned = yaws.weight > 0 ? yaws.turned / yaws.weight : 0;
 }
 
 // Each place counts once: errors of a detector repeat while the view is the same. One of each is added, so
@@ -312,13 +330,15 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
                                                  const std::vector<ObjectFrame>& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
                                                  const ObjectDatabase& database) {
-  auto sums = sumsBySightings(landmarks, frames, poses);
+  GoodViews good_views;
+  for (const auto& landmark : landmarks) good_views[landmark.id] = views.timesInGoodView(landmark);
+  auto sums = sumsBySightings(landmarks, frames, poses, good_views);
   std::vector<ExistenceEvidence> out;
   for (const auto& landmark : landmarks) {
     ExistenceEvidence evidence;
     evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
     setSightings(evidence, sums[landmark.id]);
-    evidence.detected = detectionLogOdds(sums[landmark.id].times, views.timesInGoodView(landmark));
+    evidence.detected = detectionLogOdds(sums[landmark.id].times, good_views[landmark.id]);
     if (const auto own = landmark.class_posterior.find(landmark.class_name);
         own != landmark.class_posterior.end())
       evidence.label = own->second;
@@ -334,11 +354,6 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
 }
 
 namespace {
-
-bool within(const std::vector<double>& times, double t) {
-  const auto next = std::lower_bound(times.begin(), times.end(), t - kSameMoment_s);
-  return next != times.end() && *next <= t + kSameMoment_s;
-}
 
 // Shares: of the points, those about which something is known; of these, those that are filled.
 std::pair<double, double> knownAndFilled(const std::vector<RayCounts>& counts) {

@@ -86,7 +86,7 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
   if (leaf && !guesses.empty()) {
     if (const auto doorway = doorwayOfLeaf(*leaf, guesses.front(), evidence)) {
       guesses = {*doorway};
-    } else if (standsOpen(*leaf, evidence)) {
+    } else if (standsOpen(*leaf, evidence) || isFurniture(*leaf, evidence)) {
       addDoubt(guesses.front());
       guesses.front().quality *= kOfOpenLeaf;
     }

@@ -28,6 +28,9 @@ constexpr double kBesideHinge_m = 1.2;  // wall points farther off may be anothe
 constexpr double kStrayShare = 0.1;     // of points that may be elsewhere
 constexpr double kBehind_m = 0.25;      // what is not part of a wall is so far behind it
 
+// The front of a cupboard or a shelf is so far before its wall.
+constexpr double kCupboardFrom_m = 0.12, kCupboardTo_m = 0.7;
+
 constexpr int kLeastOnWall = 12;  // points on a side of the box
 constexpr double kLeastShareOnWall = 0.4;
 
@@ -201,6 +204,21 @@ bool standsOpen(const VerticalPlane& leaf, const BoxEvidence& evidence) {
     across |= angleBetween(leaf, *wall) > kAjar_rad;
   }
   return across && before_space;
+}
+
+bool isFurniture(const VerticalPlane& leaf, const BoxEvidence& evidence) {
+  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
+  bool before_wall = false;
+  for (const auto& points : {wallPoints(evidence, -kEverywhere, evidence.box.u_min),
+                             wallPoints(evidence, evidence.box.u_max, kEverywhere), wallPoints(evidence)}) {
+    const auto wall = fitVerticalPlane(points);
+    if (!wall) continue;
+    if (isFlush(leaf, *wall)) return false;
+    const double before = wall->normal.dot(middle) - wall->offset;
+    before_wall |=
+        angleBetween(leaf, *wall) <= kOpen_rad && before > kCupboardFrom_m && before < kCupboardTo_m;
+  }
+  return before_wall;
 }
 
 bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence) {

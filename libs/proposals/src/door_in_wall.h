@@ -28,6 +28,9 @@ std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const Placed
 /// farther than it, as beside no closed door: the leaf is open, and the door is elsewhere.
 bool standsOpen(const VerticalPlane& leaf, const BoxEvidence& evidence);
 
+/// Whether the plane stands before a parallel wall as a cupboard does, and in none: its front, not a door.
+bool isFurniture(const VerticalPlane& leaf, const BoxEvidence& evidence);
+
 /// Whether a wall is seen on at least one side of the box and the leaf is flush with it.
 bool isClosed(const VerticalPlane& leaf, const BoxEvidence& evidence);
 
