@@ -3,6 +3,7 @@
 #include "roomgraph/catalogue/comparison.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <unordered_map>
@@ -117,6 +118,7 @@ void adjust(std::vector<FigureRow>& rows) {
 
 std::string decimal(double value, int decimals) {
   char text[48];
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;  // no "-0.00"
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return text;
 }

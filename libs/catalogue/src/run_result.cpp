@@ -109,27 +109,35 @@ void addNumbers(const Json& json, const std::string& name, std::map<std::string,
 
 // What nlohmann-json or the format object to, with the file's name.
 template <class Read>
-auto readJsonFile(const std::filesystem::path& file, Read read) {
-  const Json json = parseJson<Json>(readTextFile(file), file.string());
+auto readJsonText(const std::string& text, const std::string& name, Read read) {
+  const Json json = parseJson<Json>(text, name);
   try {
     return read(json);
   } catch (const std::exception& error) {
-    throw InputError(file.string() + ": " + firstLine(error));
+    throw InputError(name + ": " + firstLine(error));
   }
 }
 
 }  // namespace
 
+std::string textOfRunResult(const RunResult& result) {
+  return resultJson(result).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunResult runResultOfText(const std::string& text, const std::string& name) {
+  return readJsonText(text, name, resultOf);
+}
+
 RunResult readRunResult(const std::filesystem::path& file) {
-  return readJsonFile(file, resultOf);
+  return runResultOfText(readTextFile(file), file.string());
 }
 
 void writeRunResult(const RunResult& result, const std::filesystem::path& file) {
-  writeFileAtomically(file, resultJson(result).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  writeFileAtomically(file, textOfRunResult(result));
 }
 
 std::map<std::string, double> numbersOf(const std::filesystem::path& report, const std::string& prefix) {
-  return readJsonFile(report, [&prefix](const Json& json) {
+  return readJsonText(readTextFile(report), report.string(), [&prefix](const Json& json) {
     std::map<std::string, double> out;
     addNumbers(json, prefix, out);
     return out;
@@ -137,7 +145,8 @@ std::map<std::string, double> numbersOf(const std::filesystem::path& report, con
 }
 
 std::map<std::string, StageTotal> stageTotalsOf(const std::filesystem::path& summary) {
-  return readJsonFile(summary, [](const Json& json) { return timingsOf(json.at("timings")); });
+  return readJsonText(readTextFile(summary), summary.string(),
+                      [](const Json& json) { return timingsOf(json.at("timings")); });
 }
 
 }  // namespace roomgraph

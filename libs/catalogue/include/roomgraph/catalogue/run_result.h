@@ -63,6 +63,10 @@ RunResult readRunResult(const std::filesystem::path& file);
 /// Written to the disk, then renamed: the last thing that a run does. Throws RunError.
 void writeRunResult(const RunResult& result, const std::filesystem::path& file);
 
+/// The text of such a file, and back. `name`: of the text, for messages. Throws InputError.
+std::string textOfRunResult(const RunResult& result);
+RunResult runResultOfText(const std::string& text, const std::string& name);
+
 /// Every number of a report by its place in it ("per_class.sofa.correct"), behind `prefix` and a dot. Lists
 /// are left out. Throws InputError: not readable, or no JSON.
 std::map<std::string, double> numbersOf(const std::filesystem::path& report, const std::string& prefix);
