@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wilcoxon's signed-rank test.
+// Wilcoxon's signed-rank test and Holm's correction of many p-values.
 #pragma once
 
 #include <cstddef>
