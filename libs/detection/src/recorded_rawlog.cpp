@@ -3,6 +3,8 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <filesystem>
+
 #include "recorded_detector.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
@@ -24,10 +26,10 @@ void addRecord(const mrpt::serialization::CSerializable::Ptr& object,
 }  // namespace
 
 std::vector<CObservationDetections> readDetectionRawlog(const std::string& file) {
-  mrpt::io::CFileGZInputStream stream;
-  if (!stream.open(file)) throw InputError(file + ": cannot be read");
+  if (!std::filesystem::is_regular_file(file)) throw InputError(file + ": cannot be read");
   std::vector<CObservationDetections> out;
   try {
+    mrpt::io::CFileGZInputStream stream(file);
     auto archive = mrpt::serialization::archiveFrom(stream);
     while (!stream.checkEOF()) addRecord(archive.ReadObject(), out);
   } catch (const mrpt::serialization::CExceptionEOF&) {  // the usual end: gzip does not know it before
