@@ -33,7 +33,7 @@ class Keys : public ::testing::Test {
     return {before.first != after.first, before.second != after.second};
   }
   const TemporaryFolder folder;
-  FileHashes hashes{nullptr};
+  FileHashes hashes{nullptr, nullptr};
   RunNeeds needs;
   BatchVariant variant;
   std::string recording = "r", program = "p";
@@ -114,11 +114,11 @@ TEST_F(Keys, HashesAreThoseOfTheBytes) {
 TEST_F(Keys, HashesAreRemembered) {
   Catalogue catalogue = Catalogue::forWriting(folder.file("c"));
   const auto file = folder.write("big", "abc");
-  EXPECT_EQ(FileHashes(&catalogue).of(file), sha256Of("abc"));
+  EXPECT_EQ(FileHashes(&catalogue, &catalogue).of(file), sha256Of("abc"));
   catalogue.rememberChecksum(file, stampOf(file), "remembered");
-  EXPECT_EQ(FileHashes(&catalogue).of(file), "remembered");
+  EXPECT_EQ(FileHashes(&catalogue, &catalogue).of(file), "remembered");
   folder.write("big", "abcd");
-  EXPECT_EQ(FileHashes(&catalogue).of(file), sha256Of("abcd"));
+  EXPECT_EQ(FileHashes(&catalogue, &catalogue).of(file), sha256Of("abcd"));
 }
 
 TEST_F(Keys, WhatChangedIsSaidInWords) {

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "batch_at_work.h"
 #include "roomgraph/core/errors.h"
@@ -43,7 +44,10 @@ BatchOutcome runBatch(const BatchPlan& plan, const fs::path& folder, const Batch
 
 std::string describePlan(const BatchPlan& plan, const fs::path& folder, const BatchProgram& program,
                          RunInspector& inspector) {
-  FileHashes hashes(nullptr);
+  std::optional<Catalogue> catalogue;
+  if (fs::exists(folder / "catalogue.sqlite"))
+    catalogue.emplace(Catalogue::forReading(folder / "catalogue.sqlite"));
+  FileHashes hashes(catalogue ? &*catalogue : nullptr, nullptr);
   const RunPreparer preparer(plan, folder, program, inspector, hashes);
   std::string text;
   std::size_t needed = 0;

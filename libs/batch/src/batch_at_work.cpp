@@ -45,7 +45,7 @@ BatchAtWork::BatchAtWork(const BatchPlan& plan, const fs::path& folder, const Ba
       program_(program),
       engine_(engine),
       catalogue_(catalogue),
-      hashes_(&catalogue),
+      hashes_(&catalogue, &catalogue),
       preparer_(plan, folder, program, inspector, hashes_),
       forecast_(catalogue.pastCosts()),
       display_(view) {
@@ -133,6 +133,7 @@ BatchAtWork::Step BatchAtWork::tryRun(std::size_t run) {
 }
 
 void BatchAtWork::launch(std::size_t run, PreparedRun prepared) {
+  preparer_.requireSameProgram();
   if (!prepared.detections.empty() && prepared.task.run_again) {
     const bool there = fs::exists(prepared.detections);
     if (!there) {

@@ -16,7 +16,7 @@ std::string FileHashes::of(const std::filesystem::path& file) {
   auto hash = catalogue_ ? catalogue_->checksum(file, stamp) : std::nullopt;
   if (!hash || stamp.empty()) {
     hash = sha256OfFile(file);
-    if (catalogue_) catalogue_->rememberChecksum(file, stamp, *hash);
+    if (memory_) memory_->rememberChecksum(file, stamp, *hash);
   }
   known = {stamp, *hash};
   return *hash;

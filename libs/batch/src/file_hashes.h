@@ -14,8 +14,9 @@ namespace roomgraph {
 /// SHA-256 of files. A file that has the size and time of an earlier look is not read again.
 class FileHashes {
  public:
-  /// `catalogue` outlives it; nothing: forgotten at the end.
-  explicit FileHashes(Catalogue* catalogue) : catalogue_(catalogue) {}
+  /// Both outlive it. `known`: where earlier looks are remembered, `memory`: where new ones are put; nothing:
+  /// nowhere.
+  FileHashes(const Catalogue* known, Catalogue* memory) : catalogue_(known), memory_(memory) {}
   /// Throws InputError: cannot be read.
   std::string of(const std::filesystem::path& file);
   /// Of several files together.
@@ -24,7 +25,8 @@ class FileHashes {
   std::string ofRecording(const std::filesystem::path& rawlog);
 
  private:
-  Catalogue* catalogue_;
+  const Catalogue* catalogue_;
+  Catalogue* memory_;
   std::map<std::string, std::pair<std::string, std::string>> known_;  ///< stamp and hash by path
 };
 

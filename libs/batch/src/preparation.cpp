@@ -75,6 +75,13 @@ RunResult RunPreparer::planned(std::size_t run) const {
   return out;
 }
 
+void RunPreparer::requireSameProgram() const {
+  if (hashes_.of(program_.parts) != program_hash_)
+    throw RunError(
+        program_.file.string() +
+        ": has been replaced while the batch was at work; the same command again goes on with the new one");
+}
+
 std::vector<std::string> RunPreparer::runWords(std::size_t run, const fs::path& rawlog) const {
   const BatchVariant& variant = plan_.variants[plan_.runs[run].variant];
   const std::string folder = folderOf(run).string();

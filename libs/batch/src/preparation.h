@@ -35,6 +35,8 @@ class RunPreparer {
 
   /// Throws Error: what cannot be run.
   PreparedRun prepare(std::size_t run) const;
+  /// Throws RunError: the program is not the one any more with which the batch began.
+  void requireSameProgram() const;
   /// What is known of a run before its input is looked at.
   RunResult planned(std::size_t run) const;
   std::filesystem::path folderOf(std::size_t run) const { return folder_ / "runs" / plan_.runs[run].name; }
