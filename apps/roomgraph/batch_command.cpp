@@ -150,7 +150,7 @@ void addBatchCommand(CLI::App& app) {
       "variant\n"
       "  roomgraph batch compare out/batch --baseline default\n"
       "  roomgraph batch report out/batch                          # out/batch/report.html\n"
-      "  roomgraph batch query out/batch \"SELECT run, wall_s FROM runs ORDER BY wall_s DESC LIMIT 5\"\n"
+      "  roomgraph batch query out/batch \"SELECT name, wall_s FROM runs ORDER BY wall_s DESC LIMIT 5\"\n"
       "  roomgraph batch export out/batch csv -o figures.csv\n"
       "A recording that has the name of one of these commands is written ./status.\n"
       "Job files: docs/batch.md. What is complete and unchanged is not done again: after Ctrl-C (exit code "

@@ -34,6 +34,11 @@ TEST(BatchPage, LinksTheReportsThatAreThere) {
   EXPECT_THAT(page, Not(HasSubstr("<hall>")));
   EXPECT_THAT(page, HasSubstr("Differences from default"));
   EXPECT_THAT(page, HasSubstr("7 runs: 6 complete, 1 failed"));
+  EXPECT_THAT(page, Not(HasSubstr("<h2>a lab</h2>"))) << "the only group with complete runs";
+  catalogue.import(madeUpResult("shed", 1, "default"), "");
+  const std::string groups = batchPage(catalogue, {}, {"two", folder.path() / "runs", "runs"});
+  EXPECT_THAT(groups, HasSubstr("<h2>a lab</h2>"));
+  EXPECT_THAT(groups, Not(HasSubstr("<h2>shed</h2>"))) << "one input alone";
   EXPECT_THAT(page, Not(HasSubstr("://"))) << "it loads nothing";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
 
 namespace roomgraph {
 namespace {
@@ -157,6 +158,17 @@ std::string runsHtml(const std::vector<RunLine>& runs, const PagePlaces& places)
          tableHtml({"report", "input", "seed", "variant", "status", "time", "program", "log"}, rows);
 }
 
+// Groups with more than one input: for one alone there is its own report.
+std::vector<std::string> groupsOfSeveral(const std::vector<RunLine>& runs) {
+  std::map<std::string, std::set<std::string>> inputs;
+  for (const auto& run : runs)
+    if (run.status == "complete") inputs[run.group].insert(run.input);
+  std::vector<std::string> groups;
+  for (const auto& [group, names] : inputs)
+    if (names.size() > 1) groups.push_back(group);
+  return groups;
+}
+
 std::string headHtml(const std::string& title, const std::vector<RunLine>& runs, const Comparison& all) {
   std::map<std::string, int> by_status;
   for (const auto& run : runs) ++by_status[run.status];
@@ -184,7 +196,7 @@ std::string batchPage(const Catalogue& catalogue, const ComparisonChoice& choice
       " is significant (below).</p>\n" + spreadHtml(all);
   body += differencesHtml(all);
   if (all.groups.size() > 1)
-    for (const auto& group : all.groups) {
+    for (const auto& group : groupsOfSeveral(runs)) {
       ComparisonChoice part = choice;
       part.group = group;
       part.baseline.clear();
