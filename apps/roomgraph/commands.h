@@ -23,6 +23,9 @@ void addBatchCommand(CLI::App& app);
 void addMapCommand(CLI::App& app);
 void addModelsCommand(CLI::App& app);
 void addViewCommand(CLI::App& app);
+// These two describe all commands of `app`, also those added after them.
+void addCompletionCommand(CLI::App& app);
+void addManualCommand(CLI::App& app);
 
 // Checks of numbers on the command line.
 CLI::Validator atLeastZero();

@@ -75,6 +75,8 @@ void addCommands(CLI::App& app) {
   addMapCommand(app);
   addModelsCommand(app);
   addViewCommand(app);
+  addCompletionCommand(app);
+  addManualCommand(app);
 }
 
 int runCommand(CLI::App& app, int argc, char** argv) {

@@ -208,6 +208,15 @@ void run(const RunOptions& options) {
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
 }
 
+// Further files, mostly for other programs.
+void addFileOptions(CLI::App& command, RunOptions& options) {
+  command.add_option("--save-detections", options.detections,
+                     "also write this rawlog of nothing but what the detector found, for --set "
+                     "detection.file=FILE.rawlog; none when interrupted");
+  command.add_option("--progress-file", options.progress,
+                     "file that holds the share of the replay that is done, for programs that watch");
+}
+
 }  // namespace
 
 void addRunCommand(CLI::App& app) {
@@ -241,11 +250,7 @@ void addRunCommand(CLI::App& app) {
   command->add_option("--record-detections", options->recording,
                       "also write this rawlog: the input with what the detector found; a run of it needs no "
                       "network");
-  command->add_option("--save-detections", options->detections,
-                      "also write this rawlog of nothing but what the detector found, for --set "
-                      "detection.file=FILE.rawlog; none when interrupted");
-  command->add_option("--progress-file", options->progress,
-                      "file that holds the share of the replay that is done, for programs that watch");
+  addFileOptions(*command, *options);
   command->add_option("--debug-images", options->pictures,
                       "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command->add_flag("--quiet", options->quiet, "no progress");
@@ -264,6 +269,8 @@ void addRunCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
       "      --record-detections lab_boxes.rawlog\n"
       "  roomgraph run lab_boxes.rawlog -o out/again\n"
+      "The same place another day: continues the map of the first run:\n"
+      "  roomgraph run later.rawlog -o out/later --map out/lab/map.rgmap\n"
       "The same again, from the files of a run:\n"
       "  roomgraph run lab.rawlog -o out/again --config out/lab/config.ini\n"
       "Ctrl-C (or SIGTERM, SIGHUP) ends the replay; the results then cover what was replayed, and the exit "

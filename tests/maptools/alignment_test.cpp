@@ -154,8 +154,11 @@ TEST(MapAlignment, MovedObjectsHaveTheTransformsUncertainty) {
 }
 
 TEST(MapAlignment, MovedGridShowsTheSameWallsOnTheOtherLattice) {
-  const CSemanticMap a = sessionMap(test::flatWalls(), {}, {0.013, 0.02, 0}),
-                     b = sessionMap(test::flatWalls(), {}, {2, 1, 0.8});
+  const CSemanticMap a = sessionMap(test::flatWalls(), {}, {0.013, 0.02, 0});
+  CSemanticMap b = sessionMap(test::flatWalls(), {}, {2, 1, 0.8});
+  KeyView view;
+  view.world_from_camera = b.world_from_robot[2].pose;
+  b.views = {view};
   MapAlignment alignment;
   alignment.a_from_b = Pose2{0.013, 0.02, 0} * Pose2{2, 1, 0.8}.inverse();
   const CSemanticMap moved = movedMap(b, alignment, a.occupancy.get());
@@ -168,6 +171,7 @@ TEST(MapAlignment, MovedGridShowsTheSameWallsOnTheOtherLattice) {
     EXPECT_LT(nearest, 0.05 + 0.036) << "half a cell's diagonal farther than drawn";
   }
   EXPECT_NEAR(moved.world_from_robot[2].pose.translation().x(), 3.013, 1e-9);
+  EXPECT_TRUE(moved.views.at(0).world_from_camera.isApprox(moved.world_from_robot[2].pose, 1e-9));
 }
 
 }  // namespace

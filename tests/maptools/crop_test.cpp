@@ -14,11 +14,18 @@ TEST(MapCrop, RectangleKeepsWhatIsInside) {
   CSemanticMap map = test::sampleMap();
   map.seen[map.landmarks[0].id] = {1000, 1001};
   map.seen[map.landmarks[1].id] = {1000, 1002};
+  for (const auto& landmark : map.landmarks) map.weights[landmark.id] = 7;
+  map.views.resize(2);
+  map.views[0].world_from_camera.translation() = Eigen::Vector3d(1, 1, 1.2);
+  map.views[1].world_from_camera.translation() = Eigen::Vector3d(1, 3, 1.2);
   map.occupancy->setCell(40, 60, 0.25f);
   const CSemanticMap part = cropped(map, {{-0.51, 0.26}, {2.02, 0.26}, {2.02, 1.74}, {-0.51, 1.74}});
   ASSERT_EQ(part.landmarks.size(), 1u);
   EXPECT_EQ(part.landmarks[0].id.value, 1);
   EXPECT_EQ(part.seen.size(), 1u);
+  EXPECT_EQ(part.weights.size(), 1u);
+  ASSERT_EQ(part.views.size(), 1u) << "an image from outside would put the robot there";
+  EXPECT_NEAR(part.views[0].world_from_camera.translation().y(), 1, 1e-12);
   ASSERT_TRUE(part.occupancy);
   // Cells of 0.05 m from -1 and -2; those with their centre inside stay.
   EXPECT_NEAR(part.occupancy->getXMin(), -0.5, 1e-5);

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "roomgraph/association/landmark_union.h"
 #include "roomgraph/maptools/map_union.h"
 #include "two_sessions.h"
 
@@ -55,6 +56,8 @@ TEST(MapUnion, ObjectsAreFusedByInformation) {
   of_b.landmarks = {b};
   of_a.seen[a.id] = {10, 20};
   of_b.seen[b.id] = {30, 45};
+  of_a.weights[a.id] = 20;
+  of_b.weights[b.id] = 4;
   const CSemanticMap all = unitedMaps(of_a, of_b, {stayedPair(a, b)});
   ASSERT_EQ(all.landmarks.size(), 1u);
   const Landmark& one = all.landmarks[0];
@@ -65,12 +68,33 @@ TEST(MapUnion, ObjectsAreFusedByInformation) {
   EXPECT_NEAR(one.covariance(1, 1), 1 / (1 / 0.04 + 1 / 0.02), 1e-9);
   EXPECT_NEAR(one.yaw, 0.2, 1e-6) << "half a turn apart is the same sofa";
   EXPECT_NEAR(one.shape.width, 1.7, 1e-9);
-  EXPECT_NEAR(one.existence, 1 - 0.2 * 0.3, 1e-9);
-  EXPECT_NEAR(one.class_posterior.at("sofa"), 0.9, 1e-9);
-  EXPECT_NEAR(one.class_posterior.at("bed"), 0.1, 1e-9);
+  EXPECT_NEAR(one.existence, 28.0 / 31, 1e-9) << "odds 4 and 7 / 3";
+  EXPECT_NEAR(all.weights.at(one.id), 24, 1e-9);
+  const auto classes = combinedClasses(a.class_posterior, 20, b.class_posterior, 4);
+  EXPECT_EQ(one.class_posterior, classes) << "by the weights of the sightings, not their number";
   EXPECT_EQ(one.observations, 40);
   EXPECT_EQ(all.seen.at(one.id).first, 10);
   EXPECT_EQ(all.seen.at(one.id).last, 45);
+}
+
+KeyView viewAt(double t, double x) {
+  KeyView out;
+  out.t = t;
+  out.world_from_camera.translation().x() = x;
+  return out;
+}
+
+TEST(MapUnion, OfTwoViewsOfAPlaceTheLaterOneStays) {
+  CSemanticMap a, b;
+  a.views = {viewAt(1, 0), viewAt(2, 5)};
+  b.views = {viewAt(11, 5.1), viewAt(12, 9)};
+  const auto times = [](const CSemanticMap& map) {
+    std::vector<double> out;
+    for (const auto& view : map.views) out.push_back(view.t);
+    return out;
+  };
+  EXPECT_EQ(times(unitedMaps(a, b, {})), (std::vector<double>{1, 11, 12}));
+  EXPECT_EQ(times(unitedMaps(b, a, {})), (std::vector<double>{1, 11, 12}));
 }
 
 TEST(MapUnion, ChangesAreApplied) {

@@ -12,6 +12,8 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
 foreach(file bin/roomgraph share/roomgraph/objects.ini share/roomgraph/networks.json include/roomgraph/core/config.h
+        share/bash-completion/completions/roomgraph share/zsh/site-functions/_roomgraph
+        share/fish/vendor_completions.d/roomgraph.fish share/man/man1/roomgraph.1
         ${LIBDIR}/cmake/roomgraph/roomgraph-config.cmake)
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "not installed: ${file}")

@@ -27,6 +27,11 @@ void addVotes(const std::map<std::string, double>& posterior, double weight,
 
 }  // namespace
 
+double weightOfSightings(const CSemanticMap& map, const Landmark& landmark) {
+  const auto found = map.weights.find(landmark.id);
+  return found == map.weights.end() ? landmark.observations : found->second;
+}
+
 Landmark fusedEstimates(const Landmark& a, Landmark b) {
   Landmark out = a;
   if (std::abs(wrapAngle(b.yaw - a.yaw)) > std::numbers::pi / 2) b.yaw = wrapAngle(b.yaw + std::numbers::pi);

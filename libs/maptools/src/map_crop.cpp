@@ -56,14 +56,20 @@ CSemanticMap cropped(const CSemanticMap& map, const Polygon2& polygon) {
   out.landmarks.clear();
   out.world_from_robot.clear();
   out.seen.clear();
+  out.weights.clear();
   if (map.occupancy) out.occupancy = cutGrid(*map.occupancy, polygon);
   for (const auto& landmark : map.landmarks) {
     if (!contains(polygon, landmark.position.head<2>())) continue;
     out.landmarks.push_back(landmark);
     if (const auto seen = map.seen.find(landmark.id); seen != map.seen.end()) out.seen.insert(*seen);
+    if (const auto weight = map.weights.find(landmark.id); weight != map.weights.end())
+      out.weights.insert(*weight);
   }
   for (const auto& stamped : map.world_from_robot)
     if (contains(polygon, stamped.pose.translation().head<2>())) out.world_from_robot.push_back(stamped);
+  std::erase_if(out.views, [&](const KeyView& view) {
+    return !contains(polygon, view.world_from_camera.translation().head<2>());
+  });
   const auto box = boundsOf(polygon);
   char text[128];
   std::snprintf(text, sizeof text, "cut to a polygon within x %.2f to %.2f, y %.2f to %.2f m", box.min().x(),

@@ -4,14 +4,16 @@
 
 #include "region.h"
 #include "roomgraph/association/landmark_union.h"
+#include "roomgraph/tracking/key_views.h"
 
 namespace roomgraph {
 namespace {
 
 using mrpt::maps::COccupancyGridMap2D;
 
-constexpr double kLeastExistence = 0.5, kSurest = 0.999;
+constexpr double kLeastExistence = 0.5;
 constexpr float kSurestCell = 0.99f;
+constexpr double kViewsApart_m = 1, kViewsApart_rad = 0.7;  // as a run keeps them
 
 // Where a grid's cell (0, 0) lies in another grid of the same lattice.
 std::pair<int, int> offsetIn(const COccupancyGridMap2D& outer, const COccupancyGridMap2D& inner) {
@@ -50,14 +52,11 @@ COccupancyGridMap2D::Ptr unitedGrids(const COccupancyGridMap2D::Ptr& a, const CO
   return out;
 }
 
-// Of two estimates of one object; the class by their sightings.
-Landmark fused(const Landmark& a, const Landmark& b) {
+// Of two estimates of one object; the class by the weights of their sightings.
+Landmark fused(const Landmark& a, double weight_a, const Landmark& b, double weight_b) {
   Landmark out = fusedEstimates(a, b);
-  const double seen_a = std::max(1, a.observations), seen_b = std::max(1, b.observations),
-               weight = seen_b / (seen_a + seen_b);
-  for (auto& [name, probability] : out.class_posterior) probability *= 1 - weight;
-  for (const auto& [name, probability] : b.class_posterior) out.class_posterior[name] += weight * probability;
-  out.existence = std::min(kSurest, 1 - (1 - a.existence) * (1 - b.existence));
+  out.class_posterior = combinedClasses(a.class_posterior, weight_a, b.class_posterior, weight_b);
+  out.existence = combinedExistence(a.existence, b.existence);
   return out;
 }
 
@@ -81,9 +80,12 @@ void uniteObjects(const CSemanticMap& a, const CSemanticMap& b,
                   const std::vector<ObjectDifference>& difference, CSemanticMap& out) {
   std::int64_t next = freshIdAfter(a);
   out.landmarks.clear();
+  out.weights.clear();
   for (const auto& one : difference) {
+    const double before = one.before ? weightOfSightings(a, *one.before) : 0,
+                 after = one.after ? weightOfSightings(b, *one.after) : 0;
     Landmark landmark = one.before ? *one.before : *one.after;
-    if (one.change == ObjectChange::kStayed) landmark = fused(*one.before, *one.after);
+    if (one.change == ObjectChange::kStayed) landmark = fused(*one.before, before, *one.after, after);
     if (one.change == ObjectChange::kMoved) landmark = *one.after;
     landmark.id = one.before ? one.before->id : LandmarkId{next++};
     if (one.change == ObjectChange::kVanished)
@@ -93,6 +95,7 @@ void uniteObjects(const CSemanticMap& a, const CSemanticMap& b,
       continue;
     }
     noteSeen(one, landmark.id, b, out);
+    out.weights[landmark.id] = before + after;
     out.landmarks.push_back(landmark);
   }
 }
@@ -108,6 +111,14 @@ void unitePaths(const CSemanticMap& b, CSemanticMap& out) {
     out.provenance.history.push_back("poses of " + b.origin + " left out: it overlaps in time");
 }
 
+// Of two views of one place the later one; as many as the two maps had at most.
+std::vector<KeyView> unitedViews(const std::vector<KeyView>& a, const std::vector<KeyView>& b) {
+  std::vector<KeyView> all = a;
+  all.insert(all.end(), b.begin(), b.end());
+  std::stable_sort(all.begin(), all.end(), [](const KeyView& x, const KeyView& y) { return x.t < y.t; });
+  return thinnedViews(std::move(all), a.size() + b.size(), kViewsApart_m, kViewsApart_rad);
+}
+
 }  // namespace
 
 CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
@@ -119,6 +130,7 @@ CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
     out.provenance.history.push_back("of what was added: " + step);
   out.provenance.history.push_back("united with the map of " + b.origin);
   unitePaths(b, out);
+  out.views = unitedViews(a.views, b.views);
   out.origin = a.origin + " + " + b.origin;
   out.planar = a.planar && b.planar;
   return out;

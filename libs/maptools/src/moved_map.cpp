@@ -67,6 +67,7 @@ CSemanticMap movedMap(const CSemanticMap& b, const MapAlignment& alignment,
   CSemanticMap out = b;
   for (auto& landmark : out.landmarks) landmark = moved(landmark, alignment);
   for (auto& stamped : out.world_from_robot) stamped.pose = toPose3(alignment.a_from_b) * stamped.pose;
+  for (auto& view : out.views) view.world_from_camera = toPose3(alignment.a_from_b) * view.world_from_camera;
   if (!b.occupancy) return out;
   const auto& model = lattice ? *lattice : *b.occupancy;
   const Lattice target{

@@ -2,20 +2,15 @@
 // Landmarks of two sessions, their spans, and what the summary says of the earlier map.
 #include "continued_map.h"
 
+#include "roomgraph/association/landmark_union.h"
 #include "roomgraph/estimation/landmark_continuation.h"
 
 namespace roomgraph {
 namespace {
 
-// Of a map that does not say, as from a version before 2: a sighting has a weight of at most 1.
-double weightIn(const CSemanticMap& map, const Landmark& landmark) {
-  const auto found = map.weights.find(landmark.id);
-  return found == map.weights.end() ? landmark.observations : found->second;
-}
-
 std::vector<WeighedLandmark> weighed(const CSemanticMap& map) {
   std::vector<WeighedLandmark> out;
-  for (const Landmark& landmark : map.landmarks) out.push_back({landmark, weightIn(map, landmark)});
+  for (const Landmark& landmark : map.landmarks) out.push_back({landmark, weightOfSightings(map, landmark)});
   return out;
 }
 

@@ -2,9 +2,13 @@
 // Two independent estimates of one object as one landmark.
 #pragma once
 
-#include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/CSemanticMap.h"
 
 namespace roomgraph {
+
+/// Sum of the weights of a landmark's sightings. Of a map that does not say, as from a version before 2:
+/// their number, as none weighs more than 1.
+double weightOfSightings(const CSemanticMap& map, const Landmark& landmark);
 
 /// Place and yaw by the information of both (a yaw that is the opposite one is turned), size by their
 /// sightings, and the sum of these. Id, class and existence are those of `a`.
