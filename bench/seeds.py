@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates a world with N seeds, runs and evaluates each, and prints median and spread of every figure.
+"""Simulates a world with N seeds, runs and evaluates each (`roomgraph batch`), and prints median and spread of every figure.
 
     bench/seeds.py WORLD.json ... [--seeds 10] [--set k=v ...] [--variants name=k=v,k=v ...] [--out DIR]
 
@@ -9,8 +9,9 @@ A table of ablations is one command, for instance
     bench/seeds.py worlds/lab.json --variants no_lidar=lidar.enabled=false no_loops=tracking.loop_closing=false,lidar.loop_closing=false
 
 Worlds without simulated detections need --set detection.models=NETWORK.onnx.
-The variant `default` (nothing but --set) always comes first. Simulated sequences are kept in DIR/sequences and used again
-by every variant and every later call, until the world file or the simulator changes. DIR/figures.json keeps each seed's figures.
+The variant `default` (nothing but --set) always comes first. DIR/batch holds recordings, runs and the catalogue: what is complete and
+unchanged is used again by every later call. The tables come from the catalogue and name the program's revision; DIR/figures.json has each
+seed's figures.
 """
 import argparse
 import hashlib
@@ -19,6 +20,7 @@ import os
 import re
 import shlex
 import shutil
+import sqlite3
 import subprocess
 import sys
 import time
@@ -165,11 +167,12 @@ def measure(program, truth, run, handheld, settings, threads, reports_of=evaluat
     return {name: value for name, value in figures.items() if value is not None}, problems
 
 
-def table(world, results):
+def table(world, results, revisions):
     """Markdown; results: variant -> list of the seeds' figures (empty: the run failed)."""
     most = max(len(seeds) for seeds in results.values())
     lines = [f"### {world}", "",
-             f"Median (quartiles) [least .. largest] of {most} seeds; with a number in front where fewer have the figure.", "",
+             f"Median (quartiles) [least .. largest] of {most} seeds; with a number in front where fewer have the figure. "
+             f"Program {', '.join(revisions) or '-'}.", "",
              "| figure | " + " | ".join(results) + " |", "| --- |" + " --- |" * len(results)]
     rows = [("runs that failed", [str(sum(not figures for figures in seeds)) for seeds in results.values()])]
     for report, key, label, pattern in FIGURES:
@@ -182,6 +185,32 @@ def table(world, results):
     return "\n".join(lines + [f"| {label} | " + " | ".join(cells) + " |" for label, cells in rows]) + "\n"
 
 
+def job_file(arguments, seeds, variants):
+    """What `roomgraph batch` is to do, as JSON, which is YAML."""
+    return {"inputs": [{"simulate": {"world": str(world.resolve()), "seeds": f"{seeds[0]}-{seeds[-1]}"}} for world in arguments.worlds],
+            "variants": [{"name": name, "set": arguments.set + settings} for name, settings in variants.items()],
+            "limits": {"jobs": arguments.jobs, "threads": arguments.threads}}
+
+
+def catalogued(catalogue, world, seeds, variants):
+    """The figures of a world's runs, variant by variant and seed by seed; the program's revisions; what went wrong, in lines."""
+    results, revisions, problems = {name: [{} for _ in seeds] for name in variants}, set(), []
+    for run, seed, variant, status, reason, revision in catalogue.execute(
+            "SELECT runs.name, seed, variant, status, reason, revision FROM runs JOIN inputs ON inputs.id = input_id "
+            "WHERE input_group = ? ORDER BY runs.name", [world]):
+        if variant not in results or seed not in seeds:
+            continue  # of an earlier call
+        if reason:
+            problems.append(f"{run}: {reason}")
+        if status == "complete":
+            revisions.add(revision)
+            figures = dict(catalogue.execute("SELECT figure, value FROM figures WHERE run = ?", [run]))
+            figures["run.seconds"] = figures.pop("run.wall_s", None)
+            wanted = {f"{report}.{key}" for report, key, *_ in FIGURES}
+            results[variant][seeds.index(seed)] = {name: value for name, value in figures.items() if name in wanted and value is not None}
+    return results, sorted(revisions), problems
+
+
 def arguments_of(argv):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("worlds", nargs="+", type=Path, metavar="WORLD.json")
@@ -189,7 +218,8 @@ def arguments_of(argv):
     parser.add_argument("--first-seed", type=int, default=1)
     parser.add_argument("--set", nargs="+", action="extend", default=[], metavar="K=V", help="for every variant")
     parser.add_argument("--variants", nargs="+", action="extend", default=[], type=parse_variant, metavar="NAME=K=V,K=V")
-    parser.add_argument("--threads", type=int, default=0, help="of each run; 0: all cores")
+    parser.add_argument("--threads", type=int, default=1, help="of each run")
+    parser.add_argument("--jobs", type=int, default=0, help="runs at once; 0: cores / threads")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "seeds")
     parser.add_argument("--program", type=Path, default=PROGRAM)
     arguments = parser.parse_args(argv)
@@ -203,22 +233,25 @@ def arguments_of(argv):
 
 def main(argv=None):
     arguments = arguments_of(argv)
-    program, out = Program(arguments.program), arguments.out.resolve()
+    out = arguments.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
     variants = {"default": [], **dict(arguments.variants)}
+    seeds = list(range(arguments.first_seed, arguments.first_seed + arguments.seeds))
+    (out / "jobs.yaml").write_text(json.dumps(job_file(arguments, seeds, variants), indent=1) + "\n")
+    environment = {**os.environ, "XDG_DATA_HOME": os.devnull}  # no networks that somebody has installed
+    ended = subprocess.run([str(part) for part in (arguments.program, "batch", out / "jobs.yaml", "-o", out / "batch")], env=environment,
+                           stdout=subprocess.DEVNULL).returncode
+    if ended not in (0, 1):
+        return ended
+    catalogue = sqlite3.connect(out / "batch" / "catalogue.sqlite")
     everything, tables = {}, []
     for world in arguments.worlds:
-        results = {name: [] for name in variants}
-        handheld = "robot" not in json.loads(world.read_text())
-        for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds):
-            truth = sequence(program, world, seed, out / "sequences")
-            for name, settings in variants.items():
-                run = out / "runs" / world.stem / name / f"seed_{seed}"
-                figures, problems = measure(program, truth, run, handheld, arguments.set + settings, arguments.threads)
-                results[name].append(figures)
-                print(f"{world.stem}, {name}, seed {seed}: {len(figures)} figures", *problems, sep="\n  ", file=sys.stderr, flush=True)
+        results, revisions, problems = catalogued(catalogue, world.stem, seeds, variants)
+        print(*problems, sep="\n", file=sys.stderr)
         everything[world.stem] = results
-        tables.append(table(world.stem, results))
-        (out / "figures.json").write_text(json.dumps(everything, indent=1) + "\n")
+        tables.append(table(world.stem, results, revisions))
+    catalogue.close()
+    (out / "figures.json").write_text(json.dumps(everything, indent=1) + "\n")
     (out / "table.md").write_text("\n".join(tables))
     print("\n".join(tables))
     return 0 if all(figures for results in everything.values() for seeds in results.values() for figures in seeds) else 1

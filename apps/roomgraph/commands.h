@@ -19,6 +19,7 @@ void addSnapshotCommand(CLI::App& app);
 void addConfigReferenceCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addBatchCommand(CLI::App& app);
 void addMapCommand(CLI::App& app);
 void addModelsCommand(CLI::App& app);
 void addViewCommand(CLI::App& app);

@@ -71,6 +71,7 @@ void addCommands(CLI::App& app) {
   addConfigReferenceCommand(app);
   addSimulateCommand(app);
   addBenchCommand(app);
+  addBatchCommand(app);
   addMapCommand(app);
   addModelsCommand(app);
   addViewCommand(app);

@@ -18,6 +18,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/mentioned_files.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/core/progress_file.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_recording.h"
@@ -32,7 +33,7 @@ namespace roomgraph {
 namespace {
 
 struct RunOptions {
-  std::string input, output, config, map, recording, pictures;
+  std::string input, output, config, map, recording, detections, progress, pictures;
   std::vector<std::string> overrides, poses;
   ModelSource networks;
   int threads = 0;
@@ -69,6 +70,7 @@ std::vector<std::filesystem::path> inputsOf(const RunOptions& options, const Con
 // Sinks that the command line asks for, besides the run's own files.
 struct ExtraSinks {
   std::shared_ptr<DetectionRecording> recording;
+  std::shared_ptr<DetectionFile> detections;
   std::shared_ptr<DebugPictures> pictures;
 };
 
@@ -80,6 +82,11 @@ ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
     sinks.recording =
         std::make_shared<DetectionRecording>(options.input, options.recording, *setup.stages.detector);
   }
+  if (!options.detections.empty()) {
+    if (!setup.stages.detector)
+      throw ConfigError("--save-detections needs a detector; [detection] enabled is false");
+    sinks.detections = std::make_shared<DetectionFile>(options.detections, *setup.stages.detector);
+  }
   if (!options.pictures.empty()) {
     setup.stages.proposal_generator->keepTraces(true);
     sinks.pictures = std::make_shared<DebugPictures>(options.pictures, setup.database);
@@ -89,11 +96,14 @@ ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
 
 ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam) {
   Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
+  ProgressFile file(options.progress);
   const Stopwatch watch;
-  const ReplayState state =
-      replay(reader, slam, options.span,
-             {[&](const ReplayState& now) { line.update(now.share, describeProgress(now, watch.seconds())); },
-              interrupted});
+  const ReplayState state = replay(reader, slam, options.span,
+                                   {[&](const ReplayState& now) {
+                                      line.update(now.share, describeProgress(now, watch.seconds()));
+                                      file.update(now.share);
+                                    },
+                                    interrupted});
   line.finish();
   return state;
 }
@@ -156,7 +166,8 @@ void run(const RunOptions& options) {
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
   const auto inputs = inputsOf(options, configuration);
-  if (!options.recording.empty()) requireOther(options.recording, inputs);
+  for (const auto& written : {options.recording, options.detections})
+    if (!written.empty()) requireOther(written, inputs);
   catchInterrupts();
   auto output = std::make_shared<RunOutput>(options.output, inputs);
   const ExtraSinks extra = addSinks(options, *setup);
@@ -164,6 +175,7 @@ void run(const RunOptions& options) {
   if (earlier) slam.setMap(std::move(*earlier));
   slam.addSink(output);
   if (extra.recording) slam.addSink(extra.recording);
+  if (extra.detections) slam.addSink(extra.detections);
   if (extra.pictures) slam.addSink(extra.pictures);
 
   const Stopwatch watch;
@@ -179,6 +191,7 @@ void run(const RunOptions& options) {
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish();
   if (extra.recording) extra.recording->finish();
+  if (extra.detections && !replayed.interrupted) extra.detections->finish();
 
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
@@ -193,6 +206,15 @@ void run(const RunOptions& options) {
               << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
   std::cout << "\n";
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
+}
+
+// Further files, mostly for other programs.
+void addFileOptions(CLI::App& command, RunOptions& options) {
+  command.add_option("--save-detections", options.detections,
+                     "also write this rawlog of nothing but what the detector found, for --set "
+                     "detection.file=FILE.rawlog; none when interrupted");
+  command.add_option("--progress-file", options.progress,
+                     "file that holds the share of the replay that is done, for programs that watch");
 }
 
 }  // namespace
@@ -228,6 +250,7 @@ void addRunCommand(CLI::App& app) {
   command->add_option("--record-detections", options->recording,
                       "also write this rawlog: the input with what the detector found; a run of it needs no "
                       "network");
+  addFileOptions(*command, *options);
   command->add_option("--debug-images", options->pictures,
                       "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command->add_flag("--quiet", options->quiet, "no progress");

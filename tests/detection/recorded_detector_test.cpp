@@ -13,6 +13,8 @@
 
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/detection_comment.h"
+#include "roomgraph/observations/rawlog_writer.h"
 
 namespace roomgraph {
 namespace {
@@ -63,6 +65,46 @@ class RecordedDetectorTest : public ::testing::Test {
   std::filesystem::path folder_;
   RecordedDetector detector_;
 };
+
+// What `run --save-detections` writes: it stands for what the recording holds.
+TEST_F(RecordedDetectorTest, ARawlogOfDetectionsReplacesThoseOfTheRecording) {
+  const auto file = folder_ / "boxes.rawlog";
+  {
+    RawlogWriter writer(file);
+    writer.write(toComment(record(10, "chair")));
+    CObservationDetections second = record(11, "sofa");
+    second.model = "net";
+    second.model_hash = "f00";
+    writer.write(toComment(second));
+    writer.finish();
+  }
+  prepare("file = " + file.string());
+  EXPECT_FALSE(detector_.empty());
+  detector_.feed(record(10, "sofa"));
+  detector_.feed(record(12, "sofa"));
+  ASSERT_TRUE(detector_.detect(frameAt(10)).ok());
+  ASSERT_EQ(detector_.detect(frameAt(10))->size(), 1u);
+  EXPECT_EQ(detector_.detect(frameAt(10))->front().class_name, "swivel_chair");
+  EXPECT_EQ(detector_.detect(frameAt(11))->front().class_name, "sofa");
+  EXPECT_FALSE(detector_.detect(frameAt(12)).ok()) << "only the recording has it";
+  EXPECT_EQ(detector_.identity().model, "net");
+  EXPECT_EQ(detector_.identity().hash, "f00");
+}
+
+TEST_F(RecordedDetectorTest, ARawlogThatIsNoneIsAnError) {
+  const auto file = folder_ / "boxes.rawlog";
+  const auto problem = [&] {
+    try {
+      prepare("file = " + file.string());
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(problem(), HasSubstr("boxes.rawlog: cannot be read"));
+  std::ofstream(file) << std::string(100, 'x');
+  EXPECT_THAT(problem(), HasSubstr("boxes.rawlog: is no rawlog of detections"));
+}
 
 TEST_F(RecordedDetectorTest, LabelsOfNoClassAreRivals) {
   prepare("score_threshold = 0.3");

@@ -22,8 +22,9 @@ void RecordedDetector::declareSource(ParameterVisitor& v) {
   v.add(
       "file", file_,
       {.doc =
-           "File of recorded boxes: detections.jsonl, or lines `timestamp cocoID x y w h score`. Empty: only "
-           "those inside the rawlog.",
+           "File of recorded boxes: detections.jsonl, lines `timestamp cocoID x y w h score`, or a rawlog of "
+           "`run --save-detections`, which stands for those inside the recording. Empty: only those inside "
+           "the recording.",
        .file = true});
   v.add("tolerance_s", tolerance_s_,
         {.doc = "Largest time between a frame and its record of boxes.", .unit = "s", .min = 0, .max = 10});
@@ -40,13 +41,22 @@ void RecordedDetector::prepare() {
   threshold_warning_.clear();
   frames_ = matched_ = 0;
   identity_ = {"", "", score_threshold_, 0};
+  from_rawlog_ = std::filesystem::path(file_).extension() == ".rawlog";
   if (file_.empty()) return;
+  if (from_rawlog_) {
+    for (const auto& recorded : readDetectionRawlog(file_)) take(recorded);
+    return;
+  }
   records_ = readDetectionFile(file_);
   identity_.model = std::filesystem::path(file_).filename().string();
   identity_.hash = fileHash(file_);
 }
 
 void RecordedDetector::feed(const CObservationDetections& recorded) {
+  if (!from_rawlog_) take(recorded);
+}
+
+void RecordedDetector::take(const CObservationDetections& recorded) {
   records_.emplace(mrpt::Clock::toDouble(recorded.timestamp),
                    RecordedBoxes{recorded.image_label, detectionsOf(recorded)});
   const double recorded_threshold = static_cast<double>(recorded.score_threshold);

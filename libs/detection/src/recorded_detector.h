@@ -25,7 +25,12 @@ using DetectionRecords = std::multimap<double, RecordedBoxes>;
 /// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
 DetectionRecords readDetectionFile(const std::string& file);
 
-/// Replays detections: from records of the rawlog (fed as they are read), from a file, or both.
+/// Reads the detections of a rawlog (`run --save-detections`), in its order; other records are stepped over.
+/// Throws InputError with file and cause.
+std::vector<CObservationDetections> readDetectionRawlog(const std::string& file);
+
+/// Replays detections: from records of the rawlog (fed as they are read), from a file, or both. A file that
+/// is a rawlog of detections stands for those in the recording, which are then left out.
 class RecordedDetector : public Detector {
   DEFINE_MRPT_OBJECT(RecordedDetector, roomgraph)
  public:
@@ -47,6 +52,7 @@ class RecordedDetector : public Detector {
   bool empty() const { return records_.empty(); }
 
  private:
+  void take(const CObservationDetections& recorded);
   const RecordedBoxes* nearest(const Frame& frame) const;
   std::string mismatch() const;
 
@@ -61,6 +67,7 @@ class RecordedDetector : public Detector {
   int frames_ = 0, matched_ = 0;  ///< frames in all; with a record
   double first_frame_t_ = 0, last_frame_t_ = 0;
   std::string frame_label_;  ///< of the last one
+  bool from_rawlog_ = false;  ///< the file is a rawlog
 };
 
 }  // namespace roomgraph

@@ -3,12 +3,18 @@
 #include "roomgraph/pipeline/detection_recording.h"
 
 #include "roomgraph/detection/detection_record.h"
+#include "roomgraph/observations/detection_comment.h"
 
 namespace roomgraph {
 
 void DetectionRecording::onStep(const StepReport& report) {
   if (report.image && report.detections.fresh)
     copy_.insert(toRecord(*report.image, report.detections.boxes, detector_.identity()));
+}
+
+void DetectionFile::onStep(const StepReport& report) {
+  if (report.image && report.detections.fresh)
+    writer_.write(toComment(toRecord(*report.image, report.detections.boxes, detector_.identity())));
 }
 
 }  // namespace roomgraph

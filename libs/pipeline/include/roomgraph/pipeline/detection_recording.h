@@ -6,6 +6,7 @@
 
 #include "roomgraph/datasets/rawlog_copy.h"
 #include "roomgraph/detection/detector.h"
+#include "roomgraph/observations/rawlog_writer.h"
 #include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
@@ -25,6 +26,23 @@ class DetectionRecording : public Sink {
 
  private:
   RawlogCopy copy_;
+  const Detector& detector_;
+};
+
+/// Writes what the detector finds, and nothing else, as a rawlog that `[detection] file` takes: a thousandth
+/// of a recording's size. It gets its name by finish().
+class DetectionFile : public Sink {
+ public:
+  /// The detector outlives the file. Throws RunError: cannot be written.
+  DetectionFile(const std::filesystem::path& output, const Detector& detector)
+      : writer_(output), detector_(detector) {}
+
+  void onStep(const StepReport& report) override;
+  /// Throws RunError when writing failed.
+  void finish() { writer_.finish(); }
+
+ private:
+  RawlogWriter writer_;
   const Detector& detector_;
 };
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// BatchPlan: the inputs, variants and runs of a batch, with their names.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "roomgraph/batch/job_file.h"
+#include "roomgraph/catalogue/run_result.h"
+
+namespace roomgraph {
+
+/// Files of the truth by kind (kTruthKinds).
+using TruthFiles = std::map<std::string, std::filesystem::path>;
+
+struct PlannedInput {
+  RunInput input;                     ///< sha256 and bytes are not known yet
+  std::vector<std::string> simulate;  ///< words for `roomgraph simulate` that make it; none: it is there
+  bool search_truth = true;
+  TruthFiles truth;  ///< named in the job file
+};
+
+struct PlannedRun {
+  std::string name;  ///< INPUT--VARIANT: its folder
+  std::size_t input = 0, variant = 0;
+};
+
+struct BatchPlan {
+  std::vector<PlannedInput> inputs;
+  std::vector<BatchVariant> variants;
+  std::vector<PlannedRun> runs;  ///< input by input
+  JobFile jobs;
+};
+
+/// Finds the recordings and gives everything its name, the same each time. `folder`: of the batch; simulated
+/// inputs will be in FOLDER/inputs/NAME. Throws InputError: a pattern without any file, a truth that is not
+/// there; ConfigError: an input that stands in two entries.
+BatchPlan planBatch(const JobFile& jobs, const std::filesystem::path& folder);
+
+/// The truth beside a recording: the simulator's files when it is the only recording in its folder, and files
+/// that bear its name (NAME.rawlog.GT.txt, NAME.relations).
+TruthFiles truthBeside(const std::filesystem::path& rawlog);
+
+}  // namespace roomgraph

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of variants: spreads, pairs, what is significant.
+#include "roomgraph/catalogue/comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "errors_of.h"
+#include "made_up_results.h"
+#include "roomgraph/core/errors.h"
+#include "temporary_folder.h"
+
+namespace roomgraph::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Compared : public ::testing::Test {
+ protected:
+  void add(const std::string& input, int seed, const std::string& variant, double ate) {
+    RunResult r = madeUpResult(input, seed, variant);
+    r.figures = {{"trajectory.ate_rmse_m", ate}};
+    catalogue.import(r, "");
+  }
+  const TemporaryFolder folder;
+  Catalogue catalogue = Catalogue::forWriting(folder.file("catalogue.sqlite"));
+};
+
+TEST_F(Compared, PairsAreOfOneInput) {
+  for (int seed = 1; seed <= 8; ++seed) {
+    add("lab", seed, "default", 0.1 * seed);
+    if (seed != 5) add("lab", seed, "slow", 0.1 * seed + 0.01);
+  }
+  add("lab", 20, "slow", 5.0);  // without a partner
+  const Comparison all = compareVariants(catalogue, {});
+  EXPECT_THAT(all.variants, ElementsAre("default", "slow"));
+  EXPECT_EQ(all.inputs, 9u);
+  ASSERT_EQ(all.rows.size(), 1u);
+  EXPECT_NEAR(all.rows[0].variants[0].spread.median, 0.45, 1e-12);
+  EXPECT_FALSE(all.rows[0].variants[0].difference);
+  const auto& slow = all.rows[0].variants[1];
+  EXPECT_EQ(slow.spread.count, 8u);
+  EXPECT_EQ(slow.difference->pairs, 7u);
+  EXPECT_NEAR(slow.difference->median, 0.01, 1e-12);
+  EXPECT_NEAR(slow.difference->test.p_value, 2.0 / 128, 1e-9);
+  EXPECT_THAT(differenceTable(all).rows[0],
+              ElementsAre("ATE, m", "slow", "7", "0.0100", "0.0100 .. 0.0100", "0.0156", "0.0156", "worse"));
+  EXPECT_THAT(spreadTable(all).rows[0][2], ::testing::StartsWith("8: "));
+}
+
+TEST_F(Compared, FailedRunsDoNotCount) {
+  add("lab", 1, "default", 1);
+  RunResult failed = madeUpResult("lab", 2, "default");
+  failed.status = "failed";
+  failed.figures = {{"trajectory.ate_rmse_m", 1000}};
+  catalogue.import(failed, "");
+  EXPECT_EQ(compareVariants(catalogue, {}).rows[0].variants[0].spread.largest, 1);
+}
+
+TEST_F(Compared, GroupAndBaselineAreChosen) {
+  for (int seed = 1; seed <= 3; ++seed) {
+    add("lab", seed, "b", 1);
+    add("lab", seed, "a", 2);
+    add("hall", seed, "b", 7);
+  }
+  EXPECT_THAT(compareVariants(catalogue, {}).variants, ElementsAre("b", "a")) << "that of the first run";
+  EXPECT_THAT(compareVariants(catalogue, {.baseline = "a"}).variants, ElementsAre("a", "b"));
+  const Comparison hall = compareVariants(catalogue, {.group = "hall"});
+  EXPECT_EQ(hall.inputs, 3u);
+  EXPECT_EQ(hall.rows[0].variants[0].spread.least, 7);
+  EXPECT_THAT(messageOf<ConfigError>([&] { compareVariants(catalogue, {.group = "halle"}); }),
+              HasSubstr("did you mean 'hall'"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { compareVariants(catalogue, {.baseline = "c"}); }),
+              HasSubstr("a, b"));
+  EXPECT_THAT(messageOf<ConfigError>([&] { compareVariants(catalogue, {.figures = {"ate"}}); }),
+              HasSubstr("trajectory.ate_rmse_m"));
+}
+
+TEST_F(Compared, ManyTestsAskForMore) {
+  for (int seed = 1; seed <= 6; ++seed) {
+    add("lab", seed, "default", 0);
+    for (const char* variant : {"v1", "v2", "v3"}) add("lab", seed, variant, seed);
+  }
+  for (const auto& variant :
+       compareVariants(catalogue, {.figures = {"trajectory.ate_rmse_m"}}).rows[0].variants)
+    if (variant.difference) {
+      EXPECT_NEAR(variant.difference->test.p_value, 2.0 / 64, 1e-12);
+      EXPECT_FALSE(variant.difference->significant()) << "3 tests: 0.094";
+    }
+}
+
+TEST_F(Compared, AnEmptyCatalogueHasNoRows) {
+  EXPECT_TRUE(compareVariants(catalogue, {}).rows.empty());
+  EXPECT_TRUE(differenceTable(compareVariants(catalogue, {})).rows.empty());
+}
+
+}  // namespace
+}  // namespace roomgraph::test
