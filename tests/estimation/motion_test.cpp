@@ -69,6 +69,20 @@ MotionSource movingBy(double metres) {
   return source;
 }
 
+// Front ends say "nothing known" of the step that does not exist: the first pose's, and that after a loss.
+TEST(MotionSource, APoseThatBeginsASegmentIsKnownInItsOwnLocalMap) {
+  MotionSource source(kNoise, false);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Identity());
+  source.add(1, Pose3::Identity(), 0, 0.02 * Matrix6d::Identity());
+  source.add(2, Pose3::Identity(), 1, Matrix6d::Identity());
+  source.add(3, Pose3::Identity(), 0, Matrix6d::Identity());
+  const auto variance = [&](double t) { return source.inLocalMap(t, t, 0)->covariance(0, 0); };
+  EXPECT_NEAR(variance(0), 1e-4, 1e-12);
+  EXPECT_NEAR(variance(1), 1e-4 + 0.02, 1e-12);
+  EXPECT_NEAR(variance(2), 1e-4, 1e-12);
+  EXPECT_NEAR(variance(3), 1e-4 + 1, 1e-12) << "back in an earlier segment, which began elsewhere";
+}
+
 TEST(Motion, ScansComeBeforeImagesBeforeWheels) {
   const MotionSource none(kNoise, true);
   const auto seen = [](const Motion& motion) { return motion.movement(0, 1, 0)->translation().x(); };

@@ -10,6 +10,7 @@
 
 #include "random_poses.h"
 #include "roomgraph/estimation/object_loop_closer.h"
+#include "shipped_objects.h"
 
 namespace roomgraph::test {
 namespace {
@@ -259,9 +260,11 @@ TEST(ObjectFactors, SightingsThatWeighNothingMakeNoView) {
   const KeyPoses poses = twoVisits(motion);
   auto frames = framesOf(poses);
   for (auto& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0;
-  const ObjectFactors factors = objectFactors(frames, poses, {chair()}, {}, BackendOptions{});
+  const ObjectFactors factors = objectFactors(frames, poses, {chair()}, shippedObjects(), BackendOptions{});
   EXPECT_TRUE(factors.views.empty());
   EXPECT_TRUE(factors.sightings.empty());
+  EXPECT_TRUE(factors.sizes.empty()) << "what no view ties to the poses is not in the graph";
+  EXPECT_TRUE(factors.boxes.empty() && factors.insides.empty());
 }
 
 Landmark trusted(std::int64_t id) {

@@ -35,6 +35,7 @@ Movement unknownMovement(double seconds) {
 
 bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
   if (!poses_.empty() && t <= poses_.lastTime()) return false;
+  if (begun_.insert(segment).second) beginnings_.insert(t);
   poses_.add(t, odom_from_robot, segment);
   const Matrix6d before = summed_.empty() ? Matrix6d::Zero() : summed_.back().second;
   summed_.emplace_back(t, before + step_covariance);
@@ -57,11 +58,13 @@ std::optional<Movement> MotionSource::between(double t_a, double t_b, double hor
   return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b)};
 }
 
-// Of the step that ends at t or as the first one after it.
+// Of the step that ends at t or as the first one after it. No step leads to the pose that begins a segment: it is
+// where its frame begins, and known in it without error.
 Matrix6d MotionSource::stepAt(double t) const {
   auto step = std::lower_bound(summed_.begin(), summed_.end(), t,
                                [](const auto& entry, double time) { return entry.first < time; });
   if (step == summed_.end()) --step;
+  if (beginnings_.contains(step->first)) return Matrix6d::Zero();
   return step == summed_.begin() ? step->second : Matrix6d(step->second - std::prev(step)->second);
 }
 

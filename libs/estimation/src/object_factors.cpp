@@ -263,10 +263,12 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
           .robust_width = options.landmark_robust_width};
 }
 
-void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
+// Returns whether there is a view that ties the landmark to the key poses.
+bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   const double yaw = votedYaw(seen, poses).value_or(landmark.yaw);
-  for (const auto& [direction, view] : viewsByDirection(seen, usual, poses, yaw, options.landmark_view_rad)) {
+  const auto views = viewsByDirection(seen, usual, poses, yaw, options.landmark_view_rad);
+  for (const auto& [direction, view] : views) {
     std::vector<LandmarkFactor> visits;
     const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
     for (const Visit& visit : view.visits) {
@@ -283,7 +285,8 @@ void addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
     if (landmark.has_yaw) view.offset.apply(out.shared_errors.back());
     if (!view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
   }
-  if (usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
+  if (usual && !views.empty()) out.sizes.push_back(sizePrior(landmark.id, *usual));
+  return !views.empty();
 }
 
 // Weight of one of `count` measurements whose errors have this share of their variance in common. Together
@@ -350,7 +353,7 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
   for (const auto& [id, seen] : gathered) {
     const Landmark& landmark = *known.at(id);
     const ObjectModel* usual = database.find(landmark.class_name);
-    addViews(seen, landmark, usual, poses, options, out);
+    if (!addViews(seen, landmark, usual, poses, options, out)) continue;
     if (options.object_boxes) addBoxes(seen, landmark, poses, options, out);
     addPoints(seen, landmark, options, out);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "roomgraph/estimation/options.h"
@@ -34,7 +35,7 @@ class MotionSource {
   /// Covariance: noise model and sum of the steps.
   std::optional<Movement> between(double t_a, double t_b, double horizon_s) const;
   /// As seen in a local map that begins at `t_a`: the covariance is that of the match at `t_b`, and does not
-  /// grow with the movement.
+  /// grow with the movement. A segment's first pose is matched to nothing: it has the noise model's alone.
   std::optional<Movement> inLocalMap(double t_a, double t_b, double horizon_s) const;
   /// Between the beginnings of two local maps: that, and a share of the covariance of `between`, for the
   /// drift.
@@ -49,6 +50,8 @@ class MotionSource {
   bool planar_;
   Trajectory poses_;
   std::vector<std::pair<double, Matrix6d>> summed_;  // by time
+  std::set<int> begun_;                              // segments
+  std::set<double> beginnings_;                      // of segments, s
 };
 
 /// All sources of one run.
