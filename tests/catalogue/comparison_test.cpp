@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <string>
+
 #include "errors_of.h"
 #include "made_up_results.h"
 #include "roomgraph/core/errors.h"
@@ -87,6 +90,43 @@ TEST_F(Compared, ManyTestsAskForMore) {
       EXPECT_NEAR(variant.difference->test.p_value, 2.0 / 64, 1e-12);
       EXPECT_FALSE(variant.difference->significant()) << "3 tests: 0.094";
     }
+}
+
+TEST_F(Compared, WhatIsBetterDependsOnTheFigure) {
+  for (int seed = 1; seed <= 12; ++seed)
+    for (const char* variant : {"default", "other"}) {
+      RunResult r = madeUpResult("lab", seed, variant);
+      const double change = variant == std::string("other") ? 0.1 : 0;
+      r.figures = {{"trajectory.ate_rmse_m", 1 + seed - change},
+                   {"objects.f1", 0.01 * seed - change},
+                   {"counts.landmarks", 10 + change},
+                   {"map.f1", 0.5}};
+      r.revision = seed % 2 ? "even" : "odd";
+      catalogue.import(r, "");
+    }
+  const Comparison all = compareVariants(catalogue, {});
+  EXPECT_THAT(all.revisions, ElementsAre("even", "odd"));
+  EXPECT_THAT(all.groups, ElementsAre("lab"));
+  std::map<std::string, std::string> meaning;
+  for (const auto& row : differenceTable(all).rows) meaning[row.front()] = row.back();
+  EXPECT_EQ(meaning.at("ATE, m"), "better");
+  EXPECT_EQ(meaning.at("objects: F1"), "worse");
+  EXPECT_EQ(meaning.at("objects in the map"), "differs");
+  EXPECT_EQ(meaning.at("map: F1 of occupied"), "") << "no difference";
+  EXPECT_THAT(spreadTable(all).rows[0][2], ::testing::EndsWith(" *"));
+}
+
+TEST_F(Compared, AFigureThatAVariantLacksIsADash) {
+  add("lab", 1, "default", 1);
+  RunResult without = madeUpResult("lab", 1, "blind");
+  without.figures = {{"objects.f1", -0.0001}};
+  catalogue.import(without, "");
+  const TextTable table = spreadTable(compareVariants(catalogue, {}));
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_THAT(table.columns, ElementsAre("figure", "default", "blind"));
+  EXPECT_THAT(table.rows[0], ElementsAre("ATE, m", "1.000", "-"));
+  EXPECT_THAT(table.rows[1], ElementsAre("objects: F1", "-", "0.000"));
+  EXPECT_TRUE(differenceTable(compareVariants(catalogue, {})).rows.empty()) << "no pair";
 }
 
 TEST_F(Compared, AnEmptyCatalogueHasNoRows) {

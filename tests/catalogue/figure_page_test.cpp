@@ -42,5 +42,60 @@ TEST(BatchPage, LinksTheReportsThatAreThere) {
   EXPECT_THAT(page, Not(HasSubstr("://"))) << "it loads nothing";
 }
 
+// On an axis of 116 px from 2 px on, over both variants: 0 to 4.
+TEST(BatchPage, DrawsAllVariantsOnOneScale) {
+  const TemporaryFolder folder;
+  Catalogue catalogue = Catalogue::forWriting(folder.file("c"));
+  const auto add = [&](const std::string& variant, int seed, double ate) {
+    RunResult r = madeUpResult("lab", seed, variant);
+    r.figures = {{"trajectory.ate_rmse_m", ate}};
+    catalogue.import(r, "");
+  };
+  for (int seed = 0; seed <= 2; ++seed) {
+    add("default", seed, seed);
+    add("far", seed, 2 + seed);
+  }
+  const std::string page = batchPage(catalogue, {}, {"t", folder.path(), "runs"});
+  EXPECT_THAT(page, HasSubstr("x1=\"2.0\" x2=\"60.0\" y1=\"6\""));
+  EXPECT_THAT(page, HasSubstr("<rect x=\"16.5\" y=\"2\" width=\"29.0\""));
+  EXPECT_THAT(page, HasSubstr("class=\"middle\" x1=\"31.0\""));
+  EXPECT_THAT(page, HasSubstr("x1=\"60.0\" x2=\"118.0\" y1=\"6\""));
+  EXPECT_THAT(page, HasSubstr("class=\"middle\" x1=\"89.0\""));
+}
+
+TEST(BatchPage, ListsTheFirstTwoThousandRuns) {
+  const TemporaryFolder folder;
+  Catalogue catalogue = Catalogue::forWriting(folder.file("c"));
+  for (int seed = 1; seed <= 2005; ++seed) catalogue.import(madeUpResult("lab", 10000 + seed, "default"), "");
+  const std::string page = batchPage(catalogue, {}, {"t", folder.path(), "runs"});
+  EXPECT_THAT(page, HasSubstr("The first 2000 of 2005."));
+  EXPECT_THAT(page, HasSubstr("lab_s12000--default"));
+  EXPECT_THAT(page, Not(HasSubstr("lab_s12001--default")));
+}
+
+// Every tag that is opened is closed, in order; what a browser would otherwise guess at.
+TEST(BatchPage, IsWellFormed) {
+  const TemporaryFolder folder;
+  Catalogue catalogue = Catalogue::forWriting(folder.file("c"));
+  for (int seed = 1; seed <= 3; ++seed)
+    for (const char* variant : {"default", "a<b"}) catalogue.import(madeUpResult("la&b", seed, variant), "");
+  const std::string page = batchPage(catalogue, {}, {"t", folder.path(), "runs"});
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
+    const std::size_t end = page.find('>', at);
+    ASSERT_NE(end, std::string::npos);
+    const std::string tag = page.substr(at + 1, page.find_first_of(" >/", at + 2) - at - 1);
+    if (page[at + 1] == '!' || page[end - 1] == '/' || tag == "meta") continue;
+    if (page[at + 1] != '/') {
+      open.push_back(tag);
+      continue;
+    }
+    ASSERT_FALSE(open.empty());
+    EXPECT_EQ("/" + open.back(), page.substr(at + 1, end - at - 1));
+    open.pop_back();
+  }
+  EXPECT_TRUE(open.empty());
+}
+
 }  // namespace
 }  // namespace roomgraph::test

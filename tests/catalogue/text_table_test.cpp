@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "made_up_results.h"
 #include "temporary_folder.h"
 
@@ -18,6 +20,47 @@ TEST(TextTables, AreAligned) {
 TEST(TextTables, CsvQuotesWhatItMust) {
   EXPECT_EQ(csvText({{"a", "b"}, {{"x,y", "say \"no\""}, {"two\nlines", "plain"}}}),
             "a,b\n\"x,y\",\"say \"\"no\"\"\"\n\"two\nlines\",plain\n");
+}
+
+// Reads what RFC 4180 says, by itself.
+std::vector<std::vector<std::string>> cellsOfCsv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') {
+      if (quoted && i + 1 < text.size() && text[i + 1] == '"')
+        rows.back().back() += text[++i];
+      else
+        quoted = !quoted;
+    } else if (text[i] == ',' && !quoted) {
+      rows.back().emplace_back();
+    } else if (text[i] == '\n' && !quoted) {
+      rows.push_back({""});
+    } else {
+      rows.back().back() += text[i];
+    }
+  }
+  rows.pop_back();  // begun by the last line's end
+  return rows;
+}
+
+TEST(TextTables, AnyTableIsReadBackFromItsCsv) {
+  std::mt19937 random(3);
+  const auto below = [&](int n) { return std::uniform_int_distribution<int>(0, n - 1)(random); };
+  for (int i = 0; i < 200; ++i) {
+    const int columns = 1 + below(4);
+    std::vector<std::vector<std::string>> rows;
+    for (int r = 1 + below(5); r > 0; --r) {
+      rows.emplace_back();
+      for (int c = 0; c < columns; ++c) {
+        std::string cell;
+        for (int k = below(6); k > 0; --k) cell += "a,\"\n \r;'"[below(8)];
+        rows.back().push_back(cell);
+      }
+    }
+    const TextTable table{rows.front(), {rows.begin() + 1, rows.end()}, {}};
+    EXPECT_EQ(cellsOfCsv(csvText(table)), rows) << csvText(table);
+  }
 }
 
 TEST(TextTables, AWideTableHasARowForEachRun) {
