@@ -78,14 +78,14 @@ TEST_F(SnapshotCommand, WrongUsageIsOneLine) {
 TEST_F(SnapshotCommand, FoldersOfFramesMayHaveADotInTheirName) {
   std::filesystem::create_directory(file("frames.v2"));
   const auto result =
-      snapshot({"--film", file("frames.v2"), "--size", "64x48", "--fps", "1", "--seconds", "1", "--quiet"});
+      snapshot({"--film", file("frames.v2"), "--size", "64x64", "--fps", "1", "--seconds", "1", "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::exists(file("frames.v2") + "/frame_00000.png"));
 }
 
 TEST_F(SnapshotCommand, EndingsInCapitalsAreVideosToo) {
   const auto result =
-      snapshot({"--film", file("A.AVI"), "--size", "64x48", "--fps", "1", "--seconds", "1", "--quiet"});
+      snapshot({"--film", file("A.AVI"), "--size", "64x64", "--fps", "1", "--seconds", "1", "--quiet"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::is_regular_file(file("A.AVI")));
 }
