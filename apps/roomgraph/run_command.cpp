@@ -108,6 +108,23 @@ ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, 
   return state;
 }
 
+// What `info` would say, for the report. Whatever goes wrong with it does not concern the run.
+std::optional<std::vector<Finding>> examine(const RunOptions& options, const Options& run) {
+  Progress line(options.quiet ? nullptr : &std::cerr, "look at the recording", "%", 100);
+  std::optional<std::vector<Finding>> findings;
+  try {
+    const auto show = [&](double share) {
+      line.update(100 * share);
+      if (interrupted()) throw Interrupted("while the recording was examined");
+    };
+    findings = inspectRawlog(options.input, show, readOptionsOf(run).sensor_poses).findings;
+  } catch (const std::exception&) {
+    findings.reset();
+  }
+  line.finish();
+  return findings;
+}
+
 // A run without poses has no result, and there is a reason.
 void requireRecords(const RunOptions& options, const Options& run, const ReplayState& replayed,
                     const SlamResult& result) {
@@ -183,8 +200,9 @@ void run(const RunOptions& options) {
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam.setup().options, replayed, result);
-  output->writeResult(slam, result, reader.statistics(), replayed,
-                      {options.input, kVersion, kRevision, commandLine(), networks});
+  RunOrigin origin{options.input, kVersion, kRevision, commandLine(), networks, {}};
+  if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
+  output->writeResult(slam, result, reader.statistics(), replayed, origin);
   const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
                                                           output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");

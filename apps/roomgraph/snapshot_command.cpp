@@ -42,6 +42,16 @@ std::string endingOf(const std::string& file) {
   return ending;
 }
 
+/// An ending that is no video's is more likely a mistake than the name of a folder.
+void checkFilm(const std::string& film) {
+  const std::string ending = endingOf(film);
+  if (ending.empty() || ending == ".mp4" || ending == ".webm" || ending == ".avi" || fs::is_directory(film))
+    return;
+  throw ConfigError("--film " + film +
+                    ": name it something.mp4, something.webm or something.avi, or name a folder " +
+                    "for numbered PNGs (one with a dot in its name must be there already)");
+}
+
 SnapshotOptions toOptions(const SnapshotArguments& arguments) {
   SnapshotOptions options;
   options.view = arguments.view == "orbit"   ? SnapshotView::kOrbit
@@ -55,6 +65,7 @@ SnapshotOptions toOptions(const SnapshotArguments& arguments) {
 void check(const SnapshotArguments& arguments) {
   if (arguments.output.empty() && arguments.film.empty())
     throw ConfigError("say with --output or with --film what is to be made");
+  checkFilm(arguments.film);
   const std::string ending = endingOf(arguments.output);
   const bool vector = ending == ".svg" || ending == ".pdf";
   if (!arguments.output.empty() && ending != ".png" && !vector)

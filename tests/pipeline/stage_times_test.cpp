@@ -8,6 +8,7 @@
 #include <ctime>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace roomgraph::test {
 namespace {
@@ -40,6 +41,19 @@ TEST(StageTimes, WorkTakesProcessorTime) {
   }
   EXPECT_GE(times.calls().front().cpu_ms, 19);
   EXPECT_GE(times.calls().front().ms, 0.9 * times.calls().front().cpu_ms) << "one thread";
+}
+
+// Pages count once they are written to.
+TEST(StageTimes, MemoryIsWhatIsHeldWhenTheCallEnds) {
+  StageTimes times;
+  { const auto measured = times.measure("before"); }
+  std::vector<char> held;
+  {
+    const auto measured = times.measure("after");
+    held.assign(64 << 20, 1);
+  }
+  ASSERT_EQ(held.back(), 1);
+  EXPECT_NEAR(times.calls()[1].memory_mb - times.calls()[0].memory_mb, 64, 4);
 }
 
 TEST(StageTimes, TotalsAreThoseOfTheCalls) {

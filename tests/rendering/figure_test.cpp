@@ -5,8 +5,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
 #include "canvas.h"
 #include "errors_of.h"
@@ -73,6 +77,69 @@ TEST(FloorPlan, ARoomOfSixMetresIsTwelveCentimetresWide) {
     EXPECT_NEAR(right + 1 - left, 6 / scale * 10000, 3);
     EXPECT_NEAR(bottom + 1 - top, 4 / scale * 10000, 3);
   }
+}
+
+/// Words of a page with their lower ends, in mm from above, as another program reads them.
+std::map<std::string, double> wordsOf(const TemporaryFolder& folder, const std::string& pdf) {
+  const std::string command =
+      "pdftotext -bbox " + folder.file(pdf).string() + " " + folder.file("words.html").string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::istringstream lines(folder.read("words.html"));
+  std::map<std::string, double> out;
+  for (std::string line; std::getline(lines, line);) {
+    const auto y = line.find("yMax=\""), begin = line.find("\">"), end = line.find("</word>");
+    if (y == std::string::npos || end == std::string::npos) continue;
+    out[line.substr(begin + 2, end - begin - 2)] = std::stod(line.substr(y + 6)) / 72 * 25.4;
+  }
+  return out;
+}
+
+/// The sample map with so many classes: kind0, kind1, …
+CSemanticMap mapOfClasses(int count) {
+  CSemanticMap map = test::sampleMap();
+  const Landmark one = map.landmarks.front();
+  map.landmarks.clear();
+  for (int i = 0; i < count; ++i) {
+    map.landmarks.push_back(one);
+    map.landmarks.back().id = LandmarkId{i};
+    map.landmarks.back().class_name = "kind" + std::to_string(i);
+  }
+  return map;
+}
+
+TEST(FloorPlan, TheBlockGrowsWithTheLegend) {
+  if (!poppler()) GTEST_SKIP() << "pdftotext (poppler-utils) is not installed";
+  const TemporaryFolder folder;
+  for (const int count : {3, 12, 24}) {
+    EXPECT_EQ(writeFloorPlan(mapOfClasses(count), furniture(), {50, "A4", ""}, folder.file("plan.pdf")),
+              "A4 landscape");
+    const auto words = wordsOf(folder, "plan.pdf");
+    double scale = 0, lowest = 0;
+    for (const auto& [word, y] : words) {
+      if (word.starts_with("kind")) lowest = std::max(lowest, y);
+      if (word == "50") scale = y;
+    }
+    for (int i = 0; i < count; ++i) EXPECT_TRUE(words.contains("kind" + std::to_string(i))) << count;
+    EXPECT_LT(lowest, 210 - 10) << count << " classes: within the frame";
+    EXPECT_LT(scale, 210 - 10);
+    EXPECT_GT(lowest, 210 - 10 - 30 - (count > 12 ? 30 : 15));
+  }
+}
+
+TEST(FloorPlan, WhatHasNoRoomIsCounted) {
+  if (!poppler()) GTEST_SKIP() << "pdftotext (poppler-utils) is not installed";
+  const TemporaryFolder folder;
+  writeFloorPlan(mapOfClasses(150), furniture(), {100, "A4", ""}, folder.file("plan.pdf"));
+  const auto words = wordsOf(folder, "plan.pdf");
+  EXPECT_LT(words.at("more"), 210 - 10);
+  int missing = -1, shown = 0;
+  for (const auto& [word, y] : words) {
+    if (std::all_of(word.begin(), word.end(), isdigit) && std::abs(y - words.at("more")) < 0.1)
+      missing = std::stoi(word);
+  }
+  std::istringstream text(folder.read("words.html"));
+  for (std::string line; std::getline(text, line);) shown += line.find(">(1)<") != std::string::npos;
+  EXPECT_EQ(shown + missing, 150 + 3) << "obstacle, free, path stand at the end";
 }
 
 TEST(FloorPlan, TakesTheSmallestSheetAndSaysWhatFits) {

@@ -69,7 +69,25 @@ TEST_F(SnapshotCommand, WrongUsageIsOneLine) {
   failed({"-o", file("a.png"), "--view", "robot", "--style", "paper"}, 2, "paper is drawn from above");
   failed({"-o", file("a.png"), "--palette", "pretty"}, 2, "pretty");
   failed({"--film", file("x.avi"), "--fps", "0"}, 2, "--fps");
+  failed({"--film", file("x.xyz")}, 2,
+         "x.xyz: name it something.mp4, something.webm or something.avi, or name a folder");
+  EXPECT_FALSE(std::filesystem::exists(file("x.xyz")));
   failed({"-o", file("missing/a.pdf")}, 1, "missing/a.pdf");
+}
+
+TEST_F(SnapshotCommand, FoldersOfFramesMayHaveADotInTheirName) {
+  std::filesystem::create_directory(file("frames.v2"));
+  const auto result =
+      snapshot({"--film", file("frames.v2"), "--size", "64x64", "--fps", "1", "--seconds", "1", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(file("frames.v2") + "/frame_00000.png"));
+}
+
+TEST_F(SnapshotCommand, EndingsInCapitalsAreVideosToo) {
+  const auto result =
+      snapshot({"--film", file("A.AVI"), "--size", "64x64", "--fps", "1", "--seconds", "1", "--quiet"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::is_regular_file(file("A.AVI")));
 }
 
 TEST_F(SnapshotCommand, PlansGoOnASheet) {

@@ -140,11 +140,55 @@ TEST_F(ReportData, StagesAndWorkPerRecord) {
   for (const json& value : run["record_ms"]["high"]) EXPECT_EQ(value, 5) << "two stages of 2.5 ms";
 }
 
+TEST_F(ReportData, MemoryOverTimeIsThatOfTheCalls) {
+  const json series = runOf(folder)["memory_mb"];
+  ASSERT_EQ(series["high"].size(), 100u) << "two records in each part";
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(series["low"][i], 100 + 2 * i);
+    EXPECT_EQ(series["high"][i], 101 + 2 * i);
+  }
+}
+
+TEST_F(ReportData, TimingsOfEarlierVersionsSayNothingOfMemory) {
+  folder.write("timings.csv", "timestamp,stage,ms,cpu_ms\n" + std::to_string(kStart + 1) + ",matching,2,3\n");
+  const json run = runOf(folder);
+  EXPECT_TRUE(run["missing"].empty()) << run["missing"];
+  for (const json& value : run["memory_mb"]["high"]) EXPECT_TRUE(value.is_null());
+  EXPECT_EQ(run["stages"][0]["cpu_ms"].get<double>() + run["stages"][1]["cpu_ms"].get<double>(), 3);
+}
+
+TEST_F(ReportData, SpansWithoutASensorCountFromTheFirstPose) {
+  const json lost = runOf(folder)["lost"];
+  ASSERT_EQ(lost.size(), 2u);
+  EXPECT_EQ(lost[0],
+            (json{{"sensor", "camera"}, {"from", 4}, {"to", 6.5}, {"records", 25}, {"why", "too dark"}}));
+  EXPECT_EQ(lost[1]["from"], 0);
+  std::filesystem::remove(folder.file("lost.jsonl"));
+  const json run = runOf(folder);
+  EXPECT_TRUE(run["lost"].is_null());
+  EXPECT_TRUE(run["missing"].empty()) << "earlier versions write none";
+}
+
+TEST_F(ReportData, FindingsAboutTheRecordingAreThoseOfTheSummary) {
+  json summary = json::parse(folder.read("summary.json"));
+  EXPECT_EQ(runOf(folder)["findings"], summary["findings"]);
+  summary["findings"] = nullptr;
+  folder.write("summary.json", summary.dump());
+  EXPECT_TRUE(runOf(folder)["findings"].is_null()) << "not examined";
+  summary["findings"] = json::array();
+  folder.write("summary.json", summary.dump());
+  EXPECT_EQ(runOf(folder)["findings"], json::array()) << "nothing is wrong with it";
+}
+
 TEST_F(ReportData, LoopClosuresTieKeyPosesThatDoNotFollowEachOther) {
   const json closures = runOf(folder)["closures"];
   ASSERT_EQ(closures.size(), 1u);
-  EXPECT_THAT(closures[0].get<std::vector<double>>(), ElementsAre(15, 3, 6, 0, 0, 0))
-      << "t, x, y of both ends";
+  EXPECT_THAT(closures[0]["ids"].get<std::vector<int>>(), ElementsAre(3, 0));
+  EXPECT_THAT(closures[0]["t"].get<std::vector<double>>(), ElementsAre(15, 0));
+  EXPECT_THAT(closures[0]["a"].get<std::vector<double>>(), ElementsAre(3, 6));
+  EXPECT_THAT(closures[0]["b"].get<std::vector<double>>(), ElementsAre(0, 0));
+  EXPECT_EQ(closures[0]["kind"], "lidar");
+  EXPECT_TRUE(closures[0]["off_m"].is_null()) << "an edge without its information";
 }
 
 TEST_F(ReportData, ConfigMarksWhatDiffersFromEveryShippedText) {

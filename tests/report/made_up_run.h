@@ -95,26 +95,30 @@ inline void writeAssociations(const TemporaryFolder& folder, const MadeUpSize& s
 inline void writeTimingsAndSummary(const TemporaryFolder& folder, const MadeUpSize& size) {
   const int calls = static_cast<int>(size.seconds * size.rate_hz);
   std::ofstream out(folder.file("timings.csv"));
-  out << "timestamp,stage,ms,cpu_ms\n" << std::fixed << std::setprecision(3);
+  out << "timestamp,stage,ms,cpu_ms,memory_mb\n" << std::fixed << std::setprecision(3);
   for (int i = 0; i < calls; ++i)
     for (const char* stage : {"matching", "selection, late"})
-      out << kStart + i / size.rate_hz << ',' << stage << ",2.500,5.000\n";
+      out << kStart + i / size.rate_hz << ',' << stage << ",2.500,5.000," << 100 + i << '\n';
   const json spent{{"calls", calls}, {"mean_ms", 2.5}, {"max_ms", 2.5}, {"total_ms", 2.5 * calls}};
-  folder.write("summary.json",
-               json{{"input", "/data/made_up.rawlog"},
-                    {"version", "1.2"},
-                    {"revision", "abc"},
-                    {"command", {"roomgraph", "run", "x y"}},
-                    {"interrupted", "no"},
-                    {"counts", {{"frames", calls}, {"frames_lost", 7}, {"scans", 9}, {"loop_closures", 2}}},
-                    {"reasons", {{"too dark", 7}}},
-                    {"records_used", {{"Images", calls}}},
-                    {"records_skipped", {{"broken", 3}}},
-                    {"input_warning", "cut off"},
-                    {"sensor_warnings", {"two lidars"}},
-                    {"timings", {{"matching", spent}, {"selection, late", spent}}},
-                    {"peak_memory_mb", 123.44}}
-                   .dump());
+  folder.write(
+      "summary.json",
+      json{{"input", "/data/made_up.rawlog"},
+           {"version", "1.2"},
+           {"revision", "abc"},
+           {"command", {"roomgraph", "run", "x y"}},
+           {"interrupted", "no"},
+           {"counts", {{"frames", calls}, {"frames_lost", 7}, {"scans", 9}, {"loop_closures", 2}}},
+           {"reasons", {{"too dark", 7}}},
+           {"records_used", {{"Images", calls}}},
+           {"records_skipped", {{"broken", 3}}},
+           {"input_warning", "cut off"},
+           {"sensor_warnings", {"two lidars"}},
+           {"findings",
+            {{{"severity", "warning"}, {"place", "LIDAR"}, {"what", "gap of 2 s"}, {"hint", "drive on"}},
+             {{"severity", "note"}, {"place", "KINECT"}, {"what", "dark <b>"}, {"hint", ""}}}},
+           {"timings", {{"matching", spent}, {"selection, late", spent}}},
+           {"peak_memory_mb", 123.44}}
+          .dump());
 }
 
 /// 4 x 3 cells of 0.5 m from (-1, -2): the first row is occupied, the second free, the last unknown.
@@ -132,7 +136,7 @@ inline void writeGraph(const TemporaryFolder& folder) {
   for (int i = 0; i < 4; ++i)
     out << "VERTEX_SE3:QUAT " << i << ' ' << i << ' ' << 2 * i << " 0 0 0 0 1\n# STAMP " << i << ' '
         << std::fixed << kStart + 5 * i << std::defaultfloat << '\n';
-  out << "VERTEX_SE3:QUAT 10000000 9 9 0 0 0 0 1\nFIX 0\n";
+  out << "# CLOSURE 3 0 lidar\nVERTEX_SE3:QUAT 10000000 9 9 0 0 0 0 1\nFIX 0\n";
   for (const char* edge : {"0 1", "1 2", "2 3", "10000000 1", "3 0"})
     out << "EDGE_SE3:QUAT " << edge << " 1 0 0 0 0 0 1\n";
   folder.write("graph.g2o", out.str());
@@ -147,6 +151,19 @@ inline void writeRun(const TemporaryFolder& folder, const MadeUpSize& size = {})
   writeTimingsAndSummary(folder, size);
   writeGrid(folder);
   writeGraph(folder);
+  folder.write(
+      "lost.jsonl",
+      json{{"sensor", "camera"},
+           {"from", kStart + 4},
+           {"to", kStart + 6.5},
+           {"records", 25},
+           {"why", "too dark"}}
+              .dump() +
+          "\n" +
+          json{
+              {"sensor", "lidar"}, {"from", kStart}, {"to", kStart + 2}, {"records", 0}, {"why", "no record"}}
+              .dump() +
+          "\n");
   folder.write("config.ini", "[a]\nx = 5e-04\ny = 2\n[b]\nname =\n");
   folder.write("objects.ini", "[sofa]\ncolor = #3f7fd0\n[swivel_chair]\ncolor = red\n");
 }

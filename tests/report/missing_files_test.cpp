@@ -76,6 +76,10 @@ TEST(ReportErrors, TheCauseNamesThePlace) {
   EXPECT_THAT(causeOf(folder, "landmarks.json"), HasSubstr("object 2: "));
   folder.write("timings.csv", "timestamp,stage,ms,cpu_ms\n1,a,2,3\n1,a,two,3\n");
   EXPECT_EQ(causeOf(folder, "timings.csv"), "timings.csv:3: expected timestamp,stage,ms,cpu_ms");
+  folder.write("timings.csv", "timestamp,stage,ms,cpu_ms,memory_mb\n1,a, b,2,3,4\n1,2,3,4\n");
+  EXPECT_EQ(causeOf(folder, "timings.csv"), "timings.csv:3: expected timestamp,stage,ms,cpu_ms,memory_mb");
+  folder.write("lost.jsonl", "{\"sensor\": \"camera\", \"from\": 1}\n");
+  EXPECT_EQ(causeOf(folder, "lost.jsonl"), "lost.jsonl:1: is no span of a sensor");
   folder.write("associations.jsonl", "\n{\"timestamp\": 1, \"measurements\": [{}]}\n");
   EXPECT_THAT(causeOf(folder, "associations.jsonl"), HasSubstr("associations.jsonl:2: "));
   folder.write("trajectory.tum", "1 2 3\n");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "grid_image.h"
@@ -112,6 +113,40 @@ TEST(ReportClosures, PlanarGraphsAndOddLines) {
   EXPECT_EQ(closures[0].t_a, 1);
   EXPECT_EQ(closures[0].t_b, 5);
   EXPECT_EQ(closures[0].b[1], 6);
+}
+
+// The second pose is 0.5 m and 0.1 rad from where the first one's measurement puts it.
+TEST(ReportClosures, ResidualsOfAPlanarEdge) {
+  std::istringstream graph(
+      "VERTEX_SE2 0 5 5 0.5\n# STAMP 0 1\nVERTEX_SE2 1 0 0 0\n# STAMP 1 2\n"
+      "VERTEX_SE2 2 5.4 5.3 0.6\n# STAMP 2 3\nEDGE_SE2 0 2 0 0 0 4 0 0 4 0 100\nEDGE_SE2 0 2 0 0 0 1 2 3\n"
+      "# CLOSURE 0 2 lidar\n# CLOSURE 0 2 tracking\n# CLOSURE 0\n");
+  const auto closures = readClosures(graph, 0);
+  ASSERT_EQ(closures.size(), 2u);
+  EXPECT_NEAR(closures[0].off_m, 0.5, 1e-12);
+  EXPECT_NEAR(closures[0].off_rad, 0.1, 1e-12);
+  EXPECT_NEAR(closures[0].off_sigmas, std::sqrt(4 * 0.25 + 100 * 0.01), 1e-12);
+  EXPECT_EQ(closures[0].kind, "lidar");
+  EXPECT_EQ(closures[1].kind, "tracking") << "in the order of the edges";
+  EXPECT_TRUE(std::isnan(closures[1].off_m)) << "three numbers are no information";
+  EXPECT_EQ(closures[1].id_b, 2);
+}
+
+// Information between x and y, and on a half-turn's quaternion: e = (.1, .2, 0, sin .2, 0, 0).
+TEST(ReportClosures, ResidualsOfASpatialEdge) {
+  std::ostringstream text;
+  text << std::setprecision(17)
+       << "VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n# STAMP 0 1\nVERTEX_SE3:QUAT 1 0 0 0 0 0 0 1\n"
+       << "# STAMP 1 2\nVERTEX_SE3:QUAT 2 1.1 2.2 3 " << -std::sin(0.2) << " 0 0 " << -std::cos(0.2)
+       << "\n# STAMP 2 3\nEDGE_SE3:QUAT 0 2 1 2 3 0 0 0 1 9 2 0 0 0 0 4 0 0 0 0 1 0 0 0 25 0 0 1 0 1\n";
+  std::istringstream graph(text.str());
+  const auto closures = readClosures(graph, 0);
+  ASSERT_EQ(closures.size(), 1u);
+  EXPECT_NEAR(closures[0].off_m, std::hypot(0.1, 0.2), 1e-12);
+  EXPECT_NEAR(closures[0].off_rad, 0.4, 1e-9);
+  EXPECT_NEAR(closures[0].off_sigmas,
+              std::sqrt(9 * 0.01 + 2 * 2 * 0.1 * 0.2 + 4 * 0.04 + 25 * std::pow(std::sin(0.2), 2)), 1e-9);
+  EXPECT_EQ(closures[0].kind, "") << "the file does not tell";
 }
 
 // A wall of one cell stays when four cells become one.

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 const std::set<std::string> kOnlyAll{"live.tum",           "detections.jsonl", "associations_live.jsonl",
                                      "associations.jsonl", "candidates.json",  "graph.g2o",
-                                     "timings.csv",        "views.jsonl"};
+                                     "timings.csv",        "views.jsonl",      "lost.jsonl"};
 const std::set<std::string> kFromMapOn{
     "trajectory.tum", "trajectory_camera.tum", "landmarks.json", "map.pgm", "map.yaml",
     "map.rgmap",      "snapshot.png",          "report.html"};

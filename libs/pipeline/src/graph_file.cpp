@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choice of the planar or spatial graph, with the times of its nodes.
+// Choice of the planar or spatial graph, with the times of its nodes and what found its loop closures.
 #include "graph_file.h"
 
+#include <cerrno>
+#include <fstream>
+
 #include "roomgraph/backend/g2o_file.h"
+#include "roomgraph/core/output_file.h"
 
 namespace roomgraph {
+namespace {
+
+// "# CLOSURE a b kind" for each, in the order in which the graph has its edges.
+void appendClosureKinds(const SemanticSlam& slam, const std::filesystem::path& file) {
+  std::ofstream out(file, std::ios::app);
+  const KeyPoses& poses = slam.keyPoses();
+  for (const auto& closure : slam.loopClosures()) {
+    const NodeId a = poses.nearest(closure.t_a).id, b = poses.nearest(closure.t_b).id;
+    if (a != b) out << "# CLOSURE " << a << ' ' << b << ' ' << closure.source << '\n';
+  }
+  if (!out.flush()) failToWrite(file, errno);
+}
+
+}  // namespace
 
 void saveGraph(const SemanticSlam& slam, bool planar_run, const std::filesystem::path& file) {
   NodeTimes times;
@@ -13,6 +31,7 @@ void saveGraph(const SemanticSlam& slam, bool planar_run, const std::filesystem:
     saveG2o(slam.graph().planar(), file, times);
   else
     slam.graph().saveG2o(file, times);
+  appendClosureKinds(slam, file);
 }
 
 }  // namespace roomgraph

@@ -126,6 +126,18 @@ ordered_json earlierMapJson(const EarlierMap& earlier) {
   return out;
 }
 
+// Nothing when the recording was not examined.
+ordered_json findingsJson(const std::optional<std::vector<Finding>>& findings) {
+  if (!findings) return nullptr;
+  ordered_json out = ordered_json::array();
+  for (const auto& finding : *findings)
+    out.push_back({{"severity", toString(finding.severity)},
+                   {"place", finding.place},
+                   {"what", finding.what},
+                   {"hint", finding.hint}});
+  return out;
+}
+
 ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
                          const ReplayState& replayed, const RunOrigin& origin) {
   ordered_json summary{{"input", origin.input},
@@ -143,6 +155,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;
   summary["sensor_warnings"] = read.sensor_warnings;
+  summary["findings"] = findingsJson(origin.findings);
   summary["timings"] = timingsJson(slam.times());
   summary["peak_memory_mb"] = peakMemoryMb();
   return summary;
@@ -171,10 +184,10 @@ LandmarksOrigin originOf(const SlamResult& result, const RunOrigin& origin) {
 }
 
 void writeTimings(std::ostream& out, const StageTimes& times) {
-  out << "timestamp,stage,ms,cpu_ms\n" << std::fixed;
+  out << "timestamp,stage,ms,cpu_ms,memory_mb\n" << std::fixed;
   for (const auto& call : times.calls())
     out << std::setprecision(6) << call.t << ',' << call.stage << std::setprecision(3) << ',' << call.ms
-        << ',' << call.cpu_ms << '\n';
+        << ',' << call.cpu_ms << std::setprecision(1) << ',' << call.memory_mb << '\n';
 }
 
 }  // namespace
@@ -185,16 +198,33 @@ void writeTum(std::ostream& out, const std::vector<StampedPose>& poses) {
 
 RunOutput::RunOutput(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& inputs)
     : files_(folder,
-             {"live.tum", "detections.jsonl", "associations_live.jsonl", "trajectory.tum",
-              "trajectory_camera.tum", "associations.jsonl", "landmarks.json", "candidates.json", "map.pgm",
-              "map.yaml", "map.rgmap", "graph.g2o", "config.ini", "objects.ini", "timings.csv", "views.jsonl",
-              "snapshot.png", "report.html", "summary.json"},
+             {"live.tum",
+              "detections.jsonl",
+              "associations_live.jsonl",
+              "trajectory.tum",
+              "trajectory_camera.tum",
+              "associations.jsonl",
+              "landmarks.json",
+              "candidates.json",
+              "map.pgm",
+              "map.yaml",
+              "map.rgmap",
+              "graph.g2o",
+              "config.ini",
+              "objects.ini",
+              "timings.csv",
+              "views.jsonl",
+              "lost.jsonl",
+              "snapshot.png",
+              "report.html",
+              "summary.json"},
              inputs),
       live_(files_.pending("live.tum")),
       detections_(files_.pending("detections.jsonl")),
       associations_(files_.pending("associations_live.jsonl")) {}
 
 void RunOutput::onStep(const StepReport& report) {
+  lost_.onStep(report);
   if (report.kind == StepReport::Kind::kOther) return;
   views_.onStep(report);
   writeStamped(live_, report.t, report.world_from_robot);
@@ -233,6 +263,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   write("objects.ini", slam.setup().objects);
   write("timings.csv", timings.str());
   write("views.jsonl", views_.text(slam.objects().frames()));
+  write("lost.jsonl", lost_.text());
   write("summary.json", textOf(summaryJson(slam, result, read, replayed, origin), 2) + "\n");
 }
 

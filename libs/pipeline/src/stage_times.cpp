@@ -2,8 +2,11 @@
 // Measurement of stage calls and their totals.
 #include "roomgraph/pipeline/stage_times.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <ctime>
+#include <fstream>
 
 namespace roomgraph {
 namespace {
@@ -14,6 +17,14 @@ double processorTime_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+// Resident pages: the second number of statm.
+double residentMemory_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double all = 0, resident = 0;
+  if (!(statm >> all >> resident)) return 0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
 }  // namespace
 
 StageTimes::Measured::Measured(StageTimes& times, const char* stage)
@@ -21,7 +32,8 @@ StageTimes::Measured::Measured(StageTimes& times, const char* stage)
 
 StageTimes::Measured::~Measured() {
   const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - started_;
-  times_.calls_.push_back({times_.t_, stage_, passed.count(), processorTime_ms() - cpu_ms_});
+  const double cpu_ms = processorTime_ms() - cpu_ms_;
+  times_.calls_.push_back({times_.t_, stage_, passed.count(), cpu_ms, residentMemory_mb()});
 }
 
 std::map<std::string, StageTimes::Totals> StageTimes::totals() const {

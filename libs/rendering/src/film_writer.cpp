@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -23,6 +25,14 @@ const std::map<std::string, std::vector<std::string>>& codecs() {
   static const std::map<std::string, std::vector<std::string>> known{
       {".mp4", {"avc1", "mp4v"}}, {".webm", {"VP80", "VP90"}}, {".avi", {"MJPG"}}};
   return known;
+}
+
+/// In small letters: ".MP4" is one, too.
+std::string endingOf(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
 }
 
 int fourCc(const std::string& name) {
@@ -55,11 +65,10 @@ class QuietOpenCv {
 class Video : public FrameSink {
  public:
   Video(const fs::path& file, double fps, const cv::Size& size)
-      : place_(file),
-        temporary_(fs::path(file).replace_extension(".unfinished" + file.extension().string())) {
+      : place_(file), temporary_(fs::path(file).replace_extension(".unfinished" + endingOf(file))) {
     OutputFile(temporary_).finish();  // says why when that cannot be written
     const QuietOpenCv quiet;
-    for (const auto& codec : codecs().at(file.extension().string()))
+    for (const auto& codec : codecs().at(endingOf(file)))
       if (!writer_.isOpened()) writer_.open(temporary_.string(), fourCc(codec), fps, size);
     if (writer_.isOpened()) return;
     remove();
@@ -122,7 +131,7 @@ class Pictures : public FrameSink {
 }  // namespace
 
 std::unique_ptr<FrameSink> makeFrameSink(const fs::path& place, double fps, const cv::Size& size) {
-  if (codecs().count(place.extension().string())) return std::make_unique<Video>(place, fps, size);
+  if (codecs().count(endingOf(place))) return std::make_unique<Video>(place, fps, size);
   return std::make_unique<Pictures>(place);
 }
 

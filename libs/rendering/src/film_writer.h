@@ -18,8 +18,8 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-/// A video for .mp4, .webm and .avi, else a folder that gets frame_00000.png and so on. Throws RunError as
-/// writeFilm().
+/// A video for .mp4, .webm and .avi (in small letters or capitals), else a folder that gets frame_00000.png
+/// and so on. Throws RunError as writeFilm().
 std::unique_ptr<FrameSink> makeFrameSink(const std::filesystem::path& place, double fps,
                                          const cv::Size& size);
 

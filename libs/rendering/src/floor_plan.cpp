@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "canvas.h"
@@ -18,7 +19,10 @@ namespace {
 
 constexpr double kFrame_mm = 10;   ///< from the edge of the sheet to the frame: printers need some of it
 constexpr double kPadding_mm = 4;  ///< from the frame to the map
-constexpr double kBlock_mm = 30;   ///< title block and legend at the bottom
+constexpr double kLeastBlock_mm = 30;    ///< title block and legend at the bottom
+constexpr double kMostBlockShare = 0.4;  ///< of the sheet's height, however many classes there are
+constexpr double kLegendShare = 0.55;    ///< of the width within the frame
+constexpr double kLegendPadding_mm = 2;
 constexpr double kLargestPdf_mm = 5080;  ///< 200 inch
 
 struct Sheet {
@@ -33,22 +37,39 @@ const std::vector<Sheet>& isoSheets() {
   return sheets;
 }
 
-/// What the map of this size (mm) leaves no room for.
-Eigen::Vector2d sheetAround(const Eigen::Vector2d& map) {
-  return map + Eigen::Vector2d(2 * (kFrame_mm + kPadding_mm), 2 * (kFrame_mm + kPadding_mm) + kBlock_mm);
+/// What is to go on a sheet.
+struct Content {
+  Eigen::Vector2d world_m;
+  std::function<double(double)> block_mm;  ///< height of the block on a sheet of that width (mm)
+
+  /// Size of the map, mm.
+  Eigen::Vector2d map(double scale) const { return world_m * 1000 / scale; }
+};
+
+/// The smallest sheet of that width around a map of this size, mm.
+Eigen::Vector2d sheetAround(const Eigen::Vector2d& map, double width, const Content& content) {
+  return map + Eigen::Vector2d(2 * (kFrame_mm + kPadding_mm),
+                               2 * (kFrame_mm + kPadding_mm) + content.block_mm(width));
 }
 
-bool holds(const Eigen::Vector2d& sheet, const Eigen::Vector2d& map) {
-  return (sheet.array() + 1e-6 >= sheetAround(map).array()).all();
+double blockOn(const Eigen::Vector2d& sheet, const Content& content) {
+  return std::min(content.block_mm(sheet.x()), std::max(kLeastBlock_mm, kMostBlockShare * sheet.y()));
+}
+
+bool holds(const Eigen::Vector2d& sheet, const Eigen::Vector2d& map, const Content& content) {
+  const Eigen::Vector2d room = sheet - Eigen::Vector2d::Constant(2 * (kFrame_mm + kPadding_mm)) -
+                               Eigen::Vector2d(0, blockOn(sheet, content));
+  return (room.array() + 1e-6 >= map.array()).all();
 }
 
 /// Upright or lying, upright first for maps that are taller than wide; nothing when the map is too large.
-std::optional<Sheet> turned(const Sheet& sheet, const Eigen::Vector2d& map) {
+std::optional<Sheet> turned(const Sheet& sheet, const Content& content, double scale) {
+  const Eigen::Vector2d map = content.map(scale);
   const Sheet portrait{sheet.name + " portrait", sheet.size},
       landscape{sheet.name + " landscape", {sheet.size.y(), sheet.size.x()}};
   const bool tall = map.y() > map.x();
   for (const Sheet& one : {tall ? portrait : landscape, tall ? landscape : portrait})
-    if (holds(one.size, map)) return one;
+    if (holds(one.size, map, content)) return one;
   return std::nullopt;
 }
 
@@ -57,31 +78,31 @@ std::string millimetres(const Eigen::Vector2d& size) {
 }
 
 /// The next scale of the usual ones at which the map fits.
-std::string fittingScale(const Sheet& sheet, const Eigen::Vector2d& world_m) {
+std::string fittingScale(const Sheet& sheet, const Content& content) {
   for (double power = 10;; power *= 10)
     for (const double digit : {1.0, 2.0, 2.5, 5.0})
-      if (turned(sheet, world_m * 1000 / (digit * power))) return std::to_string(std::lround(digit * power));
+      if (turned(sheet, content, digit * power)) return std::to_string(std::lround(digit * power));
 }
 
-[[noreturn]] void refuse(const Sheet& asked, const Eigen::Vector2d& world_m, double scale) {
-  const Eigen::Vector2d map = world_m * 1000 / scale;
+[[noreturn]] void refuse(const Sheet& asked, const Content& content, double scale) {
   std::string larger;
   for (const Sheet& sheet : isoSheets())
-    if (larger.empty() && turned(sheet, map)) larger = "--page " + sheet.name + " or ";
-  throw RunError("at 1 : " + std::to_string(std::lround(scale)) + " the map is " + millimetres(map) +
-                 ", too large for " + asked.name + ": take " + larger + "--scale " +
-                 fittingScale(asked, world_m));
+    if (larger.empty() && turned(sheet, content, scale)) larger = "--page " + sheet.name + " or ";
+  throw RunError("at 1 : " + std::to_string(std::lround(scale)) + " the map is " +
+                 millimetres(content.map(scale)) + ", too large for " + asked.name + ": take " + larger +
+                 "--scale " + fittingScale(asked, content));
 }
 
-Sheet sheetFor(const Eigen::Vector2d& world_m, const FloorPlanOptions& options) {
-  const Eigen::Vector2d map = world_m * 1000 / options.scale;
+Sheet sheetFor(const Content& content, const FloorPlanOptions& options) {
   for (const Sheet& sheet : isoSheets()) {
     if (options.page != "auto" && options.page != sheet.name) continue;
-    if (const auto found = turned(sheet, map)) return *found;
-    if (options.page == sheet.name) refuse(sheet, world_m, options.scale);
+    if (const auto found = turned(sheet, content, options.scale)) return *found;
+    if (options.page == sheet.name) refuse(sheet, content, options.scale);
   }
-  const Eigen::Vector2d size = (sheetAround(map).array() - 1e-6).ceil();
-  if (size.maxCoeff() > kLargestPdf_mm) refuse(isoSheets().back(), world_m, options.scale);
+  const Eigen::Vector2d map = content.map(options.scale);
+  const Eigen::Vector2d size =
+      (sheetAround(map, map.x() + 2 * (kFrame_mm + kPadding_mm), content).array() - 1e-6).ceil();
+  if (size.maxCoeff() > kLargestPdf_mm) refuse(isoSheets().back(), content, options.scale);
   return {millimetres(size), size};
 }
 
@@ -95,19 +116,40 @@ std::string dateOf(const CSemanticMap& map) {
   return text;
 }
 
+double legendWidth_pt(double sheet_width_mm) {
+  return (kLegendShare * (sheet_width_mm - 2 * kFrame_mm) - 5) * kPointsPerMillimeter;
+}
+
+double blockFor_mm(int rows) {
+  return std::max(kLeastBlock_mm, rows * kLegendRow_pt / kPointsPerMillimeter + 2 * kLegendPadding_mm);
+}
+
+/// As many entries as have room; the last says how many have none.
+std::vector<LegendEntry> fitting(Canvas& canvas, std::vector<LegendEntry> entries, double width_pt,
+                                 double block_mm) {
+  const auto fits = [&] { return blockFor_mm(legendRows(canvas, entries, width_pt)) <= block_mm + 1e-6; };
+  const auto all = entries;
+  for (std::size_t kept = all.size(); !fits() && kept > 0;) {
+    entries.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(--kept));
+    entries.push_back({"and " + std::to_string(all.size() - kept) + " more", 0, [](Canvas&, const auto&) {}});
+  }
+  return entries;
+}
+
 /// Legend at the left; title, facts, scale and scale bar at the right.
 void drawBlock(Canvas& canvas, const CSemanticMap& map, const ObjectDatabase& database,
-               const FloorPlanOptions& options, const PagePlace& place) {
+               const FloorPlanOptions& options, const PagePlace& place, double block_mm) {
   const double mm = kPointsPerMillimeter, edge = kFrame_mm * mm;
   const Eigen::Vector2d size = canvas.size();
-  const double top = size.y() - edge - kBlock_mm * mm, middle = edge + 0.55 * (size.x() - 2 * edge);
+  const double top = size.y() - edge - block_mm * mm, middle = edge + kLegendShare * (size.x() - 2 * edge),
+               width = legendWidth_pt(size.x() / mm);
   canvas.line(
       {{edge, edge}, {size.x() - edge, edge}, {size.x() - edge, size.y() - edge}, {edge, size.y() - edge}},
       {palette::kInk, 0.7}, true);
   canvas.line({{edge, top}, {size.x() - edge, top}}, {palette::kInk, 0.5});
   canvas.line({{middle, top}, {middle, size.y() - edge}}, {palette::kInk, 0.5});
-  drawLegend(canvas, legendOf(map, database, FigureStyle::kPaper), {edge + 3 * mm, top + 2 * mm},
-             middle - edge - 5 * mm);
+  drawLegend(canvas, fitting(canvas, legendOf(map, database, FigureStyle::kPaper), width, block_mm),
+             {edge + 3 * mm, top + kLegendPadding_mm * mm}, width);
   const double left = middle + 4 * mm;
   canvas.text({left, top + 7 * mm}, options.title.empty() ? "Floor plan" : options.title, {11});
   canvas.text({left, top + 12 * mm}, factsOf(map), {7.5, palette::kFaintInk});
@@ -129,16 +171,22 @@ std::string writeFloorPlan(const CSemanticMap& map, const ObjectDatabase& databa
   if (!map.occupancy && map.landmarks.empty() && map.world_from_robot.empty())
     throw RunError("the map is empty: there is nothing to draw");
   PagePlace place{drawnWorld(map)};
-  const Sheet sheet = sheetFor(place.world.sizes(), options);
+  Canvas ruler(CanvasFormat::kPdf, {1, 1});
+  const auto legend = legendOf(map, database, FigureStyle::kPaper);
+  const Content content{place.world.sizes(), [&](double sheet_width_mm) {
+                          return blockFor_mm(legendRows(ruler, legend, legendWidth_pt(sheet_width_mm)));
+                        }};
+  const Sheet sheet = sheetFor(content, options);
+  const double block_mm = blockOn(sheet.size, content);
   const double mm = kPointsPerMillimeter;
   place.points_per_m = 1000 / options.scale * mm;
   const Eigen::Vector2d page = sheet.size * mm;
   Canvas canvas(CanvasFormat::kPdf, page, options.title,
                 map.world_from_robot.empty() ? 0 : map.world_from_robot.front().t);
-  const Eigen::Vector2d room = page - Eigen::Vector2d(0, kBlock_mm * mm);
+  const Eigen::Vector2d room = page - Eigen::Vector2d(0, block_mm * mm);
   place.corner = (room - place.size()) / 2;
   drawMap(canvas, map, database, FigureStyle::kPaper, ObjectNames::kClassAndNumber, place);
-  drawBlock(canvas, map, database, options, place);
+  drawBlock(canvas, map, database, options, place, block_mm);
   writeFileAtomically(pdf, canvas.finishedFile());
   return sheet.name;
 }

@@ -71,8 +71,10 @@ function pathPieces(run) {
 }
 
 function closureLines(run) {
-  return s(
-      'path', {class: 'closures', d: run.closures.map((c) => `M${c[1]} ${c[2]}L${c[4]} ${c[5]}`).join('')});
+  return s('path', {
+    class: 'closures',
+    d: run.closures.map(({a, b}) => `M${a[0]} ${a[1]}L${b[0]} ${b[1]}`).join('')
+  });
 }
 
 /// The ellipse that holds the centre with 95 %, from the eigenvectors of its covariance.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Title, figures, accuracy, time and memory, events.
+// Title, figures, accuracy, time and memory.
 
 function missingNote(run, files) {
   const parts = files.map((file) => run.missing[file] && `${file} ${run.missing[file]}`).filter(Boolean);
@@ -51,6 +51,7 @@ function keyFigures(run) {
 function notesOf(run) {
   const notes = [...run.warnings];
   const files = Object.entries(run.missing);
+  notes.push(...gravest(run));
   if (run.interrupted === 'yes')
     notes.unshift('The run was interrupted: all this covers what was replayed until then.');
   if (files.length)
@@ -175,52 +176,10 @@ function timeSection(run, onTime) {
   parts.push(curve(
       run, 'Work on one record, without what is done once', [{name: 'work', data: run.record_ms}],
       `Largest ${milliseconds(largestOf([{data: run.record_ms}]))}.`, milliseconds, tick, onTime));
+  const megabytes = (v) => `${whole(v)}\u00a0MB`;
+  parts.push(curve(
+      run, 'Memory over time (MB)', [{name: 'held', data: run.memory_mb}],
+      `Largest ${megabytes(largestOf([{data: run.memory_mb}]))}.`, megabytes, whole, onTime));
   const memory = run.peak_memory_mb ? `The program held ${whole(run.peak_memory_mb)} MB at most.` : null;
   return section('time', 'Time and memory', memory, h('div', {class: 'stack'}, parts));
-}
-
-function countTable(title, counts) {
-  const rows = Object.entries(counts);
-  return h(
-      'div', {class: 'card pad'}, h('h3', {}, title),
-      rows.length ? table(
-                        null, [{title: 'what'}, {title: 'number', number: true}],
-                        rows.map(([name, n]) => [words(name), whole(n)])) :
-                    h('p', {class: 'none'}, 'None.'));
-}
-
-function closurePart(run) {
-  const rows = run.closures.slice()
-                   .sort((a, b) => Math.abs(b[3] - b[0]) - Math.abs(a[3] - a[0]))
-                   .slice(0, 8)
-                   .map(
-                       (c) =>
-                           [`${clock(Math.min(c[0], c[3]))} – ${clock(Math.max(c[0], c[3]))}`,
-                            clock(Math.abs(c[3] - c[0])), metres(Math.hypot(c[4] - c[1], c[5] - c[2]))]);
-  return h(
-      'div', {class: 'card pad'}, h('h3', {}, `Loop closures (${whole(run.closures.length)})`),
-      rows.length ?
-          table(
-              'Those over the longest time',
-              [{title: 'between'}, {title: 'time between', number: true}, {title: 'apart', number: true}],
-              rows) :
-          missingNote(run, ['graph.g2o']));
-}
-
-function gapPart(run) {
-  const longest = run.gaps.slice().sort((a, b) => b[1] - b[0] - (a[1] - a[0])).slice(0, 8);
-  const rows = longest.map(([from, to]) => [`${clock(from)} – ${clock(to)}`, `${fixed(to - from, 1)} s`]);
-  const sum = run.gaps.reduce((all, [from, to]) => all + to - from, 0);
-  const caption = `${fixed(sum, 1)} s in all${run.gaps.length > rows.length ? '; the longest' : ''}`;
-  const none = run.poses ? h('p', { class: 'none' }, 'None: no gap of more than a second.') : missingNote(run, ['trajectory.tum']);
-  return h('div', { class: 'card pad' }, h('h3', {}, `Spans without a pose (${whole(run.gaps.length)})`), rows.length
-    ? table(caption, [{ title: 'between' }, { title: 'length', number: true }], rows) : none);
-}
-
-function eventsSection(run) {
-  return section(
-      'events', 'Events', 'What was lost, skipped or recognised on the way.',
-      h('div', {class: 'flow'}, closurePart(run), gapPart(run), countTable('Records used', run.records_used),
-        countTable('Records skipped', run.records_skipped),
-        countTable('Why frames and scans were lost', run.reasons), countTable('All counts', run.counts)));
 }

@@ -143,9 +143,32 @@ void addPaths(const RunData& run, ordered_json& out) {
   out["hindsight_m"] = seriesJson(run.hindsight_m);
   out["final_errors"] = errorsJson(run.final_errors);
   out["live_errors"] = errorsJson(run.live_errors);
-  out["closures"] = ordered_json::array();  // t, x, y of both ends
+  out["closures"] = ordered_json::array();
   for (const auto& c : run.closures)
-    out["closures"].push_back(roundedList(std::array{c.t_a, c.a[0], c.a[1], c.t_b, c.b[0], c.b[1]}, 2));
+    out["closures"].push_back({{"ids", {c.id_a, c.id_b}},
+                               {"t", roundedList(std::array{c.t_a, c.t_b}, 2)},
+                               {"a", roundedList(c.a, 2)},
+                               {"b", roundedList(c.b, 2)},
+                               {"kind", c.kind},
+                               {"off_m", rounded(c.off_m)},
+                               {"off_rad", rounded(c.off_rad)},
+                               {"off_sigmas", rounded(c.off_sigmas, 2)}});
+}
+
+// null: the run did not say.
+void addTroubles(const RunData& run, ordered_json& out) {
+  out["lost"] = out["findings"] = nullptr;
+  if (run.lost) out["lost"] = ordered_json::array();
+  if (run.findings) out["findings"] = ordered_json::array();
+  for (const auto& span : run.lost.value_or(std::vector<LostRow>()))
+    out["lost"].push_back({{"sensor", span.sensor},
+                           {"from", rounded(span.from, 2)},
+                           {"to", rounded(span.to, 2)},
+                           {"records", span.records},
+                           {"why", span.why}});
+  for (const auto& found : run.findings.value_or(std::vector<FindingRow>()))
+    out["findings"].push_back(
+        {{"severity", found.severity}, {"place", found.place}, {"what", found.what}, {"hint", found.hint}});
 }
 
 void addSummary(const RunData& run, ordered_json& out) {
@@ -163,6 +186,7 @@ void addSummary(const RunData& run, ordered_json& out) {
                              {"total_ms", rounded(s.total_ms, 3)},
                              {"cpu_ms", rounded(s.cpu_ms, 3)}});
   out["record_ms"] = seriesJson(run.record_ms);
+  out["memory_mb"] = seriesJson(run.memory_mb);
   out["peak_memory_mb"] = rounded(run.peak_memory_mb, 1);
 }
 
@@ -179,6 +203,7 @@ ordered_json runJson(const RunData& run) {
                    {"poses", run.poses}};
   addPaths(run, out);
   addSummary(run, out);
+  addTroubles(run, out);
   out["grid"] = gridJson(run.grid);
   out["objects"] = ordered_json::array();
   for (const auto& object : run.objects) out["objects"].push_back(objectJson(object));

@@ -11,6 +11,7 @@
 
 #include "config_file.h"
 #include "grid_image.h"
+#include "lost_list.h"
 #include "object_list.h"
 #include "path_thinning.h"
 #include "pose_curves.h"
@@ -149,10 +150,12 @@ void readViews(std::istream& lines, RunData& run) {
 }
 
 // Runs of earlier versions have none: nothing is missing without them.
-void gatherViews(const std::filesystem::path& folder, Gathering& files, RunData& run) {
+void gatherNewerFiles(const std::filesystem::path& folder, Gathering& files, RunData& run) {
   std::error_code none;
   if (std::filesystem::exists(folder / "views.jsonl", none))
     files.readLines("views.jsonl", [&](std::istream& lines) { readViews(lines, run); });
+  if (std::filesystem::exists(folder / "lost.jsonl", none))
+    files.readLines("lost.jsonl", [&](std::istream& lines) { run.lost = readLost(lines, run.start_t); });
 }
 
 }  // namespace
@@ -167,7 +170,7 @@ RunData gatherRun(const ReportedRun& asked, const ReportRequest& request) {
   files.read("summary.json", [&](const auto& file) { readSummary(file, run); });
   files.readLines("timings.csv", [&](std::istream& lines) { readTimings(lines, "timings.csv", run); });
   gatherObjects(files, run);
-  gatherViews(asked.folder, files, run);
+  gatherNewerFiles(asked.folder, files, run);
   files.read("map.yaml", [&](const auto& file) { run.grid = readGridImage(file); });
   files.readLines("graph.g2o", [&](std::istream& graph) { run.closures = readClosures(graph, run.start_t); });
   files.read("config.ini", [&](const auto& file) { run.config = readConfigRows(file, request.defaults); });

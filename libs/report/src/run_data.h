@@ -79,6 +79,18 @@ struct ReliabilityRow {
   int count = 0;
 };
 
+/// A span in which a sensor gave no movement, or no data; s since the run's first pose.
+struct LostRow {
+  std::string sensor, why;
+  double from = 0, to = 0;
+  int records = 0;
+};
+
+/// What `info` says of the recording.
+struct FindingRow {
+  std::string severity, place, what, hint;
+};
+
 /// Figures that `evaluate --json` left in the folder.
 struct EvaluationFile {
   std::string name;
@@ -107,6 +119,9 @@ struct RunData {
   std::vector<ConfigRow> config;
   std::vector<EvaluationFile> evaluations;
   std::map<std::string, std::string> missing;  ///< file -> what is wrong with it
+  BinnedSeries memory_mb;                      ///< that the program held; empty: the run did not say
+  std::optional<std::vector<LostRow>> lost;    ///< nothing: the run did not say
+  std::optional<std::vector<FindingRow>> findings;  ///< nothing: the recording was not examined
 };
 
 /// Reads all that is there; what is not, or is broken, is named in `missing`.

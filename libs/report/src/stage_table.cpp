@@ -3,6 +3,7 @@
 #include "stage_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,11 @@ void fill(const json& summary, RunData& run) {
   if (summary.contains("sensor_warnings"))
     for (const json& warning : summary.at("sensor_warnings")) run.run_warnings.push_back(warning);
   std::erase(run.run_warnings, "");
+  if (const auto found = summary.find("findings"); found != summary.end() && found->is_array()) {
+    run.findings.emplace();
+    for (const json& one : *found)
+      run.findings->push_back({one.at("severity"), one.at("place"), one.at("what"), one.at("hint")});
+  }
   run.peak_memory_mb = summary.value("peak_memory_mb", 0.);
   if (!summary.contains("timings")) return;
   for (const auto& [name, spent] : summary.at("timings").items())
@@ -56,24 +62,31 @@ void fill(const json& summary, RunData& run) {
 }
 
 struct TimingLine {
-  double t = 0, ms = 0, cpu_ms = 0;
+  double t = 0;
   std::string stage;
+  std::array<double, 3> values{};  // ms, cpu_ms, memory_mb
 };
 
-// "timestamp,stage,ms,cpu_ms"; nothing when it is not that.
-std::optional<TimingLine> parsed(const std::string& line) {
-  const auto first = line.find(','), last = line.rfind(',');
-  if (first == std::string::npos || last == first) return std::nullopt;
-  const auto middle = line.rfind(',', last - 1);
-  if (middle == std::string::npos || middle <= first) return std::nullopt;
+const std::string kColumns = "timestamp,stage,ms,cpu_ms", kColumnsWithMemory = kColumns + ",memory_mb";
+
+// Time, stage and so many values behind it, from the end: a name may hold commas. Nothing when it is not
+// that.
+std::optional<TimingLine> parsed(const std::string& line, int values) {
+  const auto first = line.find(',');
+  if (first == std::string::npos) return std::nullopt;
   TimingLine out;
-  char *end_t = nullptr, *end_ms = nullptr, *end_cpu = nullptr;
-  out.t = std::strtod(line.c_str(), &end_t);
-  out.ms = std::strtod(line.c_str() + middle + 1, &end_ms);
-  out.cpu_ms = std::strtod(line.c_str() + last + 1, &end_cpu);
-  if (end_t != line.c_str() + first || end_ms != line.c_str() + last || *end_cpu > ' ') return std::nullopt;
-  if (!std::isfinite(out.t + out.ms + out.cpu_ms)) return std::nullopt;
-  out.stage = line.substr(first + 1, middle - first - 1);
+  char* end = nullptr;
+  out.t = std::strtod(line.c_str(), &end);
+  if (end != line.c_str() + first || !std::isfinite(out.t)) return std::nullopt;
+  std::size_t behind = line.find_last_not_of("\r") + 1;
+  for (int i = values; i-- > 0;) {
+    const auto comma = line.rfind(',', behind - 1);
+    if (comma <= first) return std::nullopt;
+    double& value = out.values[static_cast<std::size_t>(i)] = std::strtod(line.c_str() + comma + 1, &end);
+    if (end != line.c_str() + behind || !std::isfinite(value)) return std::nullopt;
+    behind = comma;
+  }
+  out.stage = line.substr(first + 1, behind - first - 1);
   return out;
 }
 
@@ -93,17 +106,24 @@ void readTimings(std::istream& lines, const std::string& name, RunData& run) {
   std::map<std::string, int> calls;
   for (const auto& stage : run.stages) calls[stage.name] = stage.calls;
   std::map<double, double> of_record;
+  std::vector<std::pair<double, double>> memory_mb;
   std::string line;
   std::getline(lines, line);
+  const bool with_memory = line.starts_with(kColumnsWithMemory);
   for (int number = 2; std::getline(lines, line); ++number) {
-    const auto call = parsed(line);
-    if (!call) throw InputError(name + ":" + std::to_string(number) + ": expected timestamp,stage,ms,cpu_ms");
-    cpu_ms[call->stage] += call->cpu_ms;
-    if (calls[call->stage] != 1) of_record[call->t - run.start_t] += call->ms;
+    const auto call = parsed(line, with_memory ? 3 : 2);
+    if (!call)
+      throw InputError(name + ":" + std::to_string(number) + ": expected " +
+                       (with_memory ? kColumnsWithMemory : kColumns));
+    const auto [ms, cpu, memory] = call->values;
+    cpu_ms[call->stage] += cpu;
+    if (calls[call->stage] != 1) of_record[call->t - run.start_t] += ms;
+    if (memory > 0) memory_mb.emplace_back(std::clamp(call->t - run.start_t, 0., run.duration_s), memory);
   }
   for (auto& stage : run.stages) stage.cpu_ms = cpu_ms[stage.name];
   run.record_ms = binned({of_record.begin(), of_record.end()}, 0, run.duration_s,
                          partsFor(of_record.size(), kRecordBins));
+  run.memory_mb = binned(memory_mb, 0, run.duration_s, partsFor(of_record.size(), kRecordBins));
 }
 
 }  // namespace roomgraph

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/pipeline/best_views.h"
+#include "roomgraph/pipeline/lost_spans.h"
 #include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
@@ -21,6 +24,7 @@ struct RunOrigin {
   std::string version, revision;     ///< of the program
   std::vector<std::string> command;  ///< the words of the command line
   std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
+  std::optional<std::vector<Finding>> findings = {};  ///< about the recording; nothing: not examined
 };
 
 /// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end.
@@ -45,6 +49,7 @@ class RunOutput : public Sink {
 
   OutputFolder files_;
   BestViews views_;
+  LostSpans lost_;
   OutputFile live_, detections_, associations_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock and processor time of every call of a stage.
+// Wall-clock and processor time of every call of a stage, and the memory after it.
 #pragma once
 
 #include <chrono>
@@ -18,6 +18,7 @@ class StageTimes {
     const char* stage;  ///< a literal
     double ms = 0;      ///< by the clock on the wall
     double cpu_ms = 0;  ///< of all threads of the program
+    double memory_mb = 0;  ///< that the program holds when the call ends; 0: the system does not tell
   };
   struct Totals {
     int calls = 0;
