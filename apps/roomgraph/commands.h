@@ -18,6 +18,7 @@ void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);
 void addConfigReferenceCommand(CLI::App& app);
 void addSimulateCommand(CLI::App& app);
+void addTrainingSetCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addBatchCommand(CLI::App& app);
 void addMapCommand(CLI::App& app);

@@ -70,6 +70,7 @@ void addCommands(CLI::App& app) {
   addReportCommand(app);
   addConfigReferenceCommand(app);
   addSimulateCommand(app);
+  addTrainingSetCommand(app);
   addBenchCommand(app);
   addBatchCommand(app);
   addMapCommand(app);

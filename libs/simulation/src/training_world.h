@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flats, cameras and faults of sensors, varied beyond what recordings show.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "random.h"
+#include "roomgraph/simulation/training_set.h"
+#include "roomgraph/simulation/world.h"
+#include "scene.h"
+
+namespace roomgraph {
+
+/// Other surfaces and colours, and mesh files in place of half of the built shapes that have some.
+void varyWorld(World& world, const MeshChoice& meshes, Random& random);
+
+/// Light, range and noise of a camera of the given size, with its field of view.
+CameraSpec drawTrainingCamera(cv::Size size, Random& random);
+
+/// A view from near the path: any height from .25 to 1.75 m, leaning up to 35 degrees down and 12 up, rolled a little;
+/// every second one looks at an object.
+Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random);
+
+/// Depth of some objects, of round patches or of all that is far is lost, and the whole is shifted by up to 2 px against the
+/// colours. `depth`: CV_16U, mm.
+void spoilDepth(cv::Mat& depth, const cv::Mat& object, Random& random);
+
+/// Exposure, white balance, blur and JPEG.
+cv::Mat spoilColor(const cv::Mat& color, Random& random);
+
+}  // namespace roomgraph
