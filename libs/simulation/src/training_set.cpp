@@ -134,7 +134,8 @@ MeshChoice readMeshChoice(const std::filesystem::path& file, const std::filesyst
   kinds.insert(kinds.end(), {"door", "person", "sitting person"});
   MeshChoice out;
   try {
-    for (const auto& [kind, files] : Json::parse(stream).items()) {
+    const Json choice = Json::parse(stream);
+    for (const auto& [kind, files] : choice.items()) {
       if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
         throw ConfigError(file.string() + ": unknown kind '" + kind + "': one of " + join(kinds));
       for (const auto& one : files) out[kind].push_back(folder / one.get<std::string>());

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trains the room detector on the CPU for a given time; resumes from its own checkpoint.
+
+    training/train.py --views DIR/... --check DIR --out DIR --minutes 60
+"""
+import argparse
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch.nn import functional as F
+
+import data
+import evaluate
+from network import RoomDetector, boxes_of, cells
+
+RANGES = {8: (0, 48), 16: (32, 112), 32: (80, 1e9)}  # px: largest distance of a side that a level answers for
+CENTRE = 1.5  # strides: cells this near the middle of a box answer for it
+
+
+def assign(boxes, grid):
+    """For each cell the row of the box it answers for, -1: none, -2: not judged (it lies in a box that need not be found)."""
+    owner = torch.full((len(grid),), -1, dtype=torch.long)
+    if not len(boxes):
+        return owner
+    u, v, stride = grid[:, 0:1], grid[:, 1:2], grid[:, 2:3]
+    u0, v0, u1, v1 = (boxes[:, k][None] for k in range(1, 5))
+    sides = torch.stack([u - u0, v - v0, u1 - u, v1 - v], -1)
+    inside, longest = sides.min(-1).values > 0, sides.max(-1).values
+    low = torch.tensor([RANGES[int(s)][0] for s in stride[:, 0]])[:, None]
+    high = torch.tensor([RANGES[int(s)][1] for s in stride[:, 0]])[:, None]
+    near = ((u - (u0 + u1) / 2).abs() < CENTRE * stride) & ((v - (v0 + v1) / 2).abs() < CENTRE * stride)
+    sure = boxes[:, 5][None] > 0
+    owner[(inside & ~sure).any(1)] = -2
+    area = (u1 - u0) * (v1 - v0)
+    cost = torch.where(inside & near & sure & (longest >= low) & (longest < high), area.expand(len(grid), -1), torch.tensor(1e12))
+    best, row = cost.min(1)
+    owner[best < 1e12] = row[best < 1e12]
+    return owner
+
+
+def overlap(a, b):
+    """IoU and generalised IoU (Rezatofighi et al. 2019) of boxes, pairwise."""
+    low, high = torch.maximum(a[:, :2], b[:, :2]), torch.minimum(a[:, 2:], b[:, 2:])
+    both = (high - low).clamp(min=0).prod(1)
+    union = (a[:, 2:] - a[:, :2]).prod(1) + (b[:, 2:] - b[:, :2]).prod(1) - both
+    iou = both / union.clamp(min=1e-6)
+    hull = (torch.maximum(a[:, 2:], b[:, 2:]) - torch.minimum(a[:, :2], b[:, :2])).prod(1)
+    return iou, iou - (hull - union) / hull.clamp(min=1e-6)
+
+
+def loss_of(output, boxes, grid, classes):
+    """Quality focal loss of the classes (Li et al. 2020) and generalised IoU of the boxes."""
+    target, judged = torch.zeros(output.shape[:2] + (classes,)), torch.ones(output.shape[:2])
+    corners, pairs = boxes_of(output, grid, classes), []
+    for i, rows in enumerate(boxes):
+        owner = assign(rows, grid)
+        judged[i] = (owner != -2).float()
+        found = (owner >= 0).nonzero()[:, 0]
+        pairs.append((i, found, rows[owner[found]]))
+    predicted = torch.cat([corners[i, cell] for i, cell, _ in pairs])
+    wanted = torch.cat([rows for _, _, rows in pairs])
+    count = max(1, len(wanted))
+    iou, generalised = overlap(predicted, wanted[:, 1:5])
+    start = 0
+    for i, cell, rows in pairs:
+        target[i, cell, rows[:, 0].long()] = iou[start:start + len(cell)].detach().clamp(min=0)
+        start += len(cell)
+    logits = output[..., :classes]
+    weight = (target - logits.sigmoid()).abs().pow(2) * judged[..., None]
+    kinds = (weight * F.binary_cross_entropy_with_logits(logits, target, reduction="none")).sum() / count
+    return kinds, 2 * (1 - generalised).sum() / count
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--views", nargs="+", required=True, help="folders of `roomgraph training-set`")
+    parser.add_argument("--check", required=True, help="folder of views that are not trained on")
+    parser.add_argument("--out", type=Path, required=True, help="checkpoint.pt, log.jsonl")
+    parser.add_argument("--minutes", type=float, default=60, help="of training; the learning rate ends at 0 then")
+    parser.add_argument("--batch", type=int, default=16)
+    parser.add_argument("--rate", type=float, default=2e-3, help="largest learning rate (AdamW)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--start", type=Path, help="checkpoint whose weights to begin with")
+    parser.add_argument("--threads", type=int, default=2)
+    arguments = parser.parse_args()
+    torch.set_num_threads(arguments.threads)
+    torch.manual_seed(arguments.seed)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    views, check = data.Views(arguments.views), data.Views([arguments.check])
+    classes = len(data.CLASSES)
+    model, mean = RoomDetector(classes), RoomDetector(classes)
+    grid = cells(views.height, views.width)
+    optimizer = torch.optim.AdamW(model.parameters(), lr=arguments.rate, weight_decay=0.02)
+    state = {"seconds": 0.0, "steps": 0}
+    checkpoint = arguments.out / "checkpoint.pt"
+    if checkpoint.exists():
+        stored = torch.load(checkpoint)
+        model.load_state_dict(stored["model"])
+        mean.load_state_dict(stored["mean"])
+        optimizer.load_state_dict(stored["optimizer"])
+        state = stored["state"]
+        print(f"goes on from {state['steps']} steps")
+    else:
+        if arguments.start:
+            model.load_state_dict(torch.load(arguments.start)["mean"])
+        mean.load_state_dict(model.state_dict())
+    parameters = sum(p.numel() for p in model.parameters())
+    print(f"{len(views)} views, {len(check)} to check, {parameters} weights", flush=True)
+    last, shown, sums = time.time(), time.time(), np.zeros(3)
+    while state["seconds"] < 60 * arguments.minutes:
+        random = np.random.default_rng([arguments.seed, state["steps"]])
+        pictures, boxes = data.augmented(*views.batch(random.integers(0, len(views), arguments.batch)), random)
+        share = state["seconds"] / (60 * arguments.minutes)
+        rate = arguments.rate * min(1, (state["steps"] + 1) / 200) * (0.5 * (1 + np.cos(np.pi * share)) + 0.002)
+        for group in optimizer.param_groups:
+            group["lr"] = rate
+        model.train()
+        kinds, places = loss_of(model(pictures), boxes, grid, classes)
+        optimizer.zero_grad()
+        (kinds + places).backward()
+        torch.nn.utils.clip_grad_norm_(model.parameters(), 10)
+        optimizer.step()
+        keep = min(0.998, state["steps"] / (state["steps"] + 10))
+        with torch.no_grad():
+            for name, value in model.state_dict().items():
+                old = mean.state_dict()[name]
+                old.copy_(old * keep + value * (1 - keep) if value.dtype.is_floating_point else value)
+        state["steps"] += 1
+        sums += (kinds.item(), places.item(), 1)
+        state["seconds"] += time.time() - last
+        last = time.time()
+        if last - shown > 60 or state["seconds"] >= 60 * arguments.minutes:
+            figures = {"steps": state["steps"], "minutes": state["seconds"] / 60, "kinds": sums[0] / sums[2], "places": sums[1] / sums[2]}
+            if state["steps"] // 1000 != state.get("checked", 0) or state["seconds"] >= 60 * arguments.minutes:
+                state["checked"] = state["steps"] // 1000
+                figures.update(evaluate.average_precisions(mean, check))
+            with open(arguments.out / "log.jsonl", "a") as log:
+                log.write(json.dumps(figures) + "\n")
+            print({k: round(v, 3) for k, v in figures.items()}, flush=True)
+            torch.save({"model": model.state_dict(), "mean": mean.state_dict(), "optimizer": optimizer.state_dict(), "state": state},
+                       checkpoint.with_suffix(".new"))
+            checkpoint.with_suffix(".new").replace(checkpoint)
+            last = shown = time.time()
+            sums[:] = 0
+
+
+if __name__ == "__main__":
+    main()
