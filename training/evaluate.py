@@ -53,14 +53,15 @@ def average_precision(rows, wanted):
     return float(np.sum(np.diff(recall) * envelope))
 
 
-def average_precisions(model, views, batch=32, without=None):
+def average_precisions(model, views, batch=32, without=None, shrink=1):
     """{"ap swivel chair": ..., "ap": mean of those that are mapped}; `without`: channels set to 0."""
     model.eval()
-    classes, grid = len(data.CLASSES), cells(views.height, views.width)
+    classes, grid = len(data.CLASSES), cells(views.height // shrink, views.width // shrink)
     rows, wanted = [[] for _ in data.CLASSES], np.zeros(classes)
     with torch.no_grad():
         for start in range(0, len(views), batch):
             pictures, boxes = views.batch(range(start, min(len(views), start + batch)))
+            pictures, boxes = data.shrunk(pictures, boxes, shrink)
             if without is not None:
                 pictures[:, without] = 0
             for output, truth in zip(model(pictures), boxes):

@@ -116,7 +116,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
     std::vector<int> wanted;
     for (int i = 0; i < static_cast<int>(classes.size()); ++i)
       if (classes[i] >= 0 || !network->segments()) wanted.push_back(i);
-    for (RawBox& raw : network->run(frame.color, wanted, score_threshold_)) {
+    for (RawBox& raw : network->run(frame, wanted, score_threshold_)) {
       const std::string& label = network->labels()[raw.class_index];
       raw.class_index = classes[raw.class_index];
       if (raw.class_index < 0) {

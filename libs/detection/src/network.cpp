@@ -9,8 +9,14 @@
 #include "label_lists.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/observations/rgbd_channels.h"
 
 namespace roomgraph {
+namespace {
+
+const cv::Size kRoomInput(256, 192);  // px; of the room detector of training/
+
+}  // namespace
 
 Network::Network(const NetworkSpec& spec) : file_(spec.file) {
   outputs_.file = spec.file;
@@ -59,8 +65,8 @@ void Network::readFiles(const NetworkSpec& spec) {
   output_names_ = net_.getUnconnectedOutLayersNames();
 }
 
-bool Network::accepts(cv::Size input) {
-  const int shape[] = {1, 3, input.height, input.width};
+bool Network::accepts(cv::Size input, int channels) {
+  const int shape[] = {1, channels, input.height, input.width};
   outputs_.blobs = forward(cv::Mat(4, shape, CV_32FC1, cv::Scalar(0)));
   outputs_.input = input;
   return !outputs_.blobs.empty();
@@ -68,17 +74,18 @@ bool Network::accepts(cv::Size input) {
 
 // An ONNX file does not tell its input size through OpenCV 4.6; a pass over an empty picture does.
 void Network::chooseInputSize(int configured) {
-  std::vector<cv::Size> candidates;
+  constexpr int kColors = 3;
+  std::vector<std::pair<cv::Size, int>> candidates{{kRoomInput, kRgbdChannels}};
   if (configured > 0) {
-    candidates = {cv::Size(configured, configured)};
+    candidates.emplace_back(cv::Size(configured, configured), kColors);
   } else if (!outputs_.input.empty()) {
-    candidates = {outputs_.input};
+    candidates = {{outputs_.input, kColors}};
   } else {
-    if (const int named = sizeFromName(file_)) candidates.emplace_back(named, named);
-    for (const int size : {416, 320, 640, 256, 512}) candidates.emplace_back(size, size);
+    if (const int named = sizeFromName(file_)) candidates.emplace_back(cv::Size(named, named), kColors);
+    for (const int size : {416, 320, 640, 256, 512}) candidates.emplace_back(cv::Size(size, size), kColors);
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) try {
-      if (accepts(candidates[i])) return;
+      if (accepts(candidates[i].first, candidates[i].second)) return;
     } catch (const cv::Exception&) {
       if (i + 1 == candidates.size()) throw;
     }
@@ -109,7 +116,16 @@ std::vector<std::string> Network::knownLabels(const std::string& format) const {
                    "name such a file as [detection] labels_file");
 }
 
-cv::Mat Network::blobFor(const cv::Mat& bgr) const {
+cv::Mat Network::blobFor(const Frame& frame) const {
+  const cv::Mat& bgr = frame.color;
+  if (decoder_->usesDepth()) {
+    const auto channels = rgbdChannels(bgr, frame.depth, frame.camera, outputs_.input);
+    const int shape[] = {1, kRgbdChannels, outputs_.input.height, outputs_.input.width};
+    cv::Mat blob(4, shape, CV_32FC1);
+    for (int i = 0; i < kRgbdChannels; ++i)
+      channels[static_cast<std::size_t>(i)].convertTo(cv::Mat(outputs_.input, CV_32FC1, blob.ptr(0, i)), CV_32F, 1 / 255.0);
+    return blob;
+  }
   const Preprocessing how = decoder_->preprocessing();
   cv::Mat image;
   fitImage(bgr, outputs_.input, how.fit, how.pad).convertTo(image, CV_32FC3);
@@ -118,8 +134,9 @@ cv::Mat Network::blobFor(const cv::Mat& bgr) const {
   return cv::dnn::blobFromImage(image, 1.0, cv::Size(), cv::Scalar(), how.rgb, false);
 }
 
-std::vector<RawBox> Network::run(const cv::Mat& bgr, const std::vector<int>& wanted, double min_score) {
-  outputs_.blobs = forward(blobFor(bgr));
+std::vector<RawBox> Network::run(const Frame& frame, const std::vector<int>& wanted, double min_score) {
+  const cv::Mat& bgr = frame.color;
+  outputs_.blobs = forward(blobFor(frame));
   std::vector<RawBox> boxes;
   const InputMapping mapping = mappingFor(bgr.size(), outputs_.input, decoder_->preprocessing().fit);
   for (RawBox& raw : decoder_->decode(outputs_, {static_cast<int>(labels_.size()), wanted, min_score})) {

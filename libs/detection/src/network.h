@@ -8,6 +8,7 @@
 
 #include "network_decoders.h"
 #include "network_files.h"
+#include "roomgraph/observations/frame.h"
 
 namespace roomgraph {
 
@@ -19,17 +20,18 @@ class Network {
 
   const std::vector<std::string>& labels() const { return labels_; }
   bool segments() const { return decoder_->segments(); }
-  /// Boxes of the `wanted` label indices in pixels of `bgr`, best first, before non-maximum suppression.
-  std::vector<RawBox> run(const cv::Mat& bgr, const std::vector<int>& wanted, double min_score);
+  /// Boxes of the `wanted` label indices in pixels of the frame, best first, before non-maximum suppression. The frame has a
+  /// colour image.
+  std::vector<RawBox> run(const Frame& frame, const std::vector<int>& wanted, double min_score);
 
  private:
   std::vector<cv::Mat> forward(const cv::Mat& blob);
   void readFiles(const NetworkSpec& spec);
   void chooseInputSize(int configured);
-  bool accepts(cv::Size input);
+  bool accepts(cv::Size input, int channels);
   std::vector<std::string> knownLabels(const std::string& format) const;
   void chooseDecoder(const std::string& format);
-  cv::Mat blobFor(const cv::Mat& bgr) const;
+  cv::Mat blobFor(const Frame& frame) const;
 
   std::string file_;
   std::string labels_file_;  ///< empty: the labels are a known list

@@ -8,6 +8,7 @@
 #include "auto_detector.h"
 #include "darknet_decoder.h"
 #include "nanodet_decoder.h"
+#include "room_decoder.h"
 #include "yolox_decoder.h"
 
 namespace roomgraph::detection {
@@ -22,6 +23,7 @@ void registerClasses() {
   mrpt::rtti::registerClass(CLASS_ID(Ade20kDecoder));
   mrpt::rtti::registerClass(CLASS_ID(DarknetDecoder));
   mrpt::rtti::registerClass(CLASS_ID(NanodetDecoder));
+  mrpt::rtti::registerClass(CLASS_ID(RoomDecoder));
   mrpt::rtti::registerClass(CLASS_ID(YoloxDecoder));
 }
 

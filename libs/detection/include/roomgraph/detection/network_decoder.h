@@ -65,6 +65,8 @@ class NetworkDecoder : public mrpt::rtti::CObject {
   virtual std::vector<RawBox> decode(const NetworkOutputs& outputs, const DecodingTask& task) const = 0;
   /// True for segmentation networks: of their labels only those in `[detection] segmentation_labels` are used.
   virtual bool segments() const { return false; }
+  /// True for networks whose input is rgbdChannels(), in [0, 1]; preprocessing() then has no part in it.
+  virtual bool usesDepth() const { return false; }
 };
 
 }  // namespace roomgraph

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrates the scores on views that were not trained on, and writes the network for OpenCV.
+
+    training/export.py --checkpoint DIR/checkpoint.pt --check DIR --out models/room_detector
+
+The scores' logits are stretched and shifted per class so that they are probabilities (Platt 1999); that becomes part of the
+last layer's weights. Writes room_detector.onnx, labels.txt and room_detector.pt (weights to train on from) into the folder.
+"""
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import torch
+
+import data
+import evaluate
+from network import RoomDetector, STRIDES, cells, folded
+
+
+def platt(logits, right, steps=200):
+    """(slope, shift) of the logistic regression, with the prior of one of each that Platt recommends."""
+    x, y = np.asarray(logits, float), np.asarray(right, float)
+    y = np.where(y > 0, (y.sum() + 1) / (y.sum() + 2), 1 / ((1 - y).sum() + 2))
+    slope, shift = 1.0, 0.0
+    for _ in range(steps):  # Newton's method
+        p = 1 / (1 + np.exp(-(slope * x + shift)))
+        w = p * (1 - p)
+        gradient = np.array([np.sum((p - y) * x), np.sum(p - y)])
+        hessian = np.array([[np.sum(w * x * x) + 1e-6, np.sum(w * x)], [np.sum(w * x), np.sum(w) + 1e-6]])
+        step = np.linalg.solve(hessian, gradient)
+        slope, shift = slope - step[0], shift - step[1]
+        if np.abs(step).max() < 1e-8:
+            break
+    return slope, shift
+
+
+def calibrated(model, views):
+    """The model with calibrated logits, and the reliability table."""
+    classes, grid = len(data.CLASSES), cells(views.height, views.width)
+    rows = [[] for _ in data.CLASSES]
+    with torch.no_grad():
+        for start in range(0, len(views), 32):
+            pictures, boxes = views.batch(range(start, min(len(views), start + 32)))
+            for output, truth in zip(model(pictures), boxes):
+                found = evaluate.detections(output, grid, classes)
+                for kind in range(classes):
+                    rows[kind] += evaluate.judged(found, truth.numpy(), kind)
+    table = {}
+    for kind, name in enumerate(data.CLASSES):
+        scores = np.array([s for s, _ in rows[kind]])
+        right = np.array([r for _, r in rows[kind]])
+        if len(right) < 20 or right.all() or not right.any():
+            continue
+        logits = np.log(scores / (1 - scores))
+        slope, shift = platt(logits, right)
+        if slope < 0.2:
+            continue
+        for layer in model.output:
+            layer.weight.data[kind] *= slope
+            layer.bias.data[kind] = layer.bias.data[kind] * slope + shift
+        p = 1 / (1 + np.exp(-(slope * logits + shift)))
+        table[name] = [[round(float(p[m].mean()), 3), round(float(right[m].mean()), 3), int(m.sum())]
+                       for m in (np.floor(p * 5) == k for k in range(5)) if m.any()]
+    return model, table
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--checkpoint", type=Path, required=True)
+    parser.add_argument("--check", nargs="+", required=True, help="folders of views to calibrate with")
+    parser.add_argument("--out", type=Path, required=True)
+    arguments = parser.parse_args()
+    torch.set_num_threads(2)
+    model = RoomDetector(len(data.CLASSES))
+    weights = torch.load(arguments.checkpoint)["mean"]
+    model.load_state_dict(weights)
+    model.eval()
+    views = data.Views(arguments.check)
+    figures = {"all channels": evaluate.average_precisions(model, views), "without depth": evaluate.average_precisions(model, views, without=data.DEPTH),
+               "without colour": evaluate.average_precisions(model, views, without=data.COLOR)}
+    model, table = calibrated(model, views)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    torch.save({"mean": {k: v.half() if v.dtype.is_floating_point else v for k, v in weights.items()}}, arguments.out / "room_detector.pt")
+    (arguments.out / "labels.txt").write_text("\n".join(data.CLASSES) + "\n")
+    torch.onnx.export(folded(model), torch.zeros(1, 6, views.height, views.width), str(arguments.out / "room_detector.onnx"),
+                      opset_version=11, input_names=["rgbd"], output_names=["cells"])
+    print(json.dumps({"figures": figures, "reliability": table}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
