@@ -111,6 +111,7 @@ def main():
         mean.load_state_dict(model.state_dict())
     parameters = sum(p.numel() for p in model.parameters())
     print(f"{len(views)} views, {len(check)} to check, {parameters} weights", flush=True)
+    pairs = list(zip(mean.state_dict().values(), model.state_dict().values()))
     last, shown, sums = time.time(), time.time(), np.zeros(3)
     while state["seconds"] < 60 * arguments.minutes:
         random = np.random.default_rng([arguments.seed, state["steps"]])
@@ -128,9 +129,8 @@ def main():
         optimizer.step()
         keep = min(0.998, state["steps"] / (state["steps"] + 10))
         with torch.no_grad():
-            for name, value in model.state_dict().items():
-                old = mean.state_dict()[name]
-                old.copy_(old * keep + value * (1 - keep) if value.dtype.is_floating_point else value)
+            for old, value in pairs:
+                old.mul_(keep).add_(value, alpha=1 - keep) if value.dtype.is_floating_point else old.copy_(value)
         state["steps"] += 1
         sums += (kinds.item(), places.item(), 1)
         state["seconds"] += time.time() - last

@@ -101,7 +101,7 @@ TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
 
 TEST_F(DnnDetectorTest, UnknownFormatListsTheKnown) {
   EXPECT_THAT(messageOf<ConfigError>("models = a.onnx:nanodett"),
-              AllOf(HasSubstr("nanodett"), HasSubstr("known: auto, ade20k, darknet, nanodet, yolox")));
+              AllOf(HasSubstr("nanodett"), HasSubstr("known: auto, ade20k, darknet, nanodet, room, yolox")));
 }
 
 TEST_F(DnnDetectorTest, MadeByClassName) {

@@ -16,6 +16,15 @@ namespace {
 
 const cv::Size kRoomInput(256, 192);  // px; of the room detector of training/
 
+/// Input channels of the first convolution; 0: the network has none.
+int firstChannels(cv::dnn::Net& net) {
+  for (const auto& name : net.getLayerNames()) {
+    const auto layer = net.getLayer(net.getLayerId(name));
+    if (layer->type == "Convolution" && !layer->blobs.empty() && layer->blobs[0].dims == 4) return layer->blobs[0].size[1];
+  }
+  return 0;
+}
+
 }  // namespace
 
 Network::Network(const NetworkSpec& spec) : file_(spec.file) {
@@ -75,8 +84,10 @@ bool Network::accepts(cv::Size input, int channels) {
 // An ONNX file does not tell its input size through OpenCV 4.6; a pass over an empty picture does.
 void Network::chooseInputSize(int configured) {
   constexpr int kColors = 3;
-  std::vector<std::pair<cv::Size, int>> candidates{{kRoomInput, kRgbdChannels}};
-  if (configured > 0) {
+  std::vector<std::pair<cv::Size, int>> candidates;
+  if (firstChannels(net_) == kRgbdChannels) {
+    candidates = {{kRoomInput, kRgbdChannels}};
+  } else if (configured > 0) {
     candidates.emplace_back(cv::Size(configured, configured), kColors);
   } else if (!outputs_.input.empty()) {
     candidates = {{outputs_.input, kColors}};

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Training sets: files, boxes against the picture of objects, repetition, refusals.
+#include "roomgraph/simulation/training_set.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "errors_of.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/observations/rgbd_channels.h"
+#include "temporary_folder.h"
+#include "training_world.h"
+
+namespace roomgraph {
+namespace {
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream out;
+  out << stream.rdbuf();
+  return out.str();
+}
+
+TrainingSetOptions twoViews() {
+  TrainingSetOptions out;
+  out.first_flat = out.last_flat = 7;
+  out.views = 4;
+  out.size = {128, 96};
+  return out;
+}
+
+TEST(TrainingSetTest, WritesViewsWithTheirBoxesAndRepeats) {
+  const test::TemporaryFolder folder;
+  const auto result = writeTrainingSet(twoViews(), folder.path() / "a");
+  ASSERT_GT(result.views, 0);
+  EXPECT_EQ(result.flats, 1);
+  const std::string pixels = contentOf(folder.path() / "a" / "views.u8");
+  EXPECT_EQ(pixels.size(), static_cast<std::size_t>(result.views) * kRgbdChannels * 128 * 96);
+  std::istringstream lines(contentOf(folder.path() / "a" / "views.jsonl"));
+  int views = 0, boxes = 0;
+  for (std::string line; std::getline(lines, line); ++views) {
+    const auto label = nlohmann::json::parse(line);
+    EXPECT_EQ(label["flat"], 7);
+    for (const auto& box : label["boxes"]) {
+      ++boxes;
+      EXPECT_GE(box["box"][0], 0);
+      EXPECT_LT(box["box"][0], box["box"][2]);
+      EXPECT_LT(box["box"][1], box["box"][3]);
+      EXPECT_LE(box["box"][2], 128);
+      EXPECT_LE(box["box"][3], 96);
+      EXPECT_GT(box["visible"], 0);
+      EXPECT_LE(box["visible"], 1);
+    }
+  }
+  EXPECT_EQ(views, result.views);
+  EXPECT_EQ(boxes, result.boxes);
+  const auto about = nlohmann::json::parse(contentOf(folder.path() / "a" / "set.json"));
+  EXPECT_EQ(about["views"], views);
+  EXPECT_EQ(about["height"], 96);
+
+  writeTrainingSet(twoViews(), folder.path() / "b");
+  for (const char* name : {"views.u8", "views.jsonl", "set.json"})
+    EXPECT_EQ(contentOf(folder.path() / "a" / name), contentOf(folder.path() / "b" / name)) << name;
+}
+
+TEST(TrainingSetTest, FlatsForReportingAreRefused) {
+  const test::TemporaryFolder folder;
+  auto options = twoViews();
+  options.first_flat = 990;
+  options.last_flat = 1000;
+  EXPECT_THROW(writeTrainingSet(options, folder.path()), ConfigError);
+  options.first_flat = options.last_flat = 1019;
+  EXPECT_THROW(writeTrainingSet(options, folder.path()), ConfigError);
+  options.first_flat = 5;
+  options.last_flat = 4;
+  EXPECT_THROW(writeTrainingSet(options, folder.path()), ConfigError);
+}
+
+TEST(TrainingSetTest, ChoiceOfMeshesNamesWhatIsWrong) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "choice.json";
+  const auto choose = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return readMeshChoice(file, folder.path());
+  };
+  std::ofstream(folder.path() / "a.obj") << "x";
+  const auto read = choose(R"({"sofa": ["a.obj"], "person": []})");
+  EXPECT_EQ(read.at("sofa").front(), folder.path() / "a.obj");
+  EXPECT_NE(test::messageOf<ConfigError>([&] { choose(R"({"sofer": []})"); }).find("unknown kind 'sofer'"), std::string::npos);
+  EXPECT_NE(test::messageOf<ConfigError>([&] { choose(R"({"sofa": ["b.obj"]})"); }).find("b.obj is not there"), std::string::npos);
+  EXPECT_THROW(choose("[1, 2"), InputError);
+  EXPECT_THROW(choose(R"({"sofa": [3]})"), InputError);
+  EXPECT_THROW(readMeshChoice(folder.path() / "none.json", folder.path()), InputError);
+}
+
+TEST(TrainingSetTest, StopsWhenInterrupted) {
+  const test::TemporaryFolder folder;
+  auto options = twoViews();
+  options.views = 1;
+  options.last_flat = 9;
+  options.interrupted = [] { return true; };
+  const auto result = writeTrainingSet(options, folder.path());
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.flats, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "set.json"));
+}
+
+TEST(TrainingWorldTest, SpoiledDepthLosesAndNeverInvents) {
+  cv::Mat object(96, 128, CV_16S, cv::Scalar(-1));
+  object(cv::Rect(20, 20, 40, 40)).setTo(3);
+  int changed = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    cv::Mat depth(96, 128, CV_16U, cv::Scalar(2000));
+    Random random(seed);
+    spoilDepth(depth, object, random);
+    for (const std::uint16_t z : cv::Mat_<std::uint16_t>(depth)) EXPECT_TRUE(z == 0 || (z > 1930 && z < 2070)) << z;
+    if (cv::countNonZero(depth == 2000) < 96 * 128) ++changed;
+  }
+  EXPECT_GT(changed, 15);
+  EXPECT_LT(changed, 40);
+}
+
+}  // namespace
+}  // namespace roomgraph
