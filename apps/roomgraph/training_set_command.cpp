@@ -44,8 +44,8 @@ void makeTrainingSet(TrainingSetArguments& arguments) {
   options.interrupted = interrupted;
   const auto result = writeTrainingSet(options, arguments.folder);
   line.finish();
-  std::cout << arguments.folder.string() << ": " << result.views << " views of " << result.flats << " flats, " << result.boxes
-            << " boxes\n";
+  std::cout << arguments.folder.string() << ": " << result.views << " views of " << result.flats << " flats, "
+            << result.boxes << " boxes\n";
   if (result.interrupted) throw Interrupted("interrupted: the set ends there");
 }
 
@@ -53,14 +53,23 @@ void makeTrainingSet(TrainingSetArguments& arguments) {
 
 void addTrainingSetCommand(CLI::App& app) {
   auto arguments = std::make_shared<TrainingSetArguments>();
-  auto* command = app.add_subcommand("training-set", "Render labelled views of random flats, to train a detector with");
-  command->add_option("-o,--output", arguments->folder, "folder for views.u8, views.jsonl and set.json")->required();
-  command->add_option("--flats", arguments->flats, "numbers of the flats, FIRST-LAST; never 1000-1019, which are kept for reporting")
+  auto* command =
+      app.add_subcommand("training-set", "Render labelled views of random flats, to train a detector with");
+  command->add_option("-o,--output", arguments->folder, "folder for views.u8, views.jsonl and set.json")
+      ->required();
+  command
+      ->add_option("--flats", arguments->flats,
+                   "numbers of the flats, FIRST-LAST; never 1000-1019, which are kept for reporting")
       ->capture_default_str();
-  command->add_option("--views", arguments->options.views, "views tried of each flat")->check(CLI::Range(1, 100000))->capture_default_str();
+  command->add_option("--views", arguments->options.views, "views tried of each flat")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
   command->add_option("--size", arguments->size, "WIDTHxHEIGHT of the views, px")->capture_default_str();
-  auto* meshes = command->add_option("--meshes", arguments->meshes, "folder of catalogue models")->check(CLI::ExistingDirectory);
-  command->add_option("--choice", arguments->choice, "JSON file: which of them stand for what (training/meshes.json)")
+  auto* meshes = command->add_option("--meshes", arguments->meshes, "folder of catalogue models")
+                     ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--choice", arguments->choice,
+                   "JSON file: which of them stand for what (training/meshes.json)")
       ->check(CLI::ExistingFile)
       ->needs(meshes);
   command->add_flag("--quiet", arguments->quiet, "no progress");
@@ -68,7 +77,8 @@ void addTrainingSetCommand(CLI::App& app) {
       "Examples:\n"
       "  roomgraph training-set -o /data/train --flats 10000-10499\n"
       "  roomgraph training-set -o /data/check --flats 1-20 --views 20\n"
-      "See training/README.md. Ctrl-C ends the set after the flat at hand; it is complete, and the exit code is 4.");
+      "See training/README.md. Ctrl-C ends the set after the flat at hand; it is complete, and the exit code "
+      "is 4.");
   command->callback([arguments] { makeTrainingSet(*arguments); });
 }
 

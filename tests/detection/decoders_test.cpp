@@ -14,8 +14,8 @@
 #include "label_lists.h"
 #include "nanodet_decoder.h"
 #include "network_decoders.h"
-#include "roomgraph/core/errors.h"
 #include "room_decoder.h"
+#include "roomgraph/core/errors.h"
 #include "suppress.h"
 #include "yolox_decoder.h"
 
@@ -226,7 +226,7 @@ TEST(NetworkDecoders, OutputsAreRecognised) {
 TEST(NetworkDecoders, AreFoundByName) {
   std::vector<std::string> names;
   for (const auto& decoder : networkDecoders()) names.push_back(decoder->name());
-  EXPECT_THAT(names, ::testing::ElementsAre("ade20k", "darknet", "nanodet", "yolox"));
+  EXPECT_THAT(names, ::testing::ElementsAre("ade20k", "darknet", "nanodet", "room", "yolox"));
   for (const auto& name : names) {
     ASSERT_TRUE(decoderNamed(name)) << name;
     EXPECT_EQ(decoderNamed(name)->name(), name);

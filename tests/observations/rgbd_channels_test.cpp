@@ -16,7 +16,8 @@ namespace {
 
 const PinholeCamera kCamera{320, 240, 260, 260, 159.5, 119.5, {}};
 
-/// Depth of a room 5 m long and 4 m wide with a flat floor, without ceiling, seen from `height_m`; beyond 9 m: nothing.
+/// Depth of a room 5 m long and 4 m wide with a flat floor, without ceiling, seen from `height_m`; beyond 9
+/// m: nothing.
 cv::Mat roomDepth(const Eigen::Matrix3d& world_from_camera, double height_m) {
   const Eigen::Vector3d from(0, 0, height_m);
   cv::Mat depth = cv::Mat::zeros(kCamera.height, kCamera.width, CV_32F);
@@ -61,11 +62,13 @@ TEST_P(LevellingTest, FindsGravityAndFloor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Views, LevellingTest,
-                         ::testing::Values(Lean{10, 0, 0.4}, Lean{20, 5, 0.8}, Lean{35, -8, 1.6}, Lean{15, 12, 1.2}));
+                         ::testing::Values(Lean{10, 0, 0.4}, Lean{20, 5, 0.8}, Lean{35, -8, 1.6},
+                                           Lean{15, 12, 1.2}));
 
 TEST(RgbdChannelsTest, ValuesFollowTheirFormulas) {
   const Eigen::Matrix3d world_from_camera = leaning(25, 0);
-  const cv::Mat depth = roomDepth(world_from_camera, 1.0), color(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar(10, 20, 30));
+  const cv::Mat depth = roomDepth(world_from_camera, 1.0),
+                color(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar(10, 20, 30));
   const auto channels = rgbdChannels(color, depth, kCamera, {kCamera.width, kCamera.height});
   ASSERT_EQ(channels.size(), static_cast<std::size_t>(kRgbdChannels));
   EXPECT_EQ(channels[kBlue].at<uchar>(50, 60), 10);
@@ -99,7 +102,8 @@ TEST(RgbdChannelsTest, WhereNothingIsMeasuredAllDepthChannelsAreZero) {
   const cv::Mat color(kCamera.height, kCamera.width, CV_8UC3, cv::Scalar::all(99));
   const auto channels = rgbdChannels(color, depth, kCamera, {kCamera.width, kCamera.height});
   for (const int channel : {kInverseDepth, kHeight, kSlope})
-    EXPECT_EQ(cv::countNonZero(channels[static_cast<std::size_t>(channel)](cv::Rect(100, 80, 60, 60))), 0) << channel;
+    EXPECT_EQ(cv::countNonZero(channels[static_cast<std::size_t>(channel)](cv::Rect(100, 80, 60, 60))), 0)
+        << channel;
   EXPECT_EQ(cv::countNonZero(channels[kRed]), kCamera.width * kCamera.height);
 }
 
@@ -126,7 +130,8 @@ TEST(RgbdChannelsTest, ATableTopIsTheLowestLevelSurfaceWhereNoFloorIsSeen) {
   const auto found = levelling(roomDepth(leaning(40, 0), 0.7), kCamera);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->camera_height_m, 0.7, 0.02);
-  const auto facing = levelling(depth, kCamera);  // a wall before the camera: level is not to be told, but up stays across it
+  const auto facing =
+      levelling(depth, kCamera);  // a wall before the camera: level is not to be told, but up stays across it
   ASSERT_TRUE(facing);
   EXPECT_NEAR(facing->up.z(), 0, 0.05);
 }

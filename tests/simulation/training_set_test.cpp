@@ -89,8 +89,11 @@ TEST(TrainingSetTest, ChoiceOfMeshesNamesWhatIsWrong) {
   std::ofstream(folder.path() / "a.obj") << "x";
   const auto read = choose(R"({"sofa": ["a.obj"], "person": []})");
   EXPECT_EQ(read.at("sofa").front(), folder.path() / "a.obj");
-  EXPECT_NE(test::messageOf<ConfigError>([&] { choose(R"({"sofer": []})"); }).find("unknown kind 'sofer'"), std::string::npos);
-  EXPECT_NE(test::messageOf<ConfigError>([&] { choose(R"({"sofa": ["b.obj"]})"); }).find("b.obj is not there"), std::string::npos);
+  EXPECT_NE(test::messageOf<ConfigError>([&] { choose(R"({"sofer": []})"); }).find("unknown kind 'sofer'"),
+            std::string::npos);
+  EXPECT_NE(
+      test::messageOf<ConfigError>([&] { choose(R"({"sofa": ["b.obj"]})"); }).find("b.obj is not there"),
+      std::string::npos);
   EXPECT_THROW(choose("[1, 2"), InputError);
   EXPECT_THROW(choose(R"({"sofa": [3]})"), InputError);
   EXPECT_THROW(readMeshChoice(folder.path() / "none.json", folder.path()), InputError);
@@ -116,7 +119,8 @@ TEST(TrainingWorldTest, SpoiledDepthLosesAndNeverInvents) {
     cv::Mat depth(96, 128, CV_16U, cv::Scalar(2000));
     Random random(seed);
     spoilDepth(depth, object, random);
-    for (const std::uint16_t z : cv::Mat_<std::uint16_t>(depth)) EXPECT_TRUE(z == 0 || (z > 1930 && z < 2070)) << z;
+    for (const std::uint16_t z : cv::Mat_<std::uint16_t>(depth))
+      EXPECT_TRUE(z == 0 || (z > 1930 && z < 2070)) << z;
     if (cv::countNonZero(depth == 2000) < 96 * 128) ++changed;
   }
   EXPECT_GT(changed, 15);

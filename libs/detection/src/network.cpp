@@ -20,7 +20,8 @@ const cv::Size kRoomInput(256, 192);  // px; of the room detector of training/
 int firstChannels(cv::dnn::Net& net) {
   for (const auto& name : net.getLayerNames()) {
     const auto layer = net.getLayer(net.getLayerId(name));
-    if (layer->type == "Convolution" && !layer->blobs.empty() && layer->blobs[0].dims == 4) return layer->blobs[0].size[1];
+    if (layer->type == "Convolution" && !layer->blobs.empty() && layer->blobs[0].dims == 4)
+      return layer->blobs[0].size[1];
   }
   return 0;
 }
@@ -134,7 +135,8 @@ cv::Mat Network::blobFor(const Frame& frame) const {
     const int shape[] = {1, kRgbdChannels, outputs_.input.height, outputs_.input.width};
     cv::Mat blob(4, shape, CV_32FC1);
     for (int i = 0; i < kRgbdChannels; ++i)
-      channels[static_cast<std::size_t>(i)].convertTo(cv::Mat(outputs_.input, CV_32FC1, blob.ptr(0, i)), CV_32F, 1 / 255.0);
+      channels[static_cast<std::size_t>(i)].convertTo(cv::Mat(outputs_.input, CV_32FC1, blob.ptr(0, i)),
+                                                      CV_32F, 1 / 255.0);
     return blob;
   }
   const Preprocessing how = decoder_->preprocessing();

@@ -20,8 +20,8 @@ class Network {
 
   const std::vector<std::string>& labels() const { return labels_; }
   bool segments() const { return decoder_->segments(); }
-  /// Boxes of the `wanted` label indices in pixels of the frame, best first, before non-maximum suppression. The frame has a
-  /// colour image.
+  /// Boxes of the `wanted` label indices in pixels of the frame, best first, before non-maximum suppression.
+  /// The frame has a colour image.
   std::vector<RawBox> run(const Frame& frame, const std::vector<int>& wanted, double min_score);
 
  private:

@@ -31,7 +31,9 @@ std::vector<RawBox> RoomDecoder::decode(const NetworkOutputs& outputs, const Dec
     const auto [cell_row, column, stride] = cells[static_cast<std::size_t>(i)];
     std::array<double, 4> side;
     for (std::size_t k = 0; k < 4; ++k)
-      side[k] = stride * std::exp(static_cast<double>(std::min(row[static_cast<std::size_t>(task.classes) + k], kLongest)));
+      side[k] =
+          stride *
+          std::exp(static_cast<double>(std::min(row[static_cast<std::size_t>(task.classes) + k], kLongest)));
     const double u = (column + 0.5) * stride, v = (cell_row + 0.5) * stride;
     keepIfSound(boxes, {{u - side[0], v - side[1], u + side[2], v + side[3]}, best.index, score, {}});
   }

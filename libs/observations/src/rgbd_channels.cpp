@@ -11,8 +11,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kReach_px = 2;        ///< normals are those of the triangle of a pixel and two this far away
-constexpr double kMaxStep = 0.06;   ///< relative step of depth within one surface, per pixel of distance
+constexpr int kReach_px = 2;          ///< normals are those of the triangle of a pixel and two this far away
+constexpr double kMaxStep = 0.06;     ///< relative step of depth within one surface, per pixel of distance
 constexpr int kLevellingWidth = 128;  ///< px; enough for directions of whole surfaces
 
 /// A depth image of network size with its points.
@@ -22,11 +22,13 @@ struct Surface {
 
   Eigen::Vector3f at(int u, int v) const {
     const float z = depth.at<float>(v, u);
-    return {z * static_cast<float>((u - camera.cx) / camera.fx), z * static_cast<float>((v - camera.cy) / camera.fy), z};
+    return {z * static_cast<float>((u - camera.cx) / camera.fx),
+            z * static_cast<float>((v - camera.cy) / camera.fy), z};
   }
   /// Unit normal towards the camera; nothing at borders, edges and holes.
   std::optional<Eigen::Vector3f> normal(int u, int v) const {
-    if (u < kReach_px || v < kReach_px || u >= depth.cols - kReach_px || v >= depth.rows - kReach_px) return {};
+    if (u < kReach_px || v < kReach_px || u >= depth.cols - kReach_px || v >= depth.rows - kReach_px)
+      return {};
     const float z = depth.at<float>(v, u);
     const float left = depth.at<float>(v, u - kReach_px), right = depth.at<float>(v, u + kReach_px);
     const float above = depth.at<float>(v - kReach_px, u), below = depth.at<float>(v + kReach_px, u);
@@ -45,14 +47,22 @@ struct Surface {
 Surface surfaceOf(const cv::Mat& depth, const PinholeCamera& camera, cv::Size size) {
   Surface out;
   cv::resize(depth, out.depth, size, 0, 0, cv::INTER_NEAREST);
-  const double sx = static_cast<double>(size.width) / camera.width, sy = static_cast<double>(size.height) / camera.height;
-  out.camera = {size.width,          size.height, camera.fx * sx, camera.fy * sy, (camera.cx + 0.5) * sx - 0.5,
-                (camera.cy + 0.5) * sy - 0.5, {}};
+  const double sx = static_cast<double>(size.width) / camera.width,
+               sy = static_cast<double>(size.height) / camera.height;
+  out.camera = {size.width,
+                size.height,
+                camera.fx * sx,
+                camera.fy * sy,
+                (camera.cx + 0.5) * sx - 0.5,
+                (camera.cy + 0.5) * sy - 0.5,
+                {}};
   return out;
 }
 
-/// The direction that level normals are along and plumb ones are across of, of those that are within `limit` of it now.
-Eigen::Vector3d refined(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3d>& normals, double limit_rad) {
+/// The direction that level normals are along and plumb ones are across of, of those that are within `limit`
+/// of it now.
+Eigen::Vector3d refined(const Eigen::Vector3d& up, const std::vector<Eigen::Vector3d>& normals,
+                        double limit_rad) {
   const double along = std::cos(limit_rad), across = std::sin(limit_rad);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& n : normals) {
@@ -64,11 +74,13 @@ Eigen::Vector3d refined(const Eigen::Vector3d& up, const std::vector<Eigen::Vect
   return best.dot(up) < 0 ? Eigen::Vector3d(-best) : best;
 }
 
-/// The lowest height at which enough of the level surfaces lie, of sorted heights; without such, the lowest point.
+/// The lowest height at which enough of the level surfaces lie, of sorted heights; without such, the lowest
+/// point.
 double floorOf(std::vector<double>& level, std::vector<double>& all) {
   constexpr double kThickness_m = 0.08, kShare = 0.02;
   std::sort(level.begin(), level.end());
-  const std::size_t needed = std::max<std::size_t>(12, static_cast<std::size_t>(kShare * static_cast<double>(all.size())));
+  const std::size_t needed =
+      std::max<std::size_t>(12, static_cast<std::size_t>(kShare * static_cast<double>(all.size())));
   for (std::size_t i = 0; i + needed <= level.size(); ++i)
     if (level[i + needed - 1] - level[i] < kThickness_m) return level[i + needed / 2];
   const auto lowest = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 50);
@@ -84,7 +96,8 @@ uchar scaled(double value, double low, double high) {
 
 std::optional<Levelling> levelling(const cv::Mat& depth, const PinholeCamera& camera) {
   constexpr std::size_t kLeast = 60;
-  const Surface surface = surfaceOf(depth, camera, {kLevellingWidth, kLevellingWidth * camera.height / camera.width});
+  const Surface surface =
+      surfaceOf(depth, camera, {kLevellingWidth, kLevellingWidth * camera.height / camera.width});
   std::vector<Eigen::Vector3d> normals, points, seen;
   for (int v = 1; v < surface.depth.rows; v += 2) {
     for (int u = 1; u < surface.depth.cols; u += 2) {
@@ -108,7 +121,8 @@ std::optional<Levelling> levelling(const cv::Mat& depth, const PinholeCamera& ca
   return out;
 }
 
-std::vector<cv::Mat> rgbdChannels(const cv::Mat& color, const cv::Mat& depth, const PinholeCamera& camera, cv::Size size) {
+std::vector<cv::Mat> rgbdChannels(const cv::Mat& color, const cv::Mat& depth, const PinholeCamera& camera,
+                                  cv::Size size) {
   cv::Mat small;
   cv::resize(color, small, size, 0, 0, cv::INTER_AREA);
   std::vector<cv::Mat> out;

@@ -95,7 +95,8 @@ std::optional<TrainingView> FlatViews::view(int index) {
   if (nearest < kNearest_m || (exact.views.empty() && random.chance(0.9))) return {};
   CameraSpec spec = fine_;
   spec.noise_gain *= random.uniform(0.7, 1.4);
-  cv::Mat depth_mm = measureDepth(exact.depth, spec, Random(flat_, kViewStream + 1, static_cast<std::uint64_t>(index)));
+  cv::Mat depth_mm =
+      measureDepth(exact.depth, spec, Random(flat_, kViewStream + 1, static_cast<std::uint64_t>(index)));
   spoilDepth(depth_mm, exact.object, random);
   cv::Mat depth, coarse_depth;
   depth_mm.convertTo(depth, CV_32F, 0.001);
@@ -103,9 +104,10 @@ std::optional<TrainingView> FlatViews::view(int index) {
   CameraSpec color_spec = spec;
   color_spec.model = coarse_;
   const cv::Mat plain = renderer_.render(parts, world_from_camera, nearest);
-  const cv::Mat color = spoilColor(measureColor(plain, ambientLight(coarse_depth, coarse_) * world_.light, color_spec,
-                                                Random(flat_, kViewStream + 2, static_cast<std::uint64_t>(index))),
-                                   random);
+  const cv::Mat color =
+      spoilColor(measureColor(plain, ambientLight(coarse_depth, coarse_) * world_.light, color_spec,
+                              Random(flat_, kViewStream + 2, static_cast<std::uint64_t>(index))),
+                 random);
   TrainingView out;
   out.channels = rgbdChannels(color, depth, fine_.model, options_.size);
   out.label = {{"flat", flat_},
@@ -118,7 +120,8 @@ std::optional<TrainingView> FlatViews::view(int index) {
 }
 
 void check(const TrainingSetOptions& options) {
-  if (options.first_flat > options.last_flat || options.views < 1 || options.size.width < 32 || options.size.height < 32)
+  if (options.first_flat > options.last_flat || options.views < 1 || options.size.width < 32 ||
+      options.size.height < 32)
     throw ConfigError("a training set needs at least one flat, one view of each and 32 x 32 px");
   if (options.first_flat <= kLastReserved && options.last_flat >= kFirstReserved)
     throw ConfigError("flats " + std::to_string(kFirstReserved) + " to " + std::to_string(kLastReserved) +
@@ -146,7 +149,8 @@ MeshChoice readMeshChoice(const std::filesystem::path& file, const std::filesyst
   for (const auto& [kind, files] : out)
     for (const auto& one : files)
       if (!std::filesystem::is_regular_file(one))
-        throw ConfigError(file.string() + ": " + kind + ": " + one.string() + " is not there (worlds/extract_meshes.sh)");
+        throw ConfigError(file.string() + ": " + kind + ": " + one.string() +
+                          " is not there (worlds/extract_meshes.sh)");
   return out;
 }
 
@@ -161,7 +165,8 @@ TrainingSetResult writeTrainingSet(const TrainingSetOptions& options, const std:
       const auto view = views.view(i);
       if (!view) continue;
       for (const cv::Mat& channel : view->channels)
-        pixels.write(reinterpret_cast<const char*>(channel.data), static_cast<std::streamsize>(channel.total()));
+        pixels.write(reinterpret_cast<const char*>(channel.data),
+                     static_cast<std::streamsize>(channel.total()));
       labels << view->label.dump() << "\n";
       ++result.views;
       result.boxes += view->boxes;
@@ -175,11 +180,12 @@ TrainingSetResult writeTrainingSet(const TrainingSetOptions& options, const std:
   }
   pixels.finish();
   labels.finish();
-  const Json summary{{"views", result.views},
-                     {"channels", kRgbdChannels},
-                     {"height", options.size.height},
-                     {"width", options.size.width},
-                     {"flats", {options.first_flat, options.first_flat + static_cast<std::uint64_t>(result.flats) - 1}}};
+  const Json summary{
+      {"views", result.views},
+      {"channels", kRgbdChannels},
+      {"height", options.size.height},
+      {"width", options.size.width},
+      {"flats", {options.first_flat, options.first_flat + static_cast<std::uint64_t>(result.flats) - 1}}};
   writeFileAtomically(folder / "set.json", summary.dump(2) + "\n");
   return result;
 }

@@ -24,13 +24,16 @@ Color drawColor(Random& random) {
 }
 
 Material drawSurface(const std::vector<std::string>& patterns, Random& random) {
-  return {pick(random, patterns), drawColor(random), inSteps(random.uniform(0.5, 2.4), 0.1), drawInt(random, 0, 99)};
+  return {pick(random, patterns), drawColor(random), inSteps(random.uniform(0.5, 2.4), 0.1),
+          drawInt(random, 0, 99)};
 }
 
 /// A mesh file for half of what there are some for; empty for the rest.
 std::string drawMesh(const MeshChoice& meshes, const std::string& kind, Random& random) {
   const auto known = meshes.find(kind);
-  return known == meshes.end() || known->second.empty() || random.chance(0.5) ? "" : pick(random, known->second).string();
+  return known == meshes.end() || known->second.empty() || random.chance(0.5)
+             ? ""
+             : pick(random, known->second).string();
 }
 
 void loseObjects(cv::Mat& depth, const cv::Mat& object, Random& random) {
@@ -103,7 +106,8 @@ Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random) {
   }
   const double lean = std::clamp(0.35 * (at.z() - 0.25), 0.0, 0.5);  // what looks from above looks down
   const double pitch = std::clamp(lean + 12 * kDegree * random.normal(), -12 * kDegree, 35 * kDegree);
-  Pose3 out = poseFromYpr(at.x(), at.y(), at.z(), yaw, pitch, random.chance(0.5) ? 0 : 4 * kDegree * random.normal());
+  Pose3 out =
+      poseFromYpr(at.x(), at.y(), at.z(), yaw, pitch, random.chance(0.5) ? 0 : 4 * kDegree * random.normal());
   out.linear() *= bodyFromOptical();
   return out;
 }
@@ -125,7 +129,8 @@ cv::Mat spoilColor(const cv::Mat& color, Random& random) {
   if (random.chance(0.3)) cv::GaussianBlur(out, out, {}, random.uniform(0.4, 1.5));
   const double gain = random.uniform(0.6, 1.5), offset = random.uniform(-20, 20);
   cv::Mat balanced;
-  cv::multiply(out, cv::Scalar(gain * random.uniform(0.85, 1.15), gain, gain * random.uniform(0.85, 1.15)), balanced, 1, CV_8U);
+  cv::multiply(out, cv::Scalar(gain * random.uniform(0.85, 1.15), gain, gain * random.uniform(0.85, 1.15)),
+               balanced, 1, CV_8U);
   balanced.convertTo(balanced, CV_8U, 1, offset);
   if (random.chance(0.5)) {
     std::vector<uchar> bytes;

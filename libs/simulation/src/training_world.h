@@ -17,12 +17,12 @@ void varyWorld(World& world, const MeshChoice& meshes, Random& random);
 /// Light, range and noise of a camera of the given size, with its field of view.
 CameraSpec drawTrainingCamera(cv::Size size, Random& random);
 
-/// A view from near the path: any height from .25 to 1.75 m, leaning up to 35 degrees down and 12 up, rolled a little;
-/// every second one looks at an object.
+/// A view from near the path: any height from .25 to 1.75 m, leaning up to 35 degrees down and 12 up, rolled
+/// a little; every second one looks at an object.
 Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random);
 
-/// Depth of some objects, of round patches or of all that is far is lost, and the whole is shifted by up to 2 px against the
-/// colours. `depth`: CV_16U, mm.
+/// Depth of some objects, of round patches or of all that is far is lost, and the whole is shifted by up to 2
+/// px against the colours. `depth`: CV_16U, mm.
 void spoilDepth(cv::Mat& depth, const cv::Mat& object, Random& random);
 
 /// Exposure, white balance, blur and JPEG.
