@@ -23,23 +23,20 @@ function drawnToSize(element, sheetHeight, draw) {
   element.addEventListener('window', drawHere);
 }
 
-/// Folds that paper shows open, and what closes them again.
-function openFolds() {
-  const folds = [...document.querySelectorAll('details.printed:not([open])')];
-  folds.forEach((fold) => fold.open = true);
-  return () => folds.forEach((fold) => fold.open = false);
-}
-
 function startPrinting() {
   const tell = (name) =>
       document.querySelectorAll('svg.chart, svg.map').forEach((svg) => svg.dispatchEvent(new Event(name)));
-  let close = () => {};
+  const opened = new Set();  // folds that paper shows open
   addEventListener('beforeprint', () => {
-    close = openFolds();
+    for (const fold of document.querySelectorAll('details.printed:not([open])')) {
+      fold.open = true;
+      opened.add(fold);
+    }
     tell('sheet');
   });
   addEventListener('afterprint', () => {
-    close();
+    opened.forEach((fold) => fold.open = false);
+    opened.clear();
     tell('window');
   });
 }
