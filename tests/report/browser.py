@@ -127,6 +127,11 @@ class Browser:
                                 clip={"x": 0, "y": 0, "width": width, "height": height, "scale": 1})
         pathlib.Path(file).write_bytes(base64.b64decode(picture["data"]))
 
+    def print(self, file, width_in=8.27, height_in=11.69):
+        """The page as PDF; A4 unless told."""
+        done = self.devtools("Page.printToPDF", printBackground=True, paperWidth=width_in, paperHeight=height_in)
+        pathlib.Path(file).write_bytes(base64.b64decode(done["data"]))
+
     def close(self):
         with contextlib.suppress(BrowserError):
             self.call("", method="DELETE")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a run in headless Chromium: selection, map, themes, widths, no message and no request.
+"""The report of a run in headless Chromium: selection, map, themes, widths, paper, events, no message and no request.
 
 Usage: browser_test.py PROGRAM [--pictures FOLDER]    exits with 77 where there is no browser
 """
@@ -16,6 +16,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import browser  # noqa: E402
+import browser_pages  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 START = 1700000000
@@ -52,7 +53,9 @@ def write_hour(folder):
     (folder / "map.pgm").write_bytes(b"P5\n%d %d\n255\n" % (side, side) + noise.randbytes(side * side))
 
 
-class Report(unittest.TestCase):
+class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
+    roomgraph = staticmethod(roomgraph)
+
     @classmethod
     def setUpClass(cls):
         cls.files = tempfile.TemporaryDirectory()

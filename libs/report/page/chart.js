@@ -79,11 +79,9 @@ function readAt(chart, t) {
   ].join('  ·  ');
 }
 
-function drawChart(chart) {
-  const box = chart.svg.getBoundingClientRect();
-  if (!box.width) return;
-  [chart.w, chart.h] = [box.width, box.height];
-  const {options, w, h: height} = chart, largest = largestOf(options.series) || 1, top = largest * 1.06;
+function drawChart(chart, w, height) {
+  [chart.w, chart.h] = [w, height];
+  const {options} = chart, largest = largestOf(options.series) || 1, top = largest * 1.06;
   chart.x = (t) => MARGIN.left + t / Math.max(options.duration, 1e-9) * (w - MARGIN.left - MARGIN.right);
   const y = (v) => height - MARGIN.bottom - v / top * (height - MARGIN.top - MARGIN.bottom);
   chart.cross = s('line', {class: 'cross', y1: MARGIN.top, y2: height - MARGIN.bottom});
@@ -139,7 +137,7 @@ function createChart(options) {
   chart.x = () => 0;
   chart.cross = s('line');
   addReading(chart);
-  new ResizeObserver(() => drawChart(chart)).observe(chart.svg);
+  drawnToSize(chart.svg, SHEET.chart, (w, height) => drawChart(chart, w, height));
   return h(
       'figure', {class: 'card pad', style: 'margin: 0'},
       h('div', {class: 'chart-head'}, h('h3', {}, options.title), legendOf(options.series)), chart.svg,

@@ -25,7 +25,7 @@ function configSection(run) {
     const rows = run.config.filter((row) => row.section === name),
           differ = rows.filter((row) => row.shipped !== undefined).length;
     return h(
-        'details', {open: differ > 0, class: differ ? 'differs' : 'same'},
+        'details', {open: differ > 0, class: differ ? 'printed' : 'same'},
         h('summary', {}, h('span', {class: 'mono'}, `[${name}]`),
           h('span', {class: differ ? 'tag hot' : 'tag'},
             differ ? `${differ} of ${rows.length} changed` : rows.length)),
@@ -53,7 +53,7 @@ function configSection(run) {
             changed.length ? h('div', {class: 'switches', style: 'margin-bottom: .8rem'}, toggle) : null, box
           ] :
           missingNote(run, ['config.ini']),
-      run.command ? h('details', {style: 'margin-top: 1rem'}, h('summary', {}, 'Command of the run'),
+      run.command ? h('details', {class: 'printed', style: 'margin-top: 1rem'}, h('summary', {}, 'Command of the run'),
                       h('p', {class: 'mono'}, run.command)) :
                     null);
 }

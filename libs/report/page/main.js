@@ -38,9 +38,7 @@ function start() {
     showRun(runs[0], 'h1');
   byId('footer').textContent =
       'Positions in metres in the frame of the robot’s first pose; times from the first pose.';
-  addEventListener(
-      'beforeprint',
-      () => document.querySelectorAll('details.differs').forEach((details) => details.open = true));
+  startPrinting();
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 

@@ -39,7 +39,7 @@ function placeView(map) {
   const step = niceStep(110 / view.scale, 1),
         unit = step < 1 ? `${fixed(step * 100, 0)} cm` : `${whole(step)} m`;
   map.scale.replaceChildren(unit, h('i'));
-  map.scale.lastChild.style.width = `${step * view.scale}px`;
+  map.scale.style.width = `calc(${100 * step * view.scale / size.w}% + 1rem)`;
 }
 
 function toScreen(map, x, y) {
@@ -55,11 +55,11 @@ function setView(map, view, quietly) {
   if (!quietly && map.hooks.onView) map.hooks.onView(map.view);
 }
 
-function fitView(map) {
+function fitView(map, quietly) {
   const box = boundsOf(map.run), w = box.x1 - box.x0, hgt = box.y1 - box.y0;
   const scale = Math.min((map.size.w - 60) / Math.max(w, 0.5), (map.size.h - 70) / Math.max(hgt, 0.5));
   map.fitted = true;
-  setView(map, {x: (box.x0 + box.x1) / 2, y: (box.y0 + box.y1) / 2, scale});
+  setView(map, {x: (box.x0 + box.x1) / 2, y: (box.y0 + box.y1) / 2, scale}, quietly);
 }
 
 /// Zooms by a factor about a point of the screen; the middle without one.
@@ -75,14 +75,22 @@ function panView(map, dx, dy) {
   setView(map, {...map.view, x: map.view.x - dx / map.view.scale, y: map.view.y + dy / map.view.scale});
 }
 
-function resized(map) {
-  const box = map.svg.getBoundingClientRect();
-  if (!box.width || (box.width === map.size.w && box.height === map.size.h)) return;
-  map.size = {w: box.width, h: box.height};
-  if (map.fitted)
-    fitView(map);
-  else
+/// Fits all again, or keeps the middle; a sheet shows at least what the window shows.
+function resized(map, w, height, onSheet) {
+  const before = map.size;
+  map.size = {w, h: height};
+  if (onSheet && !map.inWindow) map.inWindow = {view: map.view, size: before};
+  const {inWindow} = map;
+  if (!onSheet) map.inWindow = null;
+  if (map.fitted) {
+    fitView(map, onSheet);
+  } else if (onSheet) {
+    const share = Math.min(w / inWindow.size.w, height / inWindow.size.h);
+    setView(map, {...inWindow.view, scale: inWindow.view.scale * share}, true);
+  } else {
+    if (inWindow) map.view = inWindow.view;
     placeView(map);
+  }
 }
 
 function markObject(map, id, name, on) {
@@ -156,6 +164,6 @@ function createMap(run, hooks = {}) {
   addLayers(map);
   addGestures(map);
   map.box = h('div', {class: 'map-box'}, map.svg, map.scale, mapButtons(map));
-  new ResizeObserver(() => resized(map)).observe(map.svg);
+  drawnToSize(map.svg, SHEET.map, (w, height, onSheet) => resized(map, w, height, onSheet));
   return map;
 }
