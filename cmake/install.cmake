@@ -13,4 +13,5 @@ install(FILES "${CMAKE_BINARY_DIR}/roomgraph-config.cmake" "${CMAKE_BINARY_DIR}/
 install(FILES "${PROJECT_SOURCE_DIR}/config.ini" "${PROJECT_SOURCE_DIR}/objects.ini"
         "${PROJECT_SOURCE_DIR}/objects_home.ini" "${PROJECT_SOURCE_DIR}/networks.json"
         DESTINATION ${CMAKE_INSTALL_DATADIR}/roomgraph)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/models" DESTINATION ${CMAKE_INSTALL_DATADIR}/roomgraph PATTERN "*.pt" EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -19,6 +19,15 @@ std::vector<KnownNetwork> installedIn(const std::filesystem::path& folder, const
   return networksToRun(NetworkCatalogue::fromFile(catalogueFileOf(source.catalogue)), folder);
 }
 
+/// The network that comes with the program; empty: this copy of the program lacks it.
+std::filesystem::path shippedNetwork() {
+  try {
+    return sharedFile("models/room_detector/room_detector.onnx");
+  } catch (const ConfigError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 RunSetup makeRunSetup(Configuration& configuration, const std::filesystem::path& rawlog,
@@ -27,14 +36,20 @@ RunSetup makeRunSetup(Configuration& configuration, const std::filesystem::path&
   const auto networks = installedIn(out.folder, source);
   const auto& detector = out.setup->stages.detector;
   const bool automatic = out.setup->options.detection.detector == "auto";
-  if (networks.empty() || !automatic || !detector || !detector->idle()) return out;
+  if (!automatic || !detector || !detector->idle()) return out;
   const RawlogPeek peek = peekRawlog(rawlog);
   if (peek.detections || !peek.frames) return out;
   std::vector<std::string> files;
+  if (const auto shipped = shippedNetwork(); networks.empty() && !shipped.empty()) {
+    files.push_back(shipped.string());
+    out.networks.push_back(shipped.stem().string());
+    out.folder = shipped.parent_path();
+  }
   for (const auto& network : networks) {
     files.push_back(networkFile(network, out.folder).string());
     out.networks.push_back(network.name);
   }
+  if (files.empty()) return out;
   configuration.config.override("detection.models=" + formatParameter(files));
   out.setup = makeSetup(configuration.config, configuration.objects_file);
   return out;

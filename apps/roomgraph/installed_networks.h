@@ -25,8 +25,8 @@ struct RunSetup {
 };
 
 /// makeSetup(); and when `[detection] class = auto` has neither network nor file, and the beginning of the
-/// recording has images and no boxes, again with the best installed networks as `[detection] models`, which
-/// the configuration then names. Whatever comes later in the recording has no say. Throws like makeSetup()
+/// recording has images and no boxes, again with the best installed networks, or without any the one
+/// that comes with the program, as `[detection] models`, which the configuration then names. Whatever comes later in the recording has no say. Throws like makeSetup()
 /// and RawlogReader, ConfigError also for a folder or a catalogue that was named and is none.
 RunSetup makeRunSetup(Configuration& configuration, const std::filesystem::path& rawlog,
                       const ModelSource& source);

@@ -50,17 +50,14 @@ TEST_F(RecordedBoxesRun, NeedsNoOptions) {
   EXPECT_TRUE(results() == files) << "the class that it chooses gives the same";
 }
 
-TEST_F(RecordedBoxesRun, WithoutBoxesOneLineSaysWhatToDo) {
+TEST_F(RecordedBoxesRun, WithoutBoxesTheShippedNetworkRuns) {
   const auto input = folder.file("lab.rawlog");
   test::writeRawlog(input, TinyRecording(6).records({}));
   const CallResult result = run(input);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(
-      linesOf(result.err),
-      ElementsAre(
-          "roomgraph: warning: no network named and no boxes in lab.rawlog: objects will not be mapped; "
-          "name one with --set detection.models=FILE.onnx, or install one ('roomgraph models list')"));
-  EXPECT_THAT(result.out, Not(HasSubstr("detection")));
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("room_detector: room_detector\n"));
+  EXPECT_EQ(linesOf(contentOf(out / "detections.jsonl")).size(), 3u) << "it ran on every image";
   EXPECT_EQ(run(input, {"detection.enabled=false"}).err, "");
   const CallResult named = run(input, {"detection.class=DnnDetector"});
   EXPECT_THAT(named.out, HasSubstr("no network, so no objects")) << "who names a class is told by that class";
@@ -68,16 +65,13 @@ TEST_F(RecordedBoxesRun, WithoutBoxesOneLineSaysWhatToDo) {
   EXPECT_EQ(run(input).err, "") << "no images";
 }
 
-TEST_F(RecordedBoxesRun, BoxesThatStartLateAreNotDenied) {
+TEST_F(RecordedBoxesRun, BoxesThatStartLateAreNotWaitedFor) {
   auto records = TinyRecording(4).records({false, true, true});
   while (records.size() < 20001) records.push_back(test::makeOdometry(1001, 0, 0, 0));
   const auto input = folder.file("long.rawlog");
   test::writeRawlog(input, records);
-  EXPECT_THAT(
-      linesOf(run(input).err),
-      ElementsAre("roomgraph: warning: no network named and no boxes at the beginning of long.rawlog: "
-                  "objects will be mapped only if boxes come later; name one with --set "
-                  "detection.models=FILE.onnx, or install one ('roomgraph models list')"));
+  EXPECT_THAT(run(input).out, HasSubstr("room_detector: room_detector\n"));
+  EXPECT_THAT(run(input, {"detection.class=RecordedDetector"}).out, Not(HasSubstr("room_detector")));
 }
 
 TEST_F(RecordedBoxesRun, BoxesOfOtherTimesAreWarnedAbout) {

@@ -71,7 +71,7 @@ TEST(Plugin, ANetworkDecoderTakesPart) {
   EXPECT_FALSE(decoderNamed("yolov8"));
   loadPlugin(EXAMPLE_DECODER);
   ASSERT_TRUE(decoderNamed("yolov8"));
-  EXPECT_EQ(knownFormats(), "auto, ade20k, darknet, nanodet, yolov8, yolox");
+  EXPECT_EQ(knownFormats(), "auto, ade20k, darknet, nanodet, room, yolov8, yolox");
 
   const int size[] = {1, 4 + 2, 3};
   cv::Mat blob(3, size, CV_32FC1, cv::Scalar(0));
