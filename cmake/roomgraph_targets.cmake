@@ -13,7 +13,9 @@ set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
 
 find_program(ROOMGRAPH_CCACHE ccache)
 if(ROOMGRAPH_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${ROOMGRAPH_CCACHE}")
+  # Relative to the source tree, so that checkouts in several folders share what was compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+      "${ROOMGRAPH_CCACHE}")
 endif()
 
 add_library(roomgraph_options INTERFACE)
