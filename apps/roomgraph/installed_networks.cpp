@@ -19,6 +19,12 @@ std::vector<KnownNetwork> installedIn(const std::filesystem::path& folder, const
   return networksToRun(NetworkCatalogue::fromFile(catalogueFileOf(source.catalogue)), folder);
 }
 
+// Before the recording is opened: what a configuration cannot do does not depend on it.
+void requireMotion(const Options& run) {
+  if (!run.tracking.enabled && !run.lidar.enabled && !run.odometry.enabled)
+    throw ConfigError("every source of motion is switched off: [tracking], [lidar] and [odometry] enabled");
+}
+
 /// The network that comes with the program; empty: this copy of the program lacks it.
 std::filesystem::path shippedNetwork() {
   try {
@@ -33,6 +39,7 @@ std::filesystem::path shippedNetwork() {
 RunSetup makeRunSetup(Configuration& configuration, const std::filesystem::path& rawlog,
                       const ModelSource& source) {
   RunSetup out{makeSetup(configuration.config, configuration.objects_file), {}, modelFolder(source.models)};
+  requireMotion(out.setup->options);
   const auto networks = installedIn(out.folder, source);
   const auto& detector = out.setup->stages.detector;
   const bool automatic = out.setup->options.detection.detector == "auto";

@@ -52,11 +52,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void check(const RunOptions& options, const Options& run) {
+void check(const RunOptions& options) {
   if (options.span.until_s > 0 && options.span.from_s >= options.span.until_s)
     throw ConfigError("--from is not before --until: there is nothing between");
-  if (!run.tracking.enabled && !run.lidar.enabled && !run.odometry.enabled)
-    throw ConfigError("every source of motion is switched off: [tracking], [lidar] and [odometry] enabled");
 }
 
 // Files that are read are not to be written.
@@ -175,8 +173,8 @@ void run(const RunOptions& options) {
   }
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
+  check(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
-  check(options, setup->options);
   RawlogReader reader(options.input, readOptionsOf(setup->options));
   if (const std::string advice = missingDetections(setup->stages, options.input); !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
@@ -203,8 +201,8 @@ void run(const RunOptions& options) {
   RunOrigin origin{options.input, kVersion, kRevision, commandLine(), networks, {}};
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
   output->writeResult(slam, result, reader.statistics(), replayed, origin);
-  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
-                                                          output->files().pending("snapshot.png"));
+  const bool drawn = !options.no_snapshot &&
+                     drawSnapshot(result.map, slam.setup().database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish();

@@ -6,6 +6,8 @@
 
 #include "random_poses.h"
 #include "roomgraph/association/reassociation.h"
+#include "roomgraph/association/register_classes.h"
+#include "roomgraph/core/class_registry.h"
 #include "sightings.h"
 #include "track_memory.h"
 
@@ -32,7 +34,8 @@ TEST(Hindsight, TheFutureOfATrackDecidesItsBeginning) {
   for (int frame = 1; frame < 6; ++frame) frames.push_back({inFrame(frame, 0, 2), inFrame(frame, 1, 1)});
   const std::vector<Landmark> chairs{wellKnown(0, 0), wellKnown(1, 1)};
   const AssociationModel model;
-  ASSERT_GT(model.measurement.density(frames[0][0], chairs[0]), 2 * model.measurement.density(frames[0][0], chairs[1]));
+  ASSERT_GT(model.measurement.density(frames[0][0], chairs[0]),
+            2 * model.measurement.density(frames[0][0], chairs[1]));
   const auto result = reassociate(frames, chairs, {}, model, LandmarkRules{});
   ASSERT_EQ(result.landmarks.size(), 2u);
   for (const auto& decision : result.decisions[1]) {
@@ -56,6 +59,30 @@ TEST(Hindsight, AStraySightingIsNoObjectOfItsOwn) {
   ASSERT_EQ(result.landmarks.size(), 1u);
   EXPECT_EQ(result.landmarks[0].observations, 11);
   EXPECT_LT(result.landmarks[0].position.x(), 0.55 / 11 / 2) << "a Student t density gives it less weight";
+}
+
+// At the moment the stray one was nearest to a chair that was thought to stand .45 m from its place.
+TEST(Hindsight, AnAssociatorWithoutTracksDecidesByItsOwnRuleAgain) {
+  association::registerClasses();
+  const auto nearest = createStage<Associator>("NearestNeighborAssociator", "test");
+  std::vector<std::vector<WorldMeasurement>> frames;
+  for (int frame = 0; frame < 10; ++frame) frames.push_back({inFrame(frame, 0), inFrame(frame, 1)});
+  frames.push_back({inFrame(10, 0.55)});
+  const std::vector<Landmark> thought{wellKnown(0, 0.45), wellKnown(1, 1)};
+  ASSERT_EQ(nearest->associate(frames.back(), thought)[0].landmark, LandmarkId{0});
+  const auto result =
+      reassociate(frames, thought, {}, frameByFrame(*nearest, frames), MeasurementModel{}, LandmarkRules{});
+  EXPECT_TRUE(result.settled);
+  ASSERT_EQ(result.landmarks.size(), 2u);
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (const auto& decision : result.decisions[f]) {
+      const double x = frames[f][decision.association.measurement].world_from_object.translation().x();
+      for (const Landmark& landmark : result.landmarks) {
+        const Landmark& own = result.landmarks[decision.landmark == result.landmarks[0].id ? 0 : 1];
+        EXPECT_LE(std::abs(x - own.position.x()), std::abs(x - landmark.position.x())) << f;
+      }
+    }
+  EXPECT_EQ(result.decisions.back()[0].landmark, LandmarkId{1});
 }
 
 // Against a search over all directions: the axis that fits best whichever way it points, then the better way.
@@ -101,8 +128,9 @@ TEST(TrackMemory, ForgetsATrackThatWasNotSeenForFiveSeconds) {
   }
 }
 
-// Bayes' rule between two explanations of one place: the depth is right (Student t), or anywhere on eight metres
-// of the viewing ray. The camera stands at the origin and measures 3 m; the landmark is 4.5 m away, nearly behind.
+// Bayes' rule between two explanations of one place: the depth is right (Student t), or anywhere on eight
+// metres of the viewing ray. The camera stands at the origin and measures 3 m; the landmark is 4.5 m away,
+// nearly behind.
 TEST(MeasurementModel, TrustInADepthIsBayesRule) {
   for (const double score : {0.0, 0.4}) {
     WorldMeasurement seen = sightingAt(3, 0);

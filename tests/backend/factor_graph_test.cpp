@@ -140,6 +140,7 @@ TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   EXPECT_THAT(error(LandmarkBoxFactor{NodeId{0}, LandmarkId{84}}), ::testing::HasSubstr("84"));
   EXPECT_THAT(error(CameraPointFactor{NodeId{0}, PointId{85}}), ::testing::HasSubstr("85"));
   EXPECT_THAT(error(PointLandmarkFactor{PointId{86}, LandmarkId{1}}), ::testing::HasSubstr("86"));
+  EXPECT_THAT(error(LandmarkSideFactor{NodeId{0}, LandmarkId{87}}), ::testing::HasSubstr("87"));
   EXPECT_THROW(graph.add(BetweenFactor{NodeId{0}, NodeId{0}}), std::invalid_argument);
   EXPECT_THROW(graph.point(PointId{5}), std::out_of_range);
   EXPECT_THROW(graph.pose(NodeId{5}), std::out_of_range);

@@ -131,6 +131,41 @@ Specimen pointLandmarkByHand() {
           {5, 1.5}};
 }
 
+// On the front, the back, the left or the right of a cuboid.
+Specimen sideAtMeasurement(Random& random) {
+  ObjectShape shape = randomShape(random);
+  shape.kind = ShapeKind::kCuboid;
+  const Pose3 robot = random.pose(3);
+  const Eigen::Vector3d place = random.vector(3);
+  const double yaw = random.uniform(-3, 3), sign = random.index(2) == 0 ? 1 : -1;
+  LandmarkSideFactor f;
+  Eigen::Vector3d on_side(0.2 * shape.depth, 0.3 * shape.width, 0.3);
+  if (random.index(2) == 0) {
+    f.outward = sign * Eigen::Vector2d::UnitX();
+    on_side.x() = sign * shape.depth / 2;
+  } else {
+    f.outward = sign * Eigen::Vector2d::UnitY();
+    on_side.y() = sign * shape.width / 2;
+  }
+  f.point_in_robot = robot.inverse() * (poseFromYpr(place.x(), place.y(), place.z(), yaw, 0, 0) * on_side);
+  Specimen s{sharedCost(f, shape.kind), blocksOf(robot)};
+  s.blocks.push_back({{place.x(), place.y(), place.z(), yaw}});
+  s.blocks.push_back({sizeBlock(shape)});
+  return s;
+}
+
+// Robot at (1, 0), facing +y: the return 2 m ahead and .4 m to its right is at (1.4, 2). The sofa at (1, 3)
+// faces -y: in its frame the return is 1 m to the front and .4 m to the left; its front is at .8 / 2.
+Specimen sideByHand() {
+  LandmarkSideFactor f;
+  f.point_in_robot = {2, -0.4, 0.2};
+  f.sigma_m = 0.1;
+  Specimen s{sharedCost(f, ShapeKind::kCuboid), blocksOf(poseFromYpr(1, 0, 0, M_PI / 2, 0, 0)), {6}};
+  s.blocks.push_back({{1, 3, 0, -M_PI / 2}});
+  s.blocks.push_back({{1.8, 0.8, 0.9}});
+  return s;
+}
+
 Specimen marginalPriorAtMeasurement(Random& random) {
   const Pose3 pose = random.pose(3);
   const LandmarkEstimate landmark{random.vector(3), random.uniform(-3, 3), randomShape(random)};

@@ -15,6 +15,8 @@ Specimen boxByHand();
 Specimen cameraPointAtMeasurement(Random& random);
 Specimen cameraPointByHand();
 Specimen pointLandmarkAtMeasurement(Random& random);
+Specimen sideAtMeasurement(Random& random);
+Specimen sideByHand();
 Specimen pointLandmarkByHand();
 Specimen marginalPriorAtMeasurement(Random& random);
 Specimen marginalPriorByHand();

@@ -193,6 +193,10 @@ struct SpecimenOf<PointLandmarkFactor> : Known<pointLandmarkAtMeasurement, point
   static constexpr auto kName = "PointLandmarkFactor";
 };
 template <>
+struct SpecimenOf<LandmarkSideFactor> : Known<sideAtMeasurement, sideByHand> {
+  static constexpr auto kName = "LandmarkSideFactor";
+};
+template <>
 struct SpecimenOf<MarginalPrior> : Known<marginalPriorAtMeasurement, marginalPriorByHand> {
   static constexpr auto kName = "MarginalPrior";
 };

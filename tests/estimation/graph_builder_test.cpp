@@ -108,6 +108,7 @@ TEST(GraphBuilder, OnlyLandmarksThatWereSeenAreInTheGraph) {
     scenario.objects.landmarks.push_back(landmark);
   }
   const LandmarkId view{100};
+  scenario.objects.factors.yaws[LandmarkId{1}] = 0;
   scenario.objects.factors.views[view] = {place, 0, {}};
   LandmarkViewFactor shared{view, LandmarkId{1}};
   shared.covariance = 1e-4 * Eigen::Matrix4d::Identity();

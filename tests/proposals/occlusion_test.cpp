@@ -8,6 +8,7 @@
 #include "cuboid_generator.h"
 #include "cylinder_generator.h"
 #include "door_generator.h"
+#include "proposal_covariance.h"
 #include "scene.h"
 
 namespace roomgraph {
@@ -71,6 +72,30 @@ TEST(Occlusion, ChairPushedUnderATable) {
   ASSERT_TRUE(whole);
   EXPECT_GT(whole->visible.v_max, e.box.v_max + 20) << "the shape goes on below the table top";
   EXPECT_EQ(unhidden(whole->visible, e.box, e.hidden).v_max, e.box.v_max);
+}
+
+// Over the table only a back rest shows, which is as flat from behind as from the front.
+TEST(Occlusion, ABackRestHasItsSeatOnEitherSide) {
+  constexpr double kBackRest_m = 2.4, kToMiddle_m = 0.28;
+  Scene scene;
+  scene.lookAhead(1.4, 0.3);
+  scene.addBox(kBackRest_m, 0.1, 0, 0.5, 0.06, 0.45, 0.95, 1);
+  scene.addBox(kBackRest_m - 0.9, 0, 0, 2.4, 1.6, 0.6, 0.65, 2);
+  const BoxEvidence e = shadedEvidence(scene, "swivel_chair");
+  ASSERT_TRUE(e.hidden.bottom);
+  const auto found = test::hypotheses<CylinderGenerator>(e);
+  for (const double middle : {kBackRest_m - kToMiddle_m, kBackRest_m + kToMiddle_m}) {
+    const auto right = std::find_if(found.begin(), found.end(), [middle](const PlacedShape& placed) {
+      return std::hypot(placed.x - middle, placed.y - 0.1) < 0.12;
+    });
+    ASSERT_NE(right, found.end()) << middle;
+    const Eigen::Matrix4d covariance = covarianceOf(*right, e, 0);
+    EXPECT_GT(std::sqrt(covariance(0, 0)), 0.3) << "it may be the other one";
+    EXPECT_LT(std::sqrt(covariance(1, 1)), 0.1) << "across the view it is known";
+  }
+  scene.solids.pop_back();  // without the table the floor shows that nothing is hidden
+  for (const PlacedShape& placed : test::hypotheses<CylinderGenerator>(shadedEvidence(scene, "swivel_chair")))
+    EXPECT_EQ(placed.open_along_m, 0);
 }
 
 // A monitor that a detector takes for a chair: its lower end is where it stands.

@@ -10,6 +10,13 @@ void LandmarkOptions::declareParameters(ParameterVisitor& v) {
       {.doc =
            "Whether objects are mapped. false: they are detected, and people are kept out of odometry, scans "
            "and grid, but there are no landmarks."});
+  v.add(
+      "doubt_by_scan", doubt_by_scan,
+      {.doc =
+           "Whether measured shapes whose solid part the beams of the latest scan pass through lose score."});
+  v.add("hindsight", hindsight,
+        {.doc = "Whether at the end of a run it is decided again which landmark was measured, with all that "
+                "is known then."});
   v.add("birth_existence", rules.birth_existence,
         {.doc = "Existence probability of a new landmark.", .min = 0.01, .max = 0.99});
   v.add("detection_probability", detection_probability,
@@ -34,9 +41,9 @@ void LandmarkOptions::declareParameters(ParameterVisitor& v) {
   v.add("confirm_observations", confirm_observations,
         {.doc = "The same of the number of its sightings.", .min = 1, .max = 1000});
   v.add("exclusive_overlap", exclusive_overlap,
-        {.doc =
-             "Of two landmarks that overlap by more than this share of the smaller one's footprint, only the one with "
-             "more evidence is in the map.",
+        {.doc = "Of two landmarks that overlap by more than this share of the smaller one's footprint, only "
+                "the one with "
+                "more evidence is in the map.",
          .min = 0,
          .max = 1});
   v.add(

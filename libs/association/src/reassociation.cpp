@@ -112,8 +112,9 @@ std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidenc
   return out;
 }
 
-// In order of time, measurements without a landmark keep the one of their last round (`last`), or get one of `weak` in
-// gate, or initialise one, which later measurements in gate get. These landmarks join the known ones.
+// In order of time, measurements without a landmark keep the one of their last round (`last`), or get one of
+// `weak` in gate, or initialise one, which later measurements in gate get. These landmarks join the known
+// ones.
 Decisions complete(const Frames& frames, const std::vector<std::vector<Association>>& associations,
                    const Decisions& last, const std::vector<Landmark>& weak, std::vector<Landmark>& landmarks,
                    LandmarkIdentity& identity, const MeasurementModel& model, double birth_existence) {
@@ -284,6 +285,24 @@ void nameFirstSightings(Reassociation& result) {
 
 Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial, LandmarkIdentity identity,
                           const AssociationModel& model, const LandmarkRules& rules, int max_rounds) {
+  const auto smoothed = [&](const std::vector<Landmark>& landmarks, const Decisions& last) {
+    return smooth(by_frame, gather(by_frame, last, landmarks, model), model);
+  };
+  return reassociate(by_frame, std::move(initial), std::move(identity), smoothed, model.measurement, rules,
+                     max_rounds);
+}
+
+DecideRun frameByFrame(Associator& associator, const Frames& by_frame) {
+  return [&associator, &by_frame](const std::vector<Landmark>& landmarks, const Decisions&) {
+    std::vector<std::vector<Association>> out;
+    for (const auto& frame : by_frame) out.push_back(associator.associate(frame, landmarks));
+    return out;
+  };
+}
+
+Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial, LandmarkIdentity identity,
+                          const DecideRun& decide, const MeasurementModel& model, const LandmarkRules& rules,
+                          int max_rounds) {
   Reassociation out;
   out.landmarks = std::move(initial);
   out.identity = std::move(identity);
@@ -294,11 +313,10 @@ Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial,
     // converges.
     const bool open = out.rounds <= (max_rounds + 1) / 2;
     const std::vector<Landmark> weak = open ? takeWeak(out.landmarks) : std::vector<Landmark>{};
-    const Evidence evidence = gather(by_frame, out.decisions, out.landmarks, model);
-    Decisions decisions =
-        complete(by_frame, smooth(by_frame, evidence, model), open ? Decisions{} : out.decisions, weak,
-                 out.landmarks, out.identity, model.measurement, rules.birth_existence);
-    replace(by_frame, decisions, out.landmarks, model.measurement);
+    const auto associations = decide(out.landmarks, out.decisions);
+    Decisions decisions = complete(by_frame, associations, open ? Decisions{} : out.decisions, weak,
+                                   out.landmarks, out.identity, model, rules.birth_existence);
+    replace(by_frame, decisions, out.landmarks, model);
     if (open) joinDuplicates(rules.duplicates, decisions, out.landmarks, out.identity);
     out.settled = sameLandmarks(decisions, out.decisions);
     out.decisions = std::move(decisions);

@@ -23,6 +23,7 @@ ceres::CostFunction* costOf(const LandmarkSizeFactor& factor);
 ceres::CostFunction* costOf(const LandmarkBoxFactor& factor, ShapeKind kind);
 ceres::CostFunction* costOf(const CameraPointFactor& factor);
 ceres::CostFunction* costOf(const PointLandmarkFactor& factor, ShapeKind kind);
+ceres::CostFunction* costOf(const LandmarkSideFactor& factor, ShapeKind kind);
 
 /// Throws std::invalid_argument when the sizes of the prior's matrices do not fit each other.
 ceres::CostFunction* costOf(const MarginalPrior& factor);

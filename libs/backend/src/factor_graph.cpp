@@ -150,6 +150,9 @@ Blocks blocksOf(Impl& graph, const LandmarkSizeFactor& f) {
 Blocks blocksOf(Impl& graph, const LandmarkBoxFactor& f) {
   return blocksOf(graph.at(f.node), graph.at(f.landmark));
 }
+Blocks blocksOf(Impl& graph, const LandmarkSideFactor& f) {
+  return blocksOf(graph.at(f.node), graph.at(f.landmark));
+}
 Blocks blocksOf(Impl& graph, const CameraPointFactor& f) {
   return blocksOf(graph.at(f.node), graph.at(f.point));
 }
@@ -190,6 +193,9 @@ void release(Impl& graph, const LandmarkViewFactor& f) {
   graph.freeYaw(f.landmark);
 }
 void release(Impl& graph, const LandmarkBoxFactor& f) {
+  if (graph.at(f.landmark).kind != ShapeKind::kCylinder) graph.freeYaw(f.landmark);
+}
+void release(Impl& graph, const LandmarkSideFactor& f) {
   if (graph.at(f.landmark).kind != ShapeKind::kCylinder) graph.freeYaw(f.landmark);
 }
 void release(Impl& graph, const LandmarkSizeFactor& f) {

@@ -18,5 +18,8 @@ ceres::CostFunction* costOf(const CameraPointFactor& factor) {
 ceres::CostFunction* costOf(const PointLandmarkFactor& factor, ShapeKind kind) {
   return automatic<PointLandmarkResidual, 2, 3, 4, 3>(factor, kind);
 }
+ceres::CostFunction* costOf(const LandmarkSideFactor& factor, ShapeKind kind) {
+  return automatic<LandmarkSideResidual, 1, 3, 4, 4, 3>(factor, kind);
+}
 
 }  // namespace roomgraph

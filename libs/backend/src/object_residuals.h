@@ -105,6 +105,31 @@ struct PointLandmarkResidual {
   ShapeKind kind;
 };
 
+struct LandmarkSideResidual {
+  LandmarkSideResidual(const LandmarkSideFactor& f, ShapeKind shape) : factor(f), kind(shape) {}
+
+  template <class T>
+  bool operator()(const T* t, const T* q, const T* landmark, const T* size, T* out) const {
+    using std::cos, std::sin;
+    const Vec3<T> in_world = Eigen::Map<const Eigen::Quaternion<T>>(q) * factor.point_in_robot.cast<T>() +
+                             Eigen::Map<const Vec3<T>>(t);
+    const T x = in_world.x() - landmark[0], y = in_world.y() - landmark[1];
+    const T c = cos(landmark[3]), s = sin(landmark[3]);
+    const Vec3<T> inside(c * x + s * y, c * y - s * x, T(0));
+    if (kind == ShapeKind::kCylinder) {
+      out[0] = distanceOutside<T>(kind, Eigen::Map<const Vec3<T>>(size), inside)[0] / factor.sigma_m;
+      return true;
+    }
+    const bool lengthwise = std::abs(factor.outward.x()) > 0.5;
+    const T half = (lengthwise ? size[1] : size[0]) / 2.0;  // depth along x, width along y
+    out[0] = (factor.outward.x() * inside.x() + factor.outward.y() * inside.y() - half) / factor.sigma_m;
+    return true;
+  }
+
+  LandmarkSideFactor factor;
+  ShapeKind kind;
+};
+
 struct LandmarkSizeResidual {
   explicit LandmarkSizeResidual(const LandmarkSizeFactor& f) : factor(f) {}
 

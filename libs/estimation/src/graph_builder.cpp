@@ -52,15 +52,16 @@ std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const Ke
   return factor;
 }
 
-void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
+constexpr double kOnFloorSigma_m = 0.02;
+
+void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph, const BackendOptions& options) {
   const ObjectFactors& objects = in_graph.factors;
-  std::map<LandmarkId, double> seen;  // the yaw to start from: near the optimum, where derivatives lead to it
-  for (const auto& shared : objects.shared_errors) seen[shared.landmark] = objects.views.at(shared.view).yaw;
   for (const auto& landmark : in_graph.landmarks) {
-    const auto yaw = seen.find(landmark.id);
-    if (yaw == seen.end()) continue;
+    const auto yaw = objects.yaws.find(landmark.id);
+    if (yaw == objects.yaws.end()) continue;
+    // It starts with the yaw of most sightings: near the optimum, where derivatives lead to it.
     graph.addLandmark(landmark.id, {landmark.position, yaw->second, landmark.shape});
-    graph.add(LandmarkGroundFactor{landmark.id, 0.02});
+    if (options.objects_on_floor) graph.add(LandmarkGroundFactor{landmark.id, kOnFloorSigma_m});
   }
   for (const auto& [id, view] : objects.views) graph.addLandmark(id, view);
   for (const auto& [id, place] : objects.points) graph.addPoint(id, place);
@@ -70,10 +71,12 @@ void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph) {
   for (const auto& factor : objects.boxes) graph.add(factor);
   for (const auto& factor : objects.point_views) graph.add(factor);
   for (const auto& factor : objects.insides) graph.add(factor);
+  for (const auto& factor : objects.sides)
+    if (objects.yaws.contains(factor.landmark)) graph.add(factor);
 }
 
-// Key poses from `first` on, with the factors between neighbours and of the floor. `hold`: the gauge is fixed at the
-// first one.
+// Key poses from `first` on, with the factors between neighbours and of the floor. `hold`: the gauge is fixed
+// at the first one.
 std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
                                const Measurements& measurements, const BackendOptions& options,
                                std::size_t first, bool hold) {
@@ -135,7 +138,7 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
   if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
     if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
-  addObjects(graph, objects);
+  addObjects(graph, objects, options);
   return graph;
 }
 

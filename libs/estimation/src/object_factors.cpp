@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "measurement_in_world.h"
+#include "object_weights.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
 #include "roomgraph/geometry/projection.h"
@@ -27,7 +28,8 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, c
   factor.yaw_in_robot = wrapAngle(planarPart(node.world_from_robot * node_from_object).yaw - node_yaw);
   // Without the uncertainty of the pose, which is the graph's own.
   const Eigen::Matrix4d in_world =
-      measurementInWorld(measurement, decision.seen.camera, node.world_from_robot * node_from_camera, 0).covariance;
+      measurementInWorld(measurement, decision.seen.camera, node.world_from_robot * node_from_camera, 0)
+          .covariance;
   factor.covariance = rotateCovariance(in_world, node.world_from_robot.linear().transpose());
   factor.weight = decision.association.probability * measurement.confidence * measurement.proposal.score;
   return factor;
@@ -233,7 +235,8 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
         inWorld(meanSighting(withYawsNear(yaw_in_robot, group)), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
     View& view = views[directionOf(sighting.position_in_robot, node, angle_rad)];
-    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see the object.
+    // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see
+    // the object.
     const bool gone =
         view.visits.empty() || (id.value - view.visits.back().back().node.value > 1 &&
                                 node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);
@@ -274,25 +277,24 @@ bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
     for (const Visit& visit : view.visits) {
       visits.push_back(meanSighting(visit));
       LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
-      sighting.landmark = id;
-      sighting.covariance *= 1 - options.landmark_repeating_share;
       sighting.robust_width = options.landmark_robust_width;
+      if (options.object_views) {
+        sighting.landmark = id;
+        sighting.covariance *= 1 - options.landmark_repeating_share;
+      }
       out.sightings.push_back(sighting);
     }
+    if (options.object_sizes && !view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
+    if (!options.object_views) continue;
     out.views[id] = {landmark.position, yaw, landmark.shape};
     out.shared_errors.push_back(sharedError(visits, options));
     out.shared_errors.back().view = id;
     if (landmark.has_yaw) view.offset.apply(out.shared_errors.back());
-    if (!view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
   }
-  if (usual && !views.empty()) out.sizes.push_back(sizePrior(landmark.id, *usual));
-  return !views.empty();
-}
-
-// Weight of one of `count` measurements whose errors have this share of their variance in common. Together
-// they are worth as much as their mean, whose variance is (share + (1 - share) / count) times that of one.
-double weightAmong(std::size_t count, double repeating_share) {
-  return 1 / (1 + repeating_share * (static_cast<double>(count) - 1));
+  if (views.empty()) return false;
+  out.yaws[landmark.id] = yaw;
+  if (options.object_sizes && usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
+  return true;
 }
 
 void addBoxes(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses,
@@ -323,6 +325,7 @@ void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOpti
       out.point_views.push_back(view.factor);
     }
     out.points[id] = middle;
+    if (!options.points_inside) continue;
     out.insides.push_back({.point = id,
                            .landmark = landmark.id,
                            .weight = weightAmong(used.size(), options.landmark_repeating_share)});

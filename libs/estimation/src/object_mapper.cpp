@@ -9,12 +9,15 @@
 #include "measurement_in_world.h"
 #include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/reassociation.h"
+#include "scan_sides.h"
 #include "space_memory.h"
 #include "visibility.h"
 
 namespace roomgraph {
 namespace {
 
+constexpr double kScanAge_s = 0.3;     // of a scan that an image is compared with
+constexpr double kLeastDoubted = 0.2;  // share of its score that a shape keeps which all beams pass through
 constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place repeat each other
 
 void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)>& id_today) {
@@ -42,6 +45,7 @@ ObjectMapper::ObjectMapper(std::shared_ptr<Associator> associator, const Landmar
     : associator_(std::move(associator)),
       landmarks_(options),
       pose_sigma_m_(pose_sigma_m),
+      hindsight_(options.hindsight),
       poses_(poses),
       space_(std::make_unique<SpaceMemory>()) {}
 
@@ -84,6 +88,27 @@ std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeas
                      featuresOnObjects(decisions, features)});
   span(frames_.back());
   return decisions;
+}
+
+void ObjectMapper::doubtByScan(std::vector<ObjectMeasurement>& measurements, const Frame& frame,
+                               const ObjectDatabase& database) const {
+  if (!latest_scan_ || std::abs(frame.t - latest_scan_->t) > kScanAge_s) return;
+  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
+  const Pose3 world_from_scanner = poses_.at(latest_scan_->t);
+  for (ObjectMeasurement& measurement : measurements) {
+    Proposal& proposal = measurement.proposal;
+    const ObjectModel* model = database.find(proposal.model);
+    if (!model || model->solid_share <= 0) continue;
+    const Pose3 place = world_from_camera * proposal.camera_from_object;
+    Landmark there;
+    there.position = place.translation();
+    there.yaw = planarPart(place).yaw;
+    there.shape = proposal.shape;
+    const RayEvidence rays = rayEvidence(there, *latest_scan_, world_from_scanner, model->solid_share);
+    if (rays.through == 0) continue;
+    const double stopped = static_cast<double>(rays.inside) / (rays.inside + rays.through);
+    proposal.score *= std::max(kLeastDoubted, stopped);
+  }
 }
 
 void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
@@ -137,6 +162,7 @@ std::vector<Candidate> ObjectMapper::candidates(const ObjectDatabase& database,
 
 void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database) {
   space_->add(scan, world_from_robot);
+  latest_scan_ = scan;
   if (last_rays_from_) {
     const Pose3 moved = last_rays_from_->inverse() * world_from_robot;
     if (moved.translation().norm() < kRayDistance_m && rotationAngle(moved) < kRayAngle_rad) return;
@@ -175,7 +201,8 @@ void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
   const Eigen::Vector3d first_place = landmarks_.find(first)->position;
   const Eigen::Vector3d second_place = landmarks_.find(second)->position;
   for (auto& frame : frames_) {
-    const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;  // the poses have changed since
+    const Pose3 world_from_camera =
+        poses_.at(frame.t) * frame.robot_from_camera;  // the poses have changed since
     for (auto& decision : frame.decisions) {
       if (decision.landmark != first) continue;
       const Eigen::Vector3d place =
@@ -199,11 +226,14 @@ std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() c
 }
 
 bool ObjectMapper::reassociate() {
-  const AssociationModel* model = associator_->model();
-  if (!model || frames_.empty()) return false;
+  if (!hindsight_ || frames_.empty()) return false;
   const auto by_frame = measurementsInWorld();
-  const Reassociation result = roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
-                                                      *model, landmarks_.rules());
+  const AssociationModel* model = associator_->model();
+  const Reassociation result =
+      model ? roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(), *model,
+                                     landmarks_.rules())
+            : roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
+                                     frameByFrame(*associator_, by_frame), {}, landmarks_.rules());
   landmarks_.adopt(by_frame, result);
   bool changed = false;
   for (std::size_t f = 0; f < frames_.size(); ++f) {
@@ -226,8 +256,11 @@ void ObjectMapper::move(const PathShift& shift) {
 ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const BackendOptions& options) const {
   const AssociationModel* model = associator_->model();
   const auto& landmarks = landmarks_.landmarks();
-  return {landmarks,
-          objectFactors(frames_, poses_, landmarks, database, options, model ? &model->measurement : nullptr)};
+  ObjectsInGraph out{landmarks, objectFactors(frames_, poses_, landmarks, database, options,
+                                              model ? &model->measurement : nullptr)};
+  if (options.object_sides)
+    out.factors.sides = scanSides(space_->scans(), poses_, landmarks, database, options);
+  return out;
 }
 
 void ObjectMapper::apply(const LandmarkEstimates& estimates) {

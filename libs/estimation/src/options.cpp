@@ -67,8 +67,23 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
 }
 
 void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
-  v.add("object_boxes", o.object_boxes,
-        {.doc = "Whether the boxes of objects and their usual sizes are factors of the graph."});
+  v.add("object_boxes", o.object_boxes, {.doc = "Whether the boxes of objects are factors of the graph."});
+  v.add("object_sizes", o.object_sizes,
+        {.doc = "Whether measured and usual sizes are factors of the graph; else a landmark keeps the mean "
+                "size."});
+  v.add(
+      "object_views", o.object_views,
+      {.doc = "Whether sightings of an object from one direction share an error; else all are independent."});
+  v.add("object_sides", o.object_sides,
+        {.doc = "Whether returns of scans on the sides of objects, and on the walls that doors are in, are "
+                "factors of the graph."});
+  v.add("points_inside", o.points_inside, {.doc = "Whether tracked points of an object are held inside it."});
+  v.add("objects_on_floor", o.objects_on_floor, {.doc = "Whether objects are held to the floor."});
+  v.add("side_sigma_m", o.side_sigma_m,
+        {.doc = "Standard deviation of a side of an object, as a plane, against a return of a scan on it.",
+         .unit = "m",
+         .min = 1e-3,
+         .max = 10});
   v.add("box_sigma", o.box_sigma,
         {.doc = "Standard deviation of a side of a detection's box against the projected landmark, as a "
                 "share of the "

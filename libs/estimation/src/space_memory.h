@@ -55,6 +55,7 @@ class SpaceMemory {
   /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken.
   void add(const Frame& frame, const Pose3& world_from_robot);
   void add(const Scan& scan, const Pose3& world_from_robot);
+  const std::vector<Scan>& scans() const { return scans_; }
   /// Valid until the next add().
   PosedViews posed(const KeyPoses& poses) const;
 

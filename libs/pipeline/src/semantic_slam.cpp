@@ -73,7 +73,8 @@ StepReport SemanticSlam::step(const Frame& frame) {
     mapper_.add(frame, floor, people);  // sec. 5
     objects_.look(frame, estimator_.poses().at(frame.t));
     if (detections.current() && setup_->options.landmarks.enabled) {
-      const auto measurements = select(frame, proposals, tracked.features);      // sec. 3
+      auto measurements = select(frame, proposals, tracked.features);            // sec. 3
+      doubt(measurements, frame);                                                // sec. 5
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
     }
   }
@@ -236,6 +237,10 @@ std::vector<ObjectMeasurement> SemanticSlam::select(const Frame& frame, const Fr
     return !model || !model->landmark;
   });
   return measurements;
+}
+
+void SemanticSlam::doubt(std::vector<ObjectMeasurement>& measurements, const Frame& frame) const {
+  if (setup_->options.landmarks.doubt_by_scan) objects_.doubtByScan(measurements, frame, setup_->database);
 }
 
 std::vector<ObjectDecision> SemanticSlam::associate(const Frame& frame,

@@ -96,6 +96,7 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints) s.grow(kWithFewPoints);
   if (e.cut.left || e.cut.right) s.grow(kWithCutSide);
   if (e.cut.bottom) s.grow(kWithCutBottom);
+  s.along = std::hypot(s.along, placed.open_along_m);
   if (!placed.has_yaw) s.yaw = std::numbers::pi;
   const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();

@@ -33,8 +33,8 @@ class Associator : public Stage {
   }
   /// Called after landmarks were merged or split: stored ids must be resolved again.
   virtual void identitiesChanged(const LandmarkIdentity& identity) { (void)identity; }
-  /// The model by which reassociate() decides the measurements of a whole run again; null: this associator's decisions
-  /// are final.
+  /// The model by which reassociate() decides the measurements of a whole run again; null: associate() does, frame by
+  /// frame.
   virtual const AssociationModel* model() const { return nullptr; }
 };
 

@@ -9,7 +9,7 @@ namespace roomgraph {
 
 /// [landmarks]
 struct LandmarkOptions : Configurable {
-  bool enabled = true;
+  bool enabled = true, doubt_by_scan = true, hindsight = true;
   LandmarkRules rules;
   double detection_probability = 0.6, false_alarm_probability = 0.15;
   double score_gain = 5, neutral_score = 0.2, ray_gain = 0.1;

@@ -24,8 +24,7 @@ using PointId = Id<struct PointTag>;  ///< one feature point of the map
 struct LandmarkEstimate {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< bottom centre
   double yaw = 0;
-  ObjectShape shape =
-      {};  ///< kind and size; the kind never changes, the size only with a LandmarkSizeFactor
+  ObjectShape shape = {};  ///< kind and size; the kind never changes, the size only with a LandmarkSizeFactor
 };
 
 /// Movement between two poses: odometry, visual odometry, scan match, loop closure.
@@ -120,13 +119,26 @@ struct CameraPointFactor {
   double robust_width = 2.5;  ///< in standard deviations; 0: plain least squares
 };
 
-/// A point of a landmark lies inside its model (factor 4, paper Eq. 14): horizontal and vertical distance from the
-/// volume, 0 inside.
+/// A point of a landmark lies inside its model (factor 4, paper Eq. 14): horizontal and vertical distance
+/// from the volume, 0 inside.
 struct PointLandmarkFactor {
   PointId point;
   LandmarkId landmark;
   double sigma_horizontal_m = 0.05, sigma_vertical_m = 0.05;
   double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
+  double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
+};
+
+/// A return of a lidar that ends on an upright side of a landmark: it lies on that side's plane. Of a
+/// cylinder, whose legs stand anywhere in it: it lies inside. The landmark must have a size.
+struct LandmarkSideFactor {
+  NodeId node;
+  LandmarkId landmark;
+  Eigen::Vector3d point_in_robot = Eigen::Vector3d::Zero();
+  Eigen::Vector2d outward =
+      Eigen::Vector2d::UnitX();  ///< normal of the side in the landmark's frame: +-x or +-y
+  double sigma_m = 0.05;
+  double weight = 1;        ///< scales the (robust) cost
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
@@ -137,10 +149,10 @@ struct Variables {
   std::vector<PointId> points;
 };
 
-/// Prior on variables from the measurements of a marginalised part: cost 1/2 |root d + offset|^2 with d the difference
-/// from the point of linearisation. Per pose 6 numbers (translation in world, rotation
-/// vector w with R = exp(w) R_linearised), per landmark 7 (x, y, z, yaw, width, depth, height), per point 3,
-/// in the order of `variables`: poses, landmarks, points. Made by FactorGraph::marginalize.
+/// Prior on variables from the measurements of a marginalised part: cost 1/2 |root d + offset|^2 with d the
+/// difference from the point of linearisation. Per pose 6 numbers (translation in world, rotation vector w
+/// with R = exp(w) R_linearised), per landmark 7 (x, y, z, yaw, width, depth, height), per point 3, in the
+/// order of `variables`: poses, landmarks, points. Made by FactorGraph::marginalize.
 struct MarginalPrior {
   Variables variables;
   std::vector<Pose3> poses;                 ///< point of linearisation, like the following
@@ -150,10 +162,10 @@ struct MarginalPrior {
   Eigen::VectorXd offset;
 };
 
-/// Every kind of measurement in a graph. A new kind is added here; the tests do not compile until it has specimens
-/// (tests/backend/residual_specimens.h).
+/// Every kind of measurement in a graph. A new kind is added here; the tests do not compile until it has
+/// specimens (tests/backend/residual_specimens.h).
 using Factor = std::variant<BetweenFactor, PlanarFactor, GroundFactor, LandmarkFactor, LandmarkViewFactor,
                             LandmarkGroundFactor, LandmarkSizeFactor, LandmarkBoxFactor, CameraPointFactor,
-                            PointLandmarkFactor, MarginalPrior>;
+                            PointLandmarkFactor, LandmarkSideFactor, MarginalPrior>;
 
 }  // namespace roomgraph

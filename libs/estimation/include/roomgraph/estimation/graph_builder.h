@@ -23,8 +23,8 @@ struct MapFix {
 struct Measurements {
   std::vector<RelativePose> closures;  ///< between robots at two times
   std::vector<GroundFactor> grounds;   ///< handheld camera only
-  bool planar = true;                 ///< a robot on the floor
-  std::vector<MapFix> fixes;          ///< with any, world is held by them and not by the first key pose
+  bool planar = true;                  ///< a robot on the floor
+  std::vector<MapFix> fixes;           ///< with any, world is held by them and not by the first key pose
 };
 
 /// Whether any source of motion covers the time from one key pose to the other.
@@ -50,9 +50,9 @@ struct Window {
   std::vector<LocalMap> local_maps;
 };
 
-/// The key poses from `first` on, with the marginal prior of earlier measurements; without one the first is held.
-/// Earlier poses in closures are held. Landmarks are left out: with their sightings in the window, with 1 % or 20 % of
-/// their information, the live pose was no better.
+/// The key poses from `first` on, with the marginal prior of earlier measurements; without one the first is
+/// held. Earlier poses in closures are held. Landmarks are left out: with their sightings in the window, with
+/// 1 % or 20 % of their information, the live pose was no better.
 Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                    const BackendOptions& options, std::size_t first,
                    const std::optional<MarginalPrior>& prior);

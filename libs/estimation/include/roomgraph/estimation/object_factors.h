@@ -17,6 +17,8 @@ namespace roomgraph {
 
 /// Landmarks, points and factors of objects for the graph (method.md sec. 4, factors 2, 3, 4 and 6).
 struct ObjectFactors {
+  std::map<LandmarkId, double>
+      yaws;  ///< that most sightings say; of the landmarks that sightings tie to poses
   /// Landmarks as they seem from one direction, with the yaw of most sightings.
   std::map<LandmarkId, LandmarkEstimate> views;
   std::vector<LandmarkViewFactor> shared_errors;  ///< of views against their landmarks
@@ -26,6 +28,7 @@ struct ObjectFactors {
   std::map<PointId, Eigen::Vector3d> points;  ///< in world, at the measured depth
   std::vector<CameraPointFactor> point_views;
   std::vector<PointLandmarkFactor> insides;
+  std::vector<LandmarkSideFactor> sides;  ///< by scans
 };
 
 /// The current landmarks, and their factors with the key poses.

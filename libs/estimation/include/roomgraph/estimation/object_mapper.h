@@ -22,8 +22,8 @@ namespace roomgraph {
 
 class SpaceMemory;
 
-/// The object part of a run: association (method.md sec. 4, E-step), and the storage of all measurements relative to
-/// the robot, so that they can be decided again when the poses have changed.
+/// The object part of a run: association (method.md sec. 4, E-step), and the storage of all measurements
+/// relative to the robot, so that they can be decided again when the poses have changed.
 class ObjectMapper {
  public:
   /// `pose_sigma_m`: uncertainty of the current pose within what it sees, besides drift. `poses` outlives the
@@ -38,12 +38,18 @@ class ObjectMapper {
                                         const Frame& frame, const std::vector<FeatureTrack>& features,
                                         const Drift& drift);
 
+  /// Lowers the scores of measured shapes whose solid part the beams of the latest scan pass through:
+  /// something is wrong with their place. From the score follow their trust in association, existence and
+  /// graph.
+  void doubtByScan(std::vector<ObjectMeasurement>& measurements, const Frame& frame,
+                   const ObjectDatabase& database) const;
+
   /// Lowers the existence of landmarks in good view where the detector, on this frame, found nothing.
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
                   const Frame& frame);
 
-  /// Updates the existence of the landmarks that a scan crosses, by how much of their classes is solid; scans from one
-  /// place count once.
+  /// Updates the existence of the landmarks that a scan crosses, by how much of their classes is solid; scans
+  /// from one place count once.
   void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
 
   /// Remembers what the depth image saw free and filled.
@@ -56,7 +62,8 @@ class ObjectMapper {
   void tidy();
 
   /// E-step over everything measured so far, with the current poses (method.md sec. 4); whether a
-  /// decision changed. Does nothing with an associator whose decisions are final.
+  /// decision changed. An associator without a model decides every frame again by its own rule. Does nothing without
+  /// LandmarkOptions::hindsight.
   bool reassociate();
 
   /// The landmarks of an earlier map, in whose frame world is: those measured again take over their ids.
@@ -90,10 +97,12 @@ class ObjectMapper {
   std::shared_ptr<Associator> associator_;
   LandmarkMap landmarks_;
   double pose_sigma_m_;
+  bool hindsight_;
   const KeyPoses& poses_;
   std::vector<ObjectFrame> frames_;
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
+  std::optional<Scan> latest_scan_;  ///< without returns on people
   std::unique_ptr<SpaceMemory> space_;
   std::vector<double> searched_times_;  ///< of the images that the detector saw
 };

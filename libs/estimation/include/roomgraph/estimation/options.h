@@ -30,9 +30,10 @@ struct BackendOptions : Configurable {
   double landmark_sigma_share = 0.5;
   double landmark_repeating_share = 0.5;
   double landmark_view_rad = 0.26;
-  bool object_boxes = true;
+  bool object_boxes = true, object_sizes = true, object_views = true, object_sides = true;
+  bool points_inside = true, objects_on_floor = true;
   bool planar_graph = false;
-  double box_sigma = 0.06, point_sigma_px = 10;
+  double box_sigma = 0.06, point_sigma_px = 10, side_sigma_m = 0.05;
   int points_per_landmark = 10;
   void declareParameters(ParameterVisitor& v) override;
 };

@@ -98,6 +98,7 @@ class SemanticSlam {
   FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
   std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
                                         const std::vector<FeatureTrack>& features);
+  void doubt(std::vector<ObjectMeasurement>& measurements, const Frame& frame) const;
   std::vector<ObjectDecision> associate(const Frame& frame, const std::vector<ObjectMeasurement>& measurements,
                                         const std::vector<FeatureTrack>& features,
                                         const FrameDetections& detections);

@@ -21,6 +21,8 @@ struct PlacedShape {
   BoxSides hidden;  ///< sides of the box that the model was not compared with, as something nearer hides them
   std::optional<double> leg_column;  ///< px where the leg meets the box's bottom line, when it was seen
   bool has_yaw = false;
+  bool behind_its_points = true;  ///< false: the depth points are its far side, what is nearer is hidden
+  double open_along_m = 0;  ///< standard deviation along the view of what the depth points leave open
   std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction gives one
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();  ///< see Proposal
   Eigen::Matrix<double, 2, 3> place_by_size = Eigen::Matrix<double, 2, 3>::Zero();  ///< see Proposal

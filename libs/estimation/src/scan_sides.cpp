@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Assignment of returns to sides by distance and direction; thinning and weights.
+#include "scan_sides.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "object_weights.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kReach_m = 5;         // of a lidar that looks at a landmark
+constexpr double kNearSide_m = 0.2;    // of a return to the side it may lie on
+constexpr double kNearWall_m = 0.1;    // likewise, of a wall: walls are well known
+constexpr double kNearLegs_m = 0.15;   // outside a cylinder
+constexpr double kLeastFacing = 0.25;  // cosine between the side's normal and the direction to the lidar
+constexpr double kCorner_m = 0.05;     // at the ends of a side returns may be on the next one
+constexpr double kWallBeside_m = 0.6;  // of the wall on both sides of a door
+constexpr double kSpread_m = 0.05, kMostAlike = 0.7;        // so many of a side's returns are so near a line
+constexpr std::size_t kLeastReturns = 4, kMostReturns = 6;  // of one side in one scan
+constexpr std::size_t kMostOfDirection = 24;                // more say nothing new
+
+// In the landmark's frame.
+struct Side {
+  Eigen::Vector2d outward;
+  double to_side_m;      // of the landmark's middle
+  double half_length_m;  // along the side
+};
+
+std::array<Side, 4> sidesOf(const ObjectShape& shape) {
+  const Eigen::Vector2d x = Eigen::Vector2d::UnitX(), y = Eigen::Vector2d::UnitY();
+  return {{{x, shape.depth / 2, shape.width / 2},
+           {-x, shape.depth / 2, shape.width / 2},
+           {y, shape.width / 2, shape.depth / 2},
+           {-y, shape.width / 2, shape.depth / 2}}};
+}
+
+struct Return {
+  Eigen::Vector2d in_landmark;
+  Eigen::Vector3d in_robot;
+};
+
+double distance(const Side& side, const Eigen::Vector2d& point) {
+  return side.outward.dot(point) - side.to_side_m;
+}
+
+double along(const Side& side, const Eigen::Vector2d& point) {
+  return side.outward.x() * point.y() - side.outward.y() * point.x();
+}
+
+// A door's leaf may be anywhere, its frame is in the wall.
+bool isOn(const Side& side, ShapeKind kind, const Eigen::Vector2d& point) {
+  const double beside = std::abs(along(side, point)) - side.half_length_m;
+  if (kind == ShapeKind::kPlanar)
+    return std::abs(distance(side, point)) < kNearWall_m && beside > kCorner_m && beside < kWallBeside_m;
+  return std::abs(distance(side, point)) < kNearSide_m && beside < -kCorner_m;
+}
+
+// Whether most returns lie on a line: the least-squares one along the side.
+bool onALine(const Side& side, const std::vector<Return>& returns) {
+  Eigen::MatrixXd places(returns.size(), 2);
+  Eigen::VectorXd distances(returns.size());
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    places.row(row) << 1, along(side, returns[i].in_landmark);
+    distances[row] = distance(side, returns[i].in_landmark);
+  }
+  const Eigen::VectorXd line = places.colPivHouseholderQr().solve(distances);
+  const auto alike = ((places * line - distances).cwiseAbs().array() < kSpread_m).count();
+  return static_cast<double>(alike) >= kMostAlike * static_cast<double>(returns.size());
+}
+
+// Evenly in their order, that of the beams or of time.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  std::vector<T> out;
+  for (std::size_t i = 0; i < most; ++i) out.push_back(all[i * (all.size() - 1) / (most - 1)]);
+  return out;
+}
+
+// One scan, placed.
+struct PosedScan {
+  NodeId node;
+  Eigen::Vector2d lidar;  // world
+  double height_m;
+  std::vector<Eigen::Vector3d> in_node, in_world;
+};
+
+PosedScan placed(const Scan& scan, const KeyPoses& poses) {
+  const KeyPose& node = poses.nearest(scan.t);
+  const Pose3 node_from_robot = poses.offset(node, scan.t);
+  const Pose3 world_from_lidar = node.world_from_robot * node_from_robot * scan.robot_from_lidar;
+  PosedScan out{
+      node.id, world_from_lidar.translation().head<2>(), world_from_lidar.translation().z(), {}, {}};
+  for (const Eigen::Vector3d& point : scan.pointsInRobot()) {
+    out.in_node.push_back(node_from_robot * point);
+    out.in_world.push_back(node.world_from_robot * out.in_node.back());
+  }
+  return out;
+}
+
+class SideFinder {
+ public:
+  SideFinder(const Landmark& landmark, const ObjectModel& model, const BackendOptions& options)
+      : landmark_(landmark),
+        options_(options),
+        solid_m_(landmark.shape.kind == ShapeKind::kCuboid ? model.solid_share * landmark.shape.height
+                                                           : landmark.shape.height),
+        reach_m_(landmark.shape.horizontalExtent() / 2 + kWallBeside_m),
+        landmark_from_world_(planarPart(landmark.worldFromObject()).inverse()) {}
+
+  void add(const PosedScan& scan) {
+    const Eigen::Vector2d lidar = landmark_from_world_ * scan.lidar;
+    if (scan.height_m < 0 || scan.height_m > solid_m_ || lidar.norm() > kReach_m) return;
+    const std::vector<Return> near = around(scan);
+    if (landmark_.shape.kind == ShapeKind::kCylinder) return addInside(scan, near);
+    for (const Side& side : sidesOf(landmark_.shape)) {
+      const bool face = std::abs(side.outward.x()) > 0.5;
+      if (landmark_.shape.kind == ShapeKind::kPlanar && !face) continue;
+      const Eigen::Vector2d to_lidar = lidar - side.to_side_m * side.outward;
+      if (side.outward.dot(to_lidar) < kLeastFacing * to_lidar.norm()) continue;
+      addSide(scan, side, near);
+    }
+  }
+
+  // Those from one direction weigh as much as their mean.
+  std::vector<LandmarkSideFactor> factors() const {
+    std::vector<LandmarkSideFactor> out;
+    for (const auto& [direction, all] : by_direction_) {
+      const auto group = thinned(all, kMostOfDirection);
+      for (LandmarkSideFactor factor : group) {
+        factor.weight = weightAmong(group.size(), options_.landmark_repeating_share);
+        out.push_back(factor);
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::vector<Return> around(const PosedScan& scan) const {
+    std::vector<Return> out;
+    for (std::size_t i = 0; i < scan.in_world.size(); ++i) {
+      const Eigen::Vector2d place = scan.in_world[i].head<2>();
+      if ((place - landmark_.position.head<2>()).norm() > reach_m_) continue;
+      out.push_back({landmark_from_world_ * place, scan.in_node[i]});
+    }
+    return out;
+  }
+
+  void addSide(const PosedScan& scan, const Side& side, const std::vector<Return>& near) {
+    std::vector<Return> on_side;
+    for (const Return& r : near)
+      if (isOn(side, landmark_.shape.kind, r.in_landmark)) on_side.push_back(r);
+    if (on_side.size() < kLeastReturns || !onALine(side, on_side)) return;
+    for (const Return& r : thinned(on_side, kMostReturns)) keep(scan, r, side.outward);
+  }
+
+  void addInside(const PosedScan& scan, const std::vector<Return>& near) {
+    const double most = landmark_.shape.horizontalExtent() / 2 + kNearLegs_m;
+    for (const Return& r : near)
+      if (r.in_landmark.norm() < most) keep(scan, r, Eigen::Vector2d::UnitX());
+  }
+
+  void keep(const PosedScan& scan, const Return& r, const Eigen::Vector2d& outward) {
+    const Eigen::Vector2d ray = landmark_.position.head<2>() - scan.lidar;
+    const int direction =
+        static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / options_.landmark_view_rad));
+    by_direction_[direction].push_back({.node = scan.node,
+                                        .landmark = landmark_.id,
+                                        .point_in_robot = r.in_robot,
+                                        .outward = outward,
+                                        .sigma_m = options_.side_sigma_m,
+                                        .robust_width = options_.landmark_robust_width});
+  }
+
+  const Landmark& landmark_;
+  const BackendOptions& options_;
+  double solid_m_;  // below, the landmark stops a beam
+  double reach_m_;
+  Pose2 landmark_from_world_;
+  std::map<int, std::vector<LandmarkSideFactor>> by_direction_;
+};
+
+}  // namespace
+
+std::vector<LandmarkSideFactor> scanSides(const std::vector<Scan>& scans, const KeyPoses& poses,
+                                          const std::vector<Landmark>& landmarks,
+                                          const ObjectDatabase& database, const BackendOptions& options) {
+  std::vector<SideFinder> finders;
+  for (const Landmark& landmark : landmarks)
+    if (const ObjectModel* model = database.find(landmark.model))
+      finders.emplace_back(landmark, *model, options);
+  if (finders.empty() || poses.empty()) return {};
+  for (const Scan& scan : scans) {
+    const PosedScan posed = placed(scan, poses);
+    for (SideFinder& finder : finders) finder.add(posed);
+  }
+  std::vector<LandmarkSideFactor> out;
+  for (const SideFinder& finder : finders)
+    for (const LandmarkSideFactor& factor : finder.factors()) out.push_back(factor);
+  return out;
+}
+
+}  // namespace roomgraph
