@@ -17,6 +17,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kEdge_pt = 14, kTitle_pt = 13, kTitleSpace_pt = 34, kAboveLegend_pt = 10;
+constexpr double kLegendShare = 0.76,
+                 kBeforeBar_pt = 18;  // of the width; to the scale bar, its figures included
 
 struct Layout {
   Eigen::Vector2d size;  ///< of the page, pt
@@ -36,7 +38,8 @@ Layout layoutFor(const MapPicture& picture, const ObjectDatabase& database, cons
   layout.bar_m = scaleBarLength(layout.place.world.sizes().x());
   const double height = options.height * kPointsPerPixel, inside = width - 2 * kEdge_pt;
   const double top = kEdge_pt + (options.title.empty() ? 0 : kTitleSpace_pt);
-  layout.legend_width = 0.76 * inside;
+  const double longest_bar = inside * layout.bar_m / layout.place.world.sizes().x();
+  layout.legend_width = std::min(kLegendShare * inside, inside - longest_bar - kBeforeBar_pt);
   const double below = kAboveLegend_pt + kEdge_pt +
                        kLegendRow_pt * std::max(1, legendRows(ruler, layout.legend, layout.legend_width));
   const Eigen::Vector2d room(inside, std::max(height - top - below, 8.0));
