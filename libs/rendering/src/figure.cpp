@@ -17,7 +17,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kEdge_pt = 14, kTitle_pt = 13, kTitleSpace_pt = 34, kAboveLegend_pt = 10;
-constexpr double kLegendShare = 0.76,
+constexpr double kWidestLegend = 0.76,
                  kBeforeBar_pt = 18;  // of the width; to the scale bar, its figures included
 
 struct Layout {
@@ -39,7 +39,7 @@ Layout layoutFor(const MapPicture& picture, const ObjectDatabase& database, cons
   const double height = options.height * kPointsPerPixel, inside = width - 2 * kEdge_pt;
   const double top = kEdge_pt + (options.title.empty() ? 0 : kTitleSpace_pt);
   const double longest_bar = inside * layout.bar_m / layout.place.world.sizes().x();
-  layout.legend_width = std::min(kLegendShare * inside, inside - longest_bar - kBeforeBar_pt);
+  layout.legend_width = std::min(kWidestLegend * inside, inside - longest_bar - kBeforeBar_pt);
   const double below = kAboveLegend_pt + kEdge_pt +
                        kLegendRow_pt * std::max(1, legendRows(ruler, layout.legend, layout.legend_width));
   const Eigen::Vector2d room(inside, std::max(height - top - below, 8.0));
