@@ -17,8 +17,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kEdge_pt = 14, kTitle_pt = 13, kTitleSpace_pt = 34, kAboveLegend_pt = 10;
-constexpr double kWidestLegend = 0.76,
-                 kBeforeBar_pt = 18;  // of the width; to the scale bar, its figures included
+constexpr double kWidestLegend = 0.76;  ///< of the width
+constexpr double kBeforeBar_pt = 18;    ///< from the legend to the scale bar, whose figures stick out
 
 struct Layout {
   Eigen::Vector2d size;  ///< of the page, pt
