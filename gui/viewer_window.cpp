@@ -24,6 +24,7 @@ mrpt::gui::CDisplayWindowGUI_Params antiAliased() {
 }
 
 constexpr int kMostClickMove_px = 4, kSightingParts = 60;
+constexpr int kLeastMap = 4;  ///< times the width of the layers' panel: a map that is narrower lies below it
 
 }  // namespace
 
@@ -283,7 +284,10 @@ void ViewerWindow::moveCamera() {
   wanted.orthographic = view_ == View::kTop;
   if (view_ != View::kTop) wanted.azimuth = -65 * kDegree, wanted.elevation = 42 * kDegree;
   const double margin = 0.04 * now.width;
-  wanted.fit(contentPoints(scene_.map()), {margin, margin, now.width - margin, now.height - margin});
+  // From above the corners of the map are the corners of the window.
+  const bool beside = view_ == View::kTop && kLeastMap * layers_->right() < now.width;
+  const double left = beside ? layers_->right() + margin / 2 : margin;
+  wanted.fit(contentPoints(scene_.map()), {left, margin, now.width - margin, now.height - margin});
   background_scene->getViewport()->setViewportClipDistances(0.1f, static_cast<float>(10 * extent + 100));
   setCamera(wanted);
 }

@@ -221,6 +221,12 @@ TEST(Figure, PaperEndsWhereTheMapEndsAndScreenHasTheSizeAskedFor) {
   };
   EXPECT_EQ(size(FigureStyle::kScreen), cv::Size(800, 800));
   EXPECT_EQ(size(FigureStyle::kPaper).width, 800);
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.pdf"}) {
+    const auto told =
+        writeFigure(test::sampleMap(), furniture(), {FigureStyle::kPaper, 800, 800, ""}, folder.file(name));
+    EXPECT_EQ(cv::Size(told.width, told.height), size(FigureStyle::kPaper)) << name;
+  }
   EXPECT_LT(size(FigureStyle::kPaper).height, 640) << "the room is 6 m x 4 m";
 }
 

@@ -130,7 +130,7 @@ class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
         self.assertIn(f"{chosen['class'].replace('_', ' ')} {chosen['id']}", one.wait("return !document.getElementById('tip').hidden && document.getElementById('tip').textContent"))
         one.click(f"{shape} .shape")
         detail = one.wait("return document.querySelector('#detail')?.textContent")
-        self.assertIn(f"{chosen['size_wdh'][0]:.2f} × {chosen['size_wdh'][1]:.2f} × {chosen['size_wdh'][2]:.2f} m", detail)
+        self.assertIn(f"{chosen['size_wdh'][0]:.2f} × {chosen['size_wdh'][1]:.2f} × {chosen['size_wdh'][2]:.2f}\u00a0m", detail)
         self.assertIn(f"{chosen['x']:.2f}, {chosen['y']:.2f}", detail)
         self.assertEqual(one.run(f"return document.querySelector(\"{shape}\").classList.contains('selected')"), True)
         other = self.objects[1]["id"]
@@ -140,6 +140,18 @@ class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
         one.run("document.querySelector('.map').focus({preventScroll: true})")
         one.keys("\ue00c")
         self.assertIsNone(one.run("return document.querySelector('#detail')"))
+
+    def test_details_fit_a_narrow_window(self):
+        one = self.open(width=360, height=740)
+        for button in range(len(self.objects)):
+            one.run("document.querySelectorAll('.object-list button')[arguments[0]].click();"
+                    "document.querySelectorAll('#detail details').forEach((fold) => fold.open = true)", button)
+            broken = one.run("return [...document.querySelectorAll('.facts dd')].filter((d) => d.getBoundingClientRect().height >"
+                             "3.5 * parseFloat(getComputedStyle(d).lineHeight)).map((d) => d.textContent)")
+            self.assertEqual(broken, [], "values in more than three lines")
+            facts = one.run("return [...document.querySelectorAll('.facts dd')].map((d) => d.textContent)")
+            self.assertGreater(len(facts), 20)
+            self.assertEqual([fact for fact in facts if "-0.00" in fact], [])
 
     def test_map_moves_by_wheel_drag_and_keys(self):
         one = self.open()

@@ -95,15 +95,17 @@ cv::Mat figurePixels(const MapPicture& picture, const ObjectDatabase& database,
   return canvas.pixels();
 }
 
-void writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
+FigureSize writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
                  const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (ending == ".png") {
     std::vector<unsigned char> bytes;
-    cv::imencode(".png", figurePixels(map, database, options), bytes);
-    return writeFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const cv::Mat pixels = figurePixels(map, database, options);
+    cv::imencode(".png", pixels, bytes);
+    writeFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return {pixels.cols, pixels.rows};
   }
   if (ending != ".pdf" && ending != ".svg")
     throw std::invalid_argument("no figure ends with '" + ending + "'");
@@ -112,6 +114,8 @@ void writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const 
                 map.world_from_robot.empty() ? 0 : map.world_from_robot.front().t);
   drawFigure(canvas, map, database, options, layout);
   writeFileAtomically(file, canvas.finishedFile());
+  const Eigen::Vector2d pixels = layout.size / kPointsPerPixel;
+  return {static_cast<int>(std::lround(pixels.x())), static_cast<int>(std::lround(pixels.y()))};
 }
 
 }  // namespace roomgraph
