@@ -276,9 +276,12 @@ void ViewerWindow::moveCamera() {
   const double extent = contentExtent(scene_.map());
   const bool moved = set_ && !(now.target.isApprox(set_->target) && now.distance == set_->distance &&
                                now.azimuth == set_->azimuth && now.elevation == set_->elevation);
-  if (fitted_ && (moved || std::abs(extent - fitted_extent_) < 0.05 * fitted_extent_)) return;
+  const std::size_t objects = scene_.map().landmarks.size();  // a door stands higher than walls are drawn
+  const bool grown = std::abs(extent - fitted_extent_) >= 0.05 * fitted_extent_ || objects > fitted_objects_;
+  if (fitted_ && (moved || !grown)) return;
   fitted_ = true;
   fitted_extent_ = extent;
+  fitted_objects_ = objects;
   OrbitCamera wanted{.distance = 2 * extent, .width = now.width, .height = now.height};
   wanted.target << contentBounds(scene_.map()).center().head<2>(), 0;
   wanted.orthographic = view_ == View::kTop;
