@@ -184,6 +184,9 @@ class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
         nameless = one.run("return [...document.querySelectorAll('button, a, [role=img], [role=button], [role=group], nav, section, input')]"
                            ".filter(e => !(e.getAttribute('aria-label') || e.getAttribute('aria-labelledby') || e.textContent.trim())).map(e => e.outerHTML)")
         self.assertEqual(nameless, [])
+        read_out = [(node["role"]["value"], node.get("name", {}).get("value", ""))
+                    for node in one.devtools("Accessibility.getFullAXTree")["nodes"] if not node.get("ignored")]
+        self.assertEqual([node for node in read_out if "›" in node[1] or node == ("table", "")], [], "what a screen reader says")
         self.assertEqual(one.run("return [document.documentElement.lang, document.querySelectorAll('main, nav, header').length, document.querySelectorAll('h1').length]"), ["en", 3, 1])
 
     def test_several_runs(self):
