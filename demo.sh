@@ -2,7 +2,7 @@
 # Builds roomgraph and shows it at work twice, each time against ground truth:
 # 1. a recording that Debian's mrpt-common package installs: a robot with a 2D laser scanner in simulated halls;
 # 2. a flat of two rooms with chairs, sofas, doors and people walking, simulated here: RGB-D, laser, odometry, and the
-#    boxes of a simulated detector (networks are not part of this repository).
+#    boxes of a simulated detector.
 set -euo pipefail
 cd "$(dirname "$0")"
 ./setup.sh --target roomgraph_app

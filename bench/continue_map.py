@@ -9,7 +9,8 @@ the whole recording, and of either half; each of N starts, spread over the recor
 the whole and in that of the half that does not hold its start. Also: sources one by one, and --foreign RAWLOG ..., recordings of
 other places, which must not be re-localised. The error is that of the robot against ground truth in the frame of the earlier map:
 that frame is laid onto the truth by the earlier run's own trajectory, nothing is aligned afterwards. Wrong: re-localised, and on
-average more than .5 m off.
+average more than .5 m off. `of arriving`: within 5 s of being, for the first time, within 1 m of the path that the earlier map was
+made on, or of the start where that is later: a half map does not know the other room.
 
 Prints Markdown; DIR/continue.json keeps all figures. Exit codes: 0 done, 1 a run failed or was laid into the wrong place, 2 usage.
 """
@@ -21,7 +22,7 @@ import sys
 from pathlib import Path
 
 NETWORKS = ["nanodet-plus-m-1.5x/nanodet-plus-m_1.5x-416.onnx", "deeplabv3-mnv2-ade20k/deeplabv3_mnv2_ade20k_256x256.onnx"]
-WRONG_M = 0.5
+WRONG_M, KNOWN_M, SOON_S = 0.5, 1, 5
 LENGTH_S, HALF_S = 72, 36
 QUIET = ["--quiet", "--no-report", "--no-snapshot"]
 # What is taken away, so that one source alone is left.
@@ -69,6 +70,15 @@ def errors(truth, estimate, map_from_truth):
     return math.sqrt(place / count), math.degrees(math.sqrt(yaw / count))
 
 
+def arrival(truth, path, start_s, length_s):
+    """Seconds from a start until the true robot is within KNOWN_M of a path (poses); None: never."""
+    begin = min(truth) / 1e6 + start_s
+    for t in sorted(truth):
+        if begin <= t / 1e6 <= begin + length_s and any(math.dist(truth[t][:2], p[:2]) < KNOWN_M for p in path):
+            return t / 1e6 - begin
+    return None
+
+
 class Bench:
     def __init__(self, arguments):
         self.program, self.out, self.data = arguments.program, arguments.out, arguments.data
@@ -90,11 +100,12 @@ class Bench:
         return boxes
 
     def map_of(self, name, span):
-        """(map.rgmap, map_from_truth) of a part of the recording."""
+        """(map.rgmap, map_from_truth, true poses of its path) of a part of the recording."""
         folder = self.out / f"map_{name}"
         if not (folder / "map.rgmap").exists():
             self.call("run", self.recording(), "-o", folder, *QUIET, *span)
-        return folder / "map.rgmap", aligned(poses_of(folder / "trajectory.tum"), self.truth)
+        poses = poses_of(folder / "trajectory.tum")
+        return folder / "map.rgmap", aligned(poses, self.truth), [self.truth[t] for t in sorted(poses.keys() & self.truth.keys())][::5]
 
     def continued(self, name, recording, map_file, extra):
         folder = self.out / name
@@ -104,12 +115,13 @@ class Bench:
 
     def start(self, name, earlier, start_s, length_s, settings=()):
         """Figures of one continued cut."""
-        map_file, map_from_truth = earlier
+        map_file, map_from_truth, path = earlier
         extra = ["--from", f"{start_s:.1f}", "--until", f"{start_s + length_s:.1f}"]
         for setting in settings:
             extra += ["--set", setting]
         folder, said = self.continued(name, self.recording(), map_file, extra)
         out = {"start_s": start_s, "relocalised": said["relocalised"] == "yes", **{k: said.get(k) for k in ("after_s", "by", "objects")}}
+        out["arrives_s"] = arrival(self.truth, path, start_s, length_s)
         if out["relocalised"]:
             out["ate_m"], out["yaw_deg"] = errors(self.truth, poses_of(folder / "trajectory.tum"), map_from_truth)
             out["wrong"] = out["ate_m"] > WRONG_M
@@ -127,7 +139,9 @@ def row(name, figures):
     right = [f for f in found if not f["wrong"]]
     after = [f["after_s"] for f in right]
     ways = ", ".join(f"{by} {sum(f['by'] == by for f in right)}" for by in sorted({f["by"] for f in right}))
-    return (f"| {name} | {len(right)}/{len(figures)} | {sum(a <= 5 for a in after)}/{len(figures)} | {len(found) - len(right)} | "
+    return (f"| {name} | {len(right)}/{len(figures)} | {sum(a <= SOON_S for a in after)}/{len(figures)} | "
+            f"{sum(f['after_s'] - f['arrives_s'] <= SOON_S for f in right if f['arrives_s'] is not None)}/"
+            f"{sum(f['arrives_s'] is not None for f in figures)} | {len(found) - len(right)} | "
             f"{median(after):.1f} / {max(after, default=float('nan')):.1f} | {ways} | "
             f"{median([f['ate_m'] for f in right]):.3f} / {max([f['ate_m'] for f in right], default=float('nan')):.3f} | "
             f"{median([f['yaw_deg'] for f in right]):.2f} |")
@@ -158,8 +172,8 @@ def main():
     foreign = {}
     for recording in arguments.foreign:
         foreign[recording.name] = bench.continued(f"foreign_{recording.stem}", recording, whole[0], [])[1]
-    print("| map, sources | re-localised | within 5 s | wrong | after s, median / most | by | ATE m, median / most | yaw deg |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("| map, sources | re-localised | within 5 s | of arriving | wrong | after s, median / most | by | ATE m, median / most | yaw deg |")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for name, figures in all_figures.items():
         print(row(name, figures))
     for name, said in foreign.items():

@@ -75,14 +75,14 @@ void ControlBar::place(int y, int width) {
   if (slider_) slider_->setFixedWidth(std::max(80, width - 780));
 }
 
-LayerPanel::LayerPanel(nanogui::Screen& screen, LayeredScene& scene) : scene_(scene) {
-  auto* window = new nanogui::Window(&screen, "Layers");
-  window->setPosition({8, 8});
-  window->setLayout(
+LayerPanel::LayerPanel(nanogui::Screen& screen, LayeredScene& scene)
+    : scene_(scene), window_(new nanogui::Window(&screen, "Layers")) {
+  window_->setPosition({8, 8});
+  window_->setLayout(
       new nanogui::BoxLayout(nanogui::Orientation::Vertical, nanogui::Alignment::Minimum, 8, 4));
   for (std::size_t i = 0; i < kLayerNames.size(); ++i) {
     const std::string caption = std::to_string(i + 1) + " " + std::string(kLayerNames[i]);
-    auto* box = new nanogui::CheckBox(window, caption,
+    auto* box = new nanogui::CheckBox(window_, caption,
                                       [this, i](bool on) { scene_.setVisible(static_cast<Layer>(i), on); });
     box->setFontSize(kText_px);
     boxes_.push_back(box);

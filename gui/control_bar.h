@@ -57,9 +57,12 @@ class LayerPanel {
   LayerPanel(nanogui::Screen& screen, LayeredScene& scene);
   /// Sets the boxes to what the scene shows.
   void update();
+  /// Its right side, px.
+  int right() const { return window_->position().x() + window_->width(); }
 
  private:
   LayeredScene& scene_;
+  nanogui::Window* window_;
   std::vector<nanogui::CheckBox*> boxes_;
 };
 

@@ -24,6 +24,7 @@ mrpt::gui::CDisplayWindowGUI_Params antiAliased() {
 }
 
 constexpr int kMostClickMove_px = 4, kSightingParts = 60;
+constexpr int kLeastMap = 4;  ///< times the width of the layers' panel: a map that is narrower lies below it
 
 }  // namespace
 
@@ -275,15 +276,21 @@ void ViewerWindow::moveCamera() {
   const double extent = contentExtent(scene_.map());
   const bool moved = set_ && !(now.target.isApprox(set_->target) && now.distance == set_->distance &&
                                now.azimuth == set_->azimuth && now.elevation == set_->elevation);
-  if (fitted_ && (moved || std::abs(extent - fitted_extent_) < 0.05 * fitted_extent_)) return;
+  const std::size_t objects = scene_.map().landmarks.size();  // a door stands higher than walls are drawn
+  const bool grown = std::abs(extent - fitted_extent_) >= 0.05 * fitted_extent_ || objects > fitted_objects_;
+  if (fitted_ && (moved || !grown)) return;
   fitted_ = true;
   fitted_extent_ = extent;
+  fitted_objects_ = objects;
   OrbitCamera wanted{.distance = 2 * extent, .width = now.width, .height = now.height};
   wanted.target << contentBounds(scene_.map()).center().head<2>(), 0;
   wanted.orthographic = view_ == View::kTop;
   if (view_ != View::kTop) wanted.azimuth = -65 * kDegree, wanted.elevation = 42 * kDegree;
   const double margin = 0.04 * now.width;
-  wanted.fit(contentPoints(scene_.map()), {margin, margin, now.width - margin, now.height - margin});
+  // From above the corners of the map are the corners of the window.
+  const bool beside = view_ == View::kTop && kLeastMap * layers_->right() < now.width;
+  const double left = beside ? layers_->right() + margin / 2 : margin;
+  wanted.fit(contentPoints(scene_.map()), {left, margin, now.width - margin, now.height - margin});
   background_scene->getViewport()->setViewportClipDistances(0.1f, static_cast<float>(10 * extent + 100));
   setCamera(wanted);
 }

@@ -62,6 +62,7 @@ class ViewerWindow : public mrpt::gui::CDisplayWindowGUI {
   View view_ = View::kFree;
   bool fitted_ = false;             ///< whether the camera was ever fitted to the map
   double fitted_extent_ = 0;        ///< of the map when it was, m
+  std::size_t fitted_objects_ = 0;  ///< in it
   std::optional<OrbitCamera> set_;  ///< as this program left it; another now: somebody moved it
   LandmarkId selected_;
   std::shared_ptr<const ViewState> shown_;

@@ -63,7 +63,9 @@ std::string describeMap(const CSemanticMap& map, const std::filesystem::path& fi
   out << describeObjects(map.landmarks) << "\n";
   std::snprintf(line, sizeof line, "path: %zu poses, %.1f m, %.1f s\n", map.world_from_robot.size(),
                 figures.path_m, figures.duration_s);
-  out << line << "written by: "
+  out << line << "image views to re-localise by: " << map.views.size()
+      << "; configuration: " << (map.provenance.config.empty() ? "none" : "kept, see --json")
+      << "\nwritten by: "
       << (map.provenance.program.empty() ? "an early version, which left no trace" : map.provenance.program)
       << "\n";
   for (const auto& step : map.provenance.history) out << "history: " << step << "\n";
@@ -86,6 +88,7 @@ std::string mapInfoJson(const CSemanticMap& map, const std::filesystem::path& fi
       {"objects_by_class", classes},
       {"poses", map.world_from_robot.size()},
       {"path_m", figures.path_m},
+      {"image_views", map.views.size()},
       {"duration_s", figures.duration_s},
       {"program", map.provenance.program},
       {"history", map.provenance.history},

@@ -92,11 +92,12 @@ void draw(const SnapshotArguments& arguments, const CSemanticMap& map, const Obj
           const SnapshotOptions& options) {
   const bool rendered = !isPaper(arguments) && endingOf(arguments.output) == ".png";
   const auto style = isPaper(arguments) ? FigureStyle::kPaper : FigureStyle::kScreen;
+  FigureSize size{options.width, options.height};
   if (rendered)
     renderSnapshot(map, colours, options, arguments.output);
   else
-    writeFigure(map, colours, {style, options.width, options.height, options.title}, arguments.output);
-  std::cout << arguments.output << ": " << options.width << "x" << options.height << " px, "
+    size = writeFigure(map, colours, {style, options.width, options.height, options.title}, arguments.output);
+  std::cout << arguments.output << ": " << size.width << "x" << size.height << " px, "
             << describeObjects(map.landmarks) << "\n";
 }
 

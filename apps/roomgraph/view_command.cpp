@@ -62,7 +62,9 @@ void viewMap(ViewOptions& options, const std::filesystem::path& file) {
 // Images come from the recording, where it still is.
 std::unique_ptr<FrameFinder> imagesOf(const std::filesystem::path& recording,
                                       const std::filesystem::path& folder) {
-  if (!std::filesystem::is_regular_file(recording)) return nullptr;
+  if (recording.empty()) return nullptr;  // which a warning has said
+  if (!std::filesystem::is_regular_file(recording))
+    throw InputError(recording.string() + ": no such file, as seen from this folder");
   const auto config_file = folder / "config.ini";
   Configuration configuration =
       readConfiguration(std::filesystem::exists(config_file) ? config_file.string() : "",

@@ -16,6 +16,7 @@ class MapCommand : public ::testing::Test {
  protected:
   MapCommand() {
     CSemanticMap map = sampleMap();
+    map.views.resize(2);
     map.provenance = {
         "roomgraph test", "[x]\n", "[sofa]\nlabels = sofa\ncolor = #010203\n", {"run of sample.rawlog"}};
     saveMap(map, file("map.rgmap"));
@@ -31,12 +32,14 @@ class MapCommand : public ::testing::Test {
 TEST_F(MapCommand, InfoSaysWhatIsInside) {
   const auto result = map({"info", file("map.rgmap"), "--json", file("info.json")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  for (const char* text : {"120 x 80 cells", "3 objects: ", "1 sofa", "40 poses", "roomgraph test",
-                           "history: run of sample.rawlog"})
+  for (const char* text :
+       {"120 x 80 cells", "3 objects: ", "1 sofa", "40 poses", "re-localise by: 2; configuration: kept",
+        "roomgraph test", "history: run of sample.rawlog"})
     EXPECT_THAT(result.out, HasSubstr(text));
   const auto json = nlohmann::json::parse(folder.read("info.json"));
   EXPECT_EQ(json["objects_by_class"]["sofa"], 1);
   EXPECT_EQ(json["config"], "[x]\n");
+  EXPECT_EQ(json["image_views"], 2);
   // 116 x 76 free cells, walls of two cells.
   EXPECT_NEAR(json["free_m2"].get<double>(), 116 * 76 * 0.0025, 1e-3);
   EXPECT_NEAR(json["occupied_m2"].get<double>(), (120 * 80 - 116 * 76) * 0.0025, 1e-3);

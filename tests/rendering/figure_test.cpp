@@ -94,6 +94,28 @@ std::map<std::string, double> wordsOf(const TemporaryFolder& folder, const std::
   return out;
 }
 
+struct Word {
+  std::string text;
+  double x_min, y_min, x_max, y_max;  ///< pt, from above
+};
+
+/// Words of a page in the order of the file.
+std::vector<Word> boxesOfWords(const TemporaryFolder& folder, const std::string& pdf) {
+  wordsOf(folder, pdf);
+  std::istringstream lines(folder.read("words.html"));
+  std::vector<Word> out;
+  for (std::string line; std::getline(lines, line);) {
+    const auto number = [&](const std::string& name) {
+      return std::stod(line.substr(line.find(name + "=\"") + name.size() + 2));
+    };
+    const auto begin = line.find("\">"), end = line.find("</word>");
+    if (line.find("<word ") == std::string::npos || end == std::string::npos) continue;
+    out.push_back({line.substr(begin + 2, end - begin - 2), number("xMin"), number("yMin"), number("xMax"),
+                   number("yMax")});
+  }
+  return out;
+}
+
 /// The sample map with so many classes: kind0, kind1, …
 CSemanticMap mapOfClasses(int count) {
   CSemanticMap map = test::sampleMap();
@@ -199,7 +221,53 @@ TEST(Figure, PaperEndsWhereTheMapEndsAndScreenHasTheSizeAskedFor) {
   };
   EXPECT_EQ(size(FigureStyle::kScreen), cv::Size(800, 800));
   EXPECT_EQ(size(FigureStyle::kPaper).width, 800);
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.pdf"}) {
+    const auto told =
+        writeFigure(test::sampleMap(), furniture(), {FigureStyle::kPaper, 800, 800, ""}, folder.file(name));
+    EXPECT_EQ(cv::Size(told.width, told.height), size(FigureStyle::kPaper)) << name;
+  }
   EXPECT_LT(size(FigureStyle::kPaper).height, 640) << "the room is 6 m x 4 m";
+}
+
+TEST(Figure, TheLegendEndsBeforeTheScaleBar) {
+  if (!poppler()) GTEST_SKIP() << "pdftotext (poppler-utils) is not installed";
+  const TemporaryFolder folder;
+  for (const float width_m : {4.2f, 8.3f, 17.f, 21.f}) {
+    CSemanticMap map = mapOfClasses(9);
+    map.occupancy = mrpt::maps::COccupancyGridMap2D::Create(-1.f, width_m - 1, -2.f, width_m / 2 - 2, 0.1f);
+    map.occupancy->fill(0.9f);
+    for (const auto style : {FigureStyle::kScreen, FigureStyle::kPaper}) {
+      writeFigure(map, furniture(), {style, 640, 480, ""}, folder.file("a.pdf"));
+      const auto words = boxesOfWords(folder, "a.pdf");
+      const auto bar =
+          std::find_if(words.rbegin(), words.rend(), [](const Word& w) { return w.text == "0"; });
+      ASSERT_NE(bar, words.rend());
+      for (const Word& word : words)
+        if (word.text.starts_with("(")) {
+          EXPECT_TRUE(word.x_max < bar->x_min || word.y_min > bar->y_max + 4)
+              << width_m << " m: " << word.text;
+        }
+    }
+  }
+}
+
+TEST(Figure, ThePathIsNotDrawnAcrossAGap) {
+  const auto at = [](double from_x, double to_x) {
+    CSemanticMap map = test::sampleMap();
+    map.landmarks.clear();
+    map.world_from_robot.clear();
+    for (const auto& [begin, end] : {std::pair{-0.5, from_x}, std::pair{to_x, 4.5}})
+      for (double x = begin; x <= end; x += 0.1)
+        map.world_from_robot.push_back({100 + x, poseFromYpr(x, 0, 0, 0, 0, 0)});
+    const cv::Mat image = figurePixels(map, furniture(), {FigureStyle::kPaper, 640, 480, ""});
+    cv::Mat channels[3];
+    cv::split(image, channels);
+    return cv::countNonZero(channels[0] - channels[1] > 60);  // violet among greys
+  };
+  const int whole = at(1.9, 2.0), gap = at(0.5, 3.5);
+  EXPECT_LT(gap, 0.6 * whole);
+  EXPECT_GT(gap, 0.2 * whole);
 }
 
 TEST(Figure, TakesAnyBytesForATitleAndMapsWithoutAnything) {

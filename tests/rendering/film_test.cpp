@@ -109,6 +109,20 @@ TEST(MapHistory, ObjectsAppearAtTheirFirstSightingAndThePathGrows) {
   EXPECT_THAT(history.inSight(1001.4, 0.25), ::testing::IsEmpty());
 }
 
+TEST(MapHistory, TheFloorIsKnownOnceItWasInView) {
+  CSemanticMap map = test::sampleMap();
+  auto& grid = *map.occupancy;
+  for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
+    grid.setCell(60, y, 0.01f);  // all across at x = 2
+  map.world_from_robot = {{1, poseFromYpr(0, -1, 0, 0, 0, 0)}, {5, poseFromYpr(4, -1, 0, 0, 0, 0)}};
+  const MapHistory history(map, {});
+  const auto at = [&](double t, float x) { return history.at(t).occupancy->getPos(x, -1.f); };
+  EXPECT_EQ(at(1, 1.f), grid.getPos(1.f, -1.f));
+  EXPECT_NEAR(at(4.9, 3.f), 0.5, 0.01) << "behind the wall";
+  EXPECT_EQ(at(5, 3.f), grid.getPos(3.f, -1.f));
+  EXPECT_LT(grid.getPos(2.01f, -1.f), 0.1) << "the map itself keeps its grid";
+}
+
 TEST(Film, EndsWithThePictureOfTheMapAndBeginsWithLess) {
   const TemporaryFolder folder;
   CSemanticMap map = test::sampleMap();

@@ -34,7 +34,7 @@ const TextBlock& blockOf(const std::vector<TextBlock>& blocks, const std::string
 
 TEST(Descriptions, OfAnObjectWhatItIsAndWhere) {
   const auto blocks = describeLandmark(sofa(), {}, kBegin_t);
-  EXPECT_THAT(blockOf(blocks, "sofa #12").lines, ElementsAre("existence 0.930, in the map"));
+  EXPECT_THAT(blockOf(blocks, "sofa 12").lines, ElementsAre("existence 0.930, in the map"));
   EXPECT_THAT(blockOf(blocks, "Class").lines, ElementsAre(" 75 %  sofa", " 25 %  armchair"));
   EXPECT_THAT(blockOf(blocks, "Size and place").lines,
               ElementsAre("width 1.90 m, depth 0.80 m, height 0.75 m",
@@ -104,6 +104,11 @@ TEST(Descriptions, OfAMomentWhatIsInTheMap) {
   state->note = "not tracked: too dark";
   EXPECT_EQ(describeMoment(*state, kBegin_t + 2),
             "record 12, 10.0 s: 1 object (2 candidates), 5 key poses, 1 loop closure; not tracked: too dark");
+}
+
+TEST(Descriptions, OfAMapWithoutTime) {
+  ViewState state;
+  EXPECT_EQ(describeMoment(state, kBegin_t), "0 objects");
 }
 
 TEST(Descriptions, OfASpeed) {

@@ -17,6 +17,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kEdge_pt = 14, kTitle_pt = 13, kTitleSpace_pt = 34, kAboveLegend_pt = 10;
+constexpr double kWidestLegend = 0.76;  ///< of the width
+constexpr double kBeforeBar_pt = 18;    ///< from the legend to the scale bar, whose figures stick out
 
 struct Layout {
   Eigen::Vector2d size;  ///< of the page, pt
@@ -36,7 +38,8 @@ Layout layoutFor(const MapPicture& picture, const ObjectDatabase& database, cons
   layout.bar_m = scaleBarLength(layout.place.world.sizes().x());
   const double height = options.height * kPointsPerPixel, inside = width - 2 * kEdge_pt;
   const double top = kEdge_pt + (options.title.empty() ? 0 : kTitleSpace_pt);
-  layout.legend_width = 0.76 * inside;
+  const double longest_bar = inside * layout.bar_m / layout.place.world.sizes().x();
+  layout.legend_width = std::min(kWidestLegend * inside, inside - longest_bar - kBeforeBar_pt);
   const double below = kAboveLegend_pt + kEdge_pt +
                        kLegendRow_pt * std::max(1, legendRows(ruler, layout.legend, layout.legend_width));
   const Eigen::Vector2d room(inside, std::max(height - top - below, 8.0));
@@ -92,15 +95,17 @@ cv::Mat figurePixels(const MapPicture& picture, const ObjectDatabase& database,
   return canvas.pixels();
 }
 
-void writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
+FigureSize writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
                  const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   if (ending == ".png") {
     std::vector<unsigned char> bytes;
-    cv::imencode(".png", figurePixels(map, database, options), bytes);
-    return writeFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const cv::Mat pixels = figurePixels(map, database, options);
+    cv::imencode(".png", pixels, bytes);
+    writeFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return {pixels.cols, pixels.rows};
   }
   if (ending != ".pdf" && ending != ".svg")
     throw std::invalid_argument("no figure ends with '" + ending + "'");
@@ -109,6 +114,8 @@ void writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const 
                 map.world_from_robot.empty() ? 0 : map.world_from_robot.front().t);
   drawFigure(canvas, map, database, options, layout);
   writeFileAtomically(file, canvas.finishedFile());
+  const Eigen::Vector2d pixels = layout.size / kPointsPerPixel;
+  return {static_cast<int>(std::lround(pixels.x())), static_cast<int>(std::lround(pixels.y()))};
 }
 
 }  // namespace roomgraph

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "map_drawing.h"
+#include "roomgraph/rendering/scene_parts.h"
 #include "symbols.h"
 
 namespace roomgraph {
@@ -26,8 +27,7 @@ double entryWidth(Canvas& canvas, const LegendEntry& entry) {
 /// The class's usual shape, as large as a legend has room for.
 LegendEntry entryOf(const std::string& name, int count, const Landmark& example,
                     const ObjectDatabase& database, FigureStyle style) {
-  std::string text = name + " (" + std::to_string(count) + ")";
-  std::replace(text.begin(), text.end(), '_', ' ');
+  const std::string text = inWords(name) + " (" + std::to_string(count) + ")";
   ObjectShape shape = example.shape;
   const bool flat = shape.kind == ShapeKind::kPlanar;
   const double width = flat || shape.kind == ShapeKind::kCuboid ? 1.45 * kSymbol_pt : kSymbol_pt;

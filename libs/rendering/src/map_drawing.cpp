@@ -107,9 +107,8 @@ void drawSight(Canvas& canvas, const MapPicture& picture, const ObjectDatabase& 
 }
 
 std::string nameOf(const Landmark& landmark, ObjectNames names) {
-  std::string name = landmark.class_name + " ";
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return (names == ObjectNames::kNumber ? "" : name) + std::to_string(landmark.id.value);
+  const std::string number = std::to_string(landmark.id.value);
+  return names == ObjectNames::kNumber ? number : inWords(landmark.class_name) + " " + number;
 }
 
 Box2 boxOnPage(const Landmark& landmark, const PagePlace& place) {

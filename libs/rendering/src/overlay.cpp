@@ -20,11 +20,6 @@ double unit(const SnapshotOptions& options) {
   return std::clamp(std::min(options.width, options.height) / 96.0, 6.0, 24.0);
 }
 
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 cv::Scalar toScalar(const palette::TColor& color) {
   return {color.B * 1.0, color.G * 1.0, color.R * 1.0};
 }
@@ -67,7 +62,7 @@ void drawLabels(cv::Mat& image, const MapPicture& picture, const SnapshotOptions
     if (object.empty() || !frame.contains(object.center().x(), object.center().y()) ||
         object.width() > image.cols / 2.0)
       continue;
-    const std::string text = readable(landmark.class_name) + " " + std::to_string(landmark.id.value);
+    const std::string text = inWords(landmark.class_name) + " " + std::to_string(landmark.id.value);
     labels.push_back({text, object, textWidth(text, style), style.cap_height_px, {}});
     ids.push_back(landmark.id);
   }
@@ -126,7 +121,7 @@ void drawLegend(cv::Mat& image, const MapPicture& picture, const ObjectDatabase&
   for (const auto& [name, count] : counts) {
     const auto color = palette::ofClass(database, name);
     legend.swatch(palette::mix(color, palette::kFree, 0.25), palette::mix(color, {0, 0, 0}, 0.25),
-                  readable(name) + " (" + std::to_string(count) + ")");
+                  inWords(name) + " (" + std::to_string(count) + ")");
   }
   if (!counts.empty()) legend.gap();
   if (picture.whole.occupancy) {

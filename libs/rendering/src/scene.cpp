@@ -11,6 +11,11 @@
 
 namespace roomgraph {
 
+std::string inWords(std::string class_name) {
+  std::replace(class_name.begin(), class_name.end(), '_', ' ');
+  return class_name;
+}
+
 Eigen::AlignedBox3d contentBounds(const CSemanticMap& map) {
   Eigen::AlignedBox3d box;
   if (map.occupancy) {

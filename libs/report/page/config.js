@@ -21,7 +21,7 @@ function configTable(rows) {
 function configSection(run) {
   const names = [...new Set(run.config.map((row) => row.section))],
         changed = run.config.filter((row) => row.shipped !== undefined);
-  const box = h('div', {class: 'card pad config long'}, names.map((name) => {
+  const box = h('div', {class: `card pad config long${changed.length ? '' : ' same'}`}, names.map((name) => {
     const rows = run.config.filter((row) => row.section === name),
           differ = rows.filter((row) => row.shipped !== undefined).length;
     return h(

@@ -14,7 +14,7 @@ function countTable(title, counts) {
       'div', {class: 'card pad'}, h('h3', {}, title),
       rows.length ? table(
                         null, [{title: 'what'}, {title: 'number', number: true}],
-                        rows.map(([name, n]) => [words(name), whole(n)])) :
+                        rows.map(([name, n]) => [words(name), whole(n)]), {'aria-label': title}) :
                     h('p', {class: 'none'}, 'None.'));
 }
 

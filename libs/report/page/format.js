@@ -7,7 +7,8 @@ function isNumber(value) { return typeof value === 'number' && Number.isFinite(v
 
 function fixed(value, digits) {
   if (!isNumber(value)) return NONE;
-  return value.toLocaleString('en', {minimumFractionDigits: digits, maximumFractionDigits: digits});
+  const text = value.toLocaleString('en', {minimumFractionDigits: digits, maximumFractionDigits: digits});
+  return text.replace(/^-(?=[0.]*$)/, '');  // no "-0.00"
 }
 
 function whole(value) { return fixed(value, 0); }

@@ -39,8 +39,8 @@ function placeFacts(object) {
   const turn =
       object.yaw === null ? 'not measured' : `${degrees(object.yaw)} ± ${degrees(object.yaw_sigma_rad)}`;
   return facts([
-    ['Place x, y, z', `${fixed(x, 2)}, ${fixed(y, 2)}, ${fixed(z, 2)} m`],
-    ['Width, depth, height', `${fixed(w, 2)} × ${fixed(d, 2)} × ${fixed(hgt, 2)} m`],
+    ['Place x, y, z', `${fixed(x, 2)}, ${fixed(y, 2)}, ${fixed(z, 2)}\u00a0m`],
+    ['Width, depth, height', `${fixed(w, 2)} × ${fixed(d, 2)} × ${fixed(hgt, 2)}\u00a0m`],
     ['Yaw of the front', turn],
     ['95 % ellipse, half axes', `${fixed(ellipse.major * 100, 1)} × ${fixed(ellipse.minor * 100, 1)} cm`],
     ['σ of the height', `${fixed(object.z_sigma_m * 100, 1)} cm`],

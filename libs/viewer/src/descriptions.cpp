@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "roomgraph/geometry/degree.h"
+#include "roomgraph/rendering/scene_parts.h"
 
 namespace roomgraph {
 namespace {
@@ -105,7 +106,7 @@ std::vector<TextBlock> describeLandmark(const ShownLandmark& shown,
   const Landmark& landmark = shown.landmark;
   std::vector<TextBlock> blocks;
   blocks.push_back(
-      {printed("%s #%lld", landmark.class_name.c_str(), static_cast<long long>(landmark.id.value)),
+      {printed("%s %lld", inWords(landmark.class_name).c_str(), static_cast<long long>(landmark.id.value)),
        {printed("existence %.3f, %s", landmark.existence, shown.in_map ? "in the map" : "not in the map")}});
   blocks.push_back({"Class", classLines(landmark)});
   blocks.push_back({"Size and place", placeLines(landmark)});
@@ -132,8 +133,8 @@ std::string describeMoment(const ViewState& state, double start_t) {
   std::size_t mapped = 0, all = 0;
   if (state.landmarks)
     for (const auto& shown : *state.landmarks) ++all, mapped += shown->in_map;
-  std::string text =
-      printed("record %d, %.1f s: ", state.record, state.t - start_t) + counted(mapped, "object", "objects");
+  std::string text = counted(mapped, "object", "objects");
+  if (state.record > 0) text = printed("record %d, %.1f s: ", state.record, state.t - start_t) + text;
   if (all > mapped) text += " (" + counted(all - mapped, "candidate", "candidates") + ")";
   if (state.key_poses) text += ", " + counted(state.key_poses->size(), "key pose", "key poses");
   if (state.closures && !state.closures->empty())

@@ -106,7 +106,9 @@ Value readOr(const std::filesystem::path& file, std::vector<std::string>& warnin
 }  // namespace
 
 ViewStates statesOfMap(const CSemanticMap& map) {
-  return {std::make_shared<const ViewState>(lastState(map))};
+  auto state = std::make_shared<ViewState>(lastState(map));
+  state->record = 0;
+  return {state};
 }
 
 RecordedRun readRecordedRun(const std::filesystem::path& folder) {

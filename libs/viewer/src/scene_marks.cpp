@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "roomgraph/rendering/scene_parts.h"
 #include "roomgraph/rendering/triangle_set.h"
 
 namespace roomgraph {
@@ -117,7 +118,8 @@ void addCovariance(const Landmark& landmark, double width, const palette::TColor
 }
 
 void addName(const Landmark& landmark, COpenGLScene& scene) {
-  auto text = mrpt::opengl::CText::Create(landmark.class_name + " " + std::to_string(landmark.id.value));
+  auto text =
+      mrpt::opengl::CText::Create(inWords(landmark.class_name) + " " + std::to_string(landmark.id.value));
   text->setFont("sans", kName_px);
   text->setColor_u8(palette::kInk);
   text->setLocation(landmark.position.x(), landmark.position.y(),

@@ -21,10 +21,16 @@ struct FigureOptions {
   std::string title;               ///< one line at the top; empty: none
 };
 
+/// px of 1/96 inch.
+struct FigureSize {
+  int width = 0, height = 0;
+};
+
 /// Draws a map from above: walls and free space, objects as footprints in class colours, doors dashed, path,
-/// legend, scale bar. The ending (.pdf, .svg, .png) is the format. The same map gives the same bytes. Throws
-/// RunError when the file cannot be written, std::invalid_argument for another ending.
-void writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
-                 const std::filesystem::path& file);
+/// legend, scale bar. The ending (.pdf, .svg, .png) is the format. The same map gives the same bytes. Returns
+/// how large it became. Throws RunError when the file cannot be written, std::invalid_argument for another
+/// ending.
+FigureSize writeFigure(const CSemanticMap& map, const ObjectDatabase& database, const FigureOptions& options,
+                       const std::filesystem::path& file);
 
 }  // namespace roomgraph

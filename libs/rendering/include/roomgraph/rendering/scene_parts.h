@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "roomgraph/observations/CSemanticMap.h"
@@ -14,6 +15,8 @@
 
 namespace roomgraph {
 
+/// How pictures name a class: "swivel chair" for "swivel_chair".
+std::string inWords(std::string class_name);
 /// A cell that was measured as free or occupied.
 inline bool isKnown(float p_free) {
   return std::abs(p_free - 0.5f) > 0.15f;
