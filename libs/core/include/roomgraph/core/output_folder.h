@@ -8,10 +8,10 @@
 
 namespace roomgraph {
 
-/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and moved into place
-/// when all are complete, so FOLDER holds the former results or the new ones, never a mixture. It is locked meanwhile
-/// (the lock ends with the process). Files left by a killed process are removed by the next one; if it was killed while
-/// files were being moved, the next one completes that.
+/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and moved
+/// into place when all are complete, so FOLDER holds the former results or the new ones, never a mixture. It
+/// is locked meanwhile (the lock ends with the process). Files left by a killed process are removed by the
+/// next one; if it was killed while files were being moved, the next one completes that.
 class OutputFolder {
  public:
   /// Makes and locks the folder. `names`: every file that such a command may write, the one that says that
@@ -28,10 +28,14 @@ class OutputFolder {
   const std::filesystem::path& folder() const { return folder_; }
   /// Where to write the file `name`, which is one of the names.
   std::filesystem::path pending(const std::string& name) const;
+  /// Where to put what lets another process go on with this work. Nothing is done to it before publish().
+  std::filesystem::path checkpoint() const { return folder_ / "roomgraph_checkpoint"; }
+  /// Throws RunError when the folder is no longer where it was: what is written would be lost.
+  void requireInPlace() const;
   /// Puts all files into place, the last name last; removes those of the names that were not written this
-  /// time. Before that the last one of the former results goes: without it a folder is not whole. Signals
-  /// that end a program are ignored meanwhile. Throws RunError.
-  void publish();
+  /// time, and the checkpoint, unless it is to be kept. Before that the last one of the former results goes:
+  /// without it a folder is not whole. Signals that end a program are ignored meanwhile. Throws RunError.
+  void publish(bool keep_checkpoint = false);
 
  private:
   void protect(const std::filesystem::path& input) const;

@@ -12,6 +12,8 @@
 
 namespace roomgraph {
 
+class ResultStore;
+
 /// A rigid transform, in world, of everything first seen at that time or later.
 struct PathShift {
   double since_t = 0;
@@ -22,11 +24,15 @@ struct PathShift {
 using LandmarkEstimates = std::map<LandmarkId, LandmarkEstimate>;
 
 /// The robot's poses in world: key poses, what was measured between them, and the optimisations (method.md
-/// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their estimates.
+/// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their
+/// estimates.
 class PoseEstimator {
  public:
   /// Both outlive the estimator.
   PoseEstimator(const BackendOptions& options, const Motion& motion);
+
+  /// Solutions of the whole graph are kept there, and recalled. The store outlives the estimator's work.
+  void setResultStore(ResultStore& store) { results_ = &store; }
 
   const KeyPoses& poses() const { return poses_; }
   /// Of the latest key pose.
@@ -43,8 +49,8 @@ class PoseEstimator {
   void setPlanar() { measurements_.planar = true; }
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
   bool advance(double t);
-  /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first seen there
-  /// are to be moved likewise.
+  /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first
+  /// seen there are to be moved likewise.
   std::vector<PathShift> addClosures(const std::vector<RelativePose>& closures);
   /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw: world stays in
   /// the frame of an earlier map. Returns how it was moved. Floors measured before are forgotten.
@@ -57,7 +63,8 @@ class PoseEstimator {
   bool due() const;
   /// Optimises the latest key poses.
   void optimizeWindow();
-  /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable solution.
+  /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable
+  /// solution.
   std::optional<LandmarkEstimates> optimizeLive(const ObjectsInGraph& objects);
   /// Optimises everything to the end; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects);
@@ -68,6 +75,7 @@ class PoseEstimator {
 
  private:
   std::optional<LandmarkEstimates> optimize(const ObjectsInGraph& objects, const SolveOptions& until);
+  SolveReport solveWhole(const SolveOptions& until);
   void slideWindow();
   void restartWindow();
   bool surprising(const RelativePose& closure) const;
@@ -85,6 +93,7 @@ class PoseEstimator {
   int nodes_since_optimization_ = 0;
   bool surprised_ = false;  ///< a closure disagrees with the estimate: optimise soon
   bool levelled_ = false;
+  ResultStore* results_ = nullptr;
 };
 
 }  // namespace roomgraph

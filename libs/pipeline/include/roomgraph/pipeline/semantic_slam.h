@@ -56,6 +56,7 @@ struct SlamResult {
 };
 
 class DetectionSchedule;
+class ResultStore;
 struct PeopleInView;
 
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.
@@ -64,6 +65,9 @@ class SemanticSlam {
   explicit SemanticSlam(std::unique_ptr<Setup> setup);
   ~SemanticSlam();
 
+  /// What takes long is kept there, and recalled when the run is repeated with the same store
+  /// (core/result_store.h). To be called before the first record; the store outlives this.
+  void setResultStore(ResultStore& store);
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to continue this map; until its place in it is known the run is in its own frame.
   void setMap(CSemanticMap map);
@@ -98,7 +102,8 @@ class SemanticSlam {
   FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
   std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
                                         const std::vector<FeatureTrack>& features);
-  std::vector<ObjectDecision> associate(const Frame& frame, const std::vector<ObjectMeasurement>& measurements,
+  std::vector<ObjectDecision> associate(const Frame& frame,
+                                        const std::vector<ObjectMeasurement>& measurements,
                                         const std::vector<FeatureTrack>& features,
                                         const FrameDetections& detections);
   ScanMatch match(const Scan& scan);
@@ -120,8 +125,9 @@ class SemanticSlam {
   std::vector<std::shared_ptr<Sink>> sinks_;
   StageTimes times_;
 
-  FrontEnds front_ends_;     ///< trajectories of the sources
-  std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
+  FrontEnds front_ends_;  ///< trajectories of the sources
+  std::unique_ptr<DetectionSchedule>
+      detection_schedule_;   ///< when the detector runs; boxes of frames between
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
   ObjectMapper objects_;     ///< what was seen of objects
