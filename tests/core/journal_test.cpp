@@ -23,10 +23,10 @@ class JournalTest : public ::testing::Test {
   static constexpr const char* kKey = "run 7";
 
   /// Writes the records and returns where in the file each of them ends, the title first.
-  std::vector<std::size_t> write(const Records& records) {
+  std::vector<std::size_t> write(const Records& some) {
     std::vector<std::size_t> ends;
     Journal journal(file, kKey);
-    for (const auto& record : records) {
+    for (const auto& record : some) {
       journal.append(record);
       if (ends.empty()) ends.push_back(journal.bytes() - record.size() - 24);
       ends.push_back(journal.bytes());

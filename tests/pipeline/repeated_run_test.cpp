@@ -3,44 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <limits>
 
 #include "drive.h"
-#include "roomgraph/core/result_store.h"
+#include "results_in_memory.h"
 
 namespace roomgraph::test {
 namespace {
-
-/// Results in memory, of which the first so many are recalled.
-class Results : public ResultStore {
- public:
-  struct Result {
-    std::string name;
-    double t;
-    std::string bytes;
-  };
-  std::optional<std::string> recall(std::string_view name, double t) override {
-    if (next == recallable) return std::nullopt;
-    const Result& result = all[next++];
-    EXPECT_EQ(result.name, name);
-    EXPECT_EQ(result.t, t);
-    return result.bytes;
-  }
-  void keep(std::string_view name, double t, std::string_view bytes) override {
-    all.push_back({std::string(name), t, std::string(bytes)});
-    ++kept;
-  }
-  /// For a repetition that has the first `count` of them.
-  Results beginning(std::size_t count) const {
-    Results out;
-    out.all.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-    out.recallable = count;
-    return out;
-  }
-
-  std::vector<Result> all;
-  std::size_t next = 0, recallable = 0, kept = 0;
-};
 
 /// All numbers that a run ends with, live poses first.
 std::vector<double> outcomeOf(ResultStore* results) {
@@ -72,11 +40,11 @@ std::vector<double> outcomeOf(ResultStore* results) {
 
 TEST(RepeatedRun, WithAnyBeginningOfItsResultsGivesTheSameBits) {
   const auto undisturbed = outcomeOf(nullptr);
-  Results first;
+  ResultsInMemory first;
   EXPECT_EQ(outcomeOf(&first), undisturbed) << "to keep results changes nothing";
   ASSERT_GE(first.kept, 8u) << "whole graph, live and with hindsight";
   for (std::size_t count = 0; count <= first.kept; ++count) {
-    Results again = first.beginning(count);
+    ResultsInMemory again = first.beginning(count);
     EXPECT_EQ(outcomeOf(&again), undisturbed) << "with " << count << " results";
     EXPECT_EQ(again.next, count);
     EXPECT_EQ(again.kept, first.kept - count) << "only the rest was computed";
@@ -85,9 +53,9 @@ TEST(RepeatedRun, WithAnyBeginningOfItsResultsGivesTheSameBits) {
 
 // If it did not, the test above would compare computations only.
 TEST(RepeatedRun, TakesOverWhatIsRecalled) {
-  Results first;
+  ResultsInMemory first;
   const auto undisturbed = outcomeOf(&first);
-  Results changed = first.beginning(3);
+  ResultsInMemory changed = first.beginning(3);
   std::string& bytes = changed.all[2].bytes;  // a pose of the graph, 1 mm off
   double x = 0;
   std::memcpy(&x, bytes.data() + 7 * sizeof x, sizeof x);

@@ -48,9 +48,9 @@ class Resume : public ::testing::Test {
     test::writeRawlog(recording, TinyRecording(steps).records(parts), false);
   }
   std::vector<std::string> words(const fs::path& to, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> out{"run", recording.string(), "-o", to.string(), "--quiet", "--no-snapshot"};
-    out.insert(out.end(), more.begin(), more.end());
-    return out;
+    std::vector<std::string> all{"run", recording.string(), "-o", to.string(), "--quiet", "--no-snapshot"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
   }
   CallResult resume(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all{"run", "--resume", out.string(), "--quiet"};
