@@ -14,6 +14,7 @@ import argparse
 import json
 import os
 import random
+import resource
 import shutil
 import signal
 import subprocess
@@ -94,12 +95,14 @@ def main():
     words = [arguments.recording, "--until", arguments.until] + [word for one in arguments.set for word in ("--set", one)]
 
     def undisturbed(name, *more):
-        started = time.monotonic()
+        """Seconds by the clock, and of the processor."""
+        started, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
         command = [arguments.program, "run", *words, "-o", out / name, "--no-snapshot", "--quiet", *more]
         subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
-        return time.monotonic() - started
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return time.monotonic() - started, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-    bare_s, whole_s = undisturbed("bare", "--checkpoint", 0), undisturbed("whole")
+    (bare_s, bare_cpu_s), (whole_s, whole_cpu_s) = undisturbed("bare", "--checkpoint", 0), undisturbed("whole")
     whole = results(out / "whole")
     wrong = 0 if results(out / "bare") == whole else 1
     print("| run | from | journal MB | there again s | of the time to there | killed at |\n| --- | --- | --- | --- | --- | --- |")
@@ -126,8 +129,9 @@ def main():
         wrong += not same
         print(f"run {runs}: {'the same bits' if same else 'DIFFERS'}", file=sys.stderr)
         shutil.rmtree(out / "killed")
-    print(json.dumps({"without_checkpoints_s": round(bare_s, 2), "undisturbed_s": round(whole_s, 2), "kills": kills, "runs": runs,
-                      "that_differ": wrong, "time_to_be_there_again": round(again / first, 3) if first else None}))
+    print(json.dumps({"without_checkpoints_s": round(bare_s, 2), "undisturbed_s": round(whole_s, 2),
+                      "without_checkpoints_cpu_s": round(bare_cpu_s, 2), "undisturbed_cpu_s": round(whole_cpu_s, 2),
+                      "kills": kills, "runs": runs, "that_differ": wrong, "time_to_be_there_again": round(again / first, 3) if first else None}))
     return 1 if wrong else 0
 
 

@@ -75,8 +75,12 @@ RunCheckpoint::RunCheckpoint(const OutputFolder& files, const RunIdentity& ident
 }
 
 RunCheckpoint::~RunCheckpoint() {
+  if (results_ && results_->empty()) discard();
+}
+
+void RunCheckpoint::discard() const {
   std::error_code ignored;
-  if (results_ && results_->empty()) fs::remove_all(folder_, ignored);
+  fs::remove_all(folder_, ignored);
 }
 
 void RunCheckpoint::begin(const RunIdentity& identity) const {

@@ -27,6 +27,9 @@ class RunCheckpoint {
   RunCheckpoint(const RunCheckpoint&) = delete;
   RunCheckpoint& operator=(const RunCheckpoint&) = delete;
 
+  /// Removes it: the run would fail again.
+  void discard() const;
+
   JournalledResults& results() { return *results_; }
   /// The words of the command line with which the run was begun.
   const std::vector<std::string>& command() const { return command_; }

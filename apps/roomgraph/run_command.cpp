@@ -132,11 +132,14 @@ std::optional<std::vector<Finding>> examine(const RunOptions& options, const Opt
 
 // A run without poses has no result, and there is a reason.
 void requireRecords(const RunOptions& options, const Options& run, const ReplayState& replayed,
-                    const SlamResult& result) {
+                    const SlamResult& result, RunCheckpoint* checkpoint) {
   const bool sensors = run.tracking.enabled || run.lidar.enabled;
   const bool nothing_seen = sensors && result.counts.frames + result.counts.scans == 0;
   if (replayed.interrupted && (nothing_seen || result.world_from_robot.empty()))
     throw Interrupted("interrupted before there was a pose; " + options.output + " is as it was");
+  // It would go on to the same end.
+  if (checkpoint && (replayed.records == 0 || nothing_seen || result.world_from_robot.empty()))
+    checkpoint->discard();
   char span[96];
   std::snprintf(span, sizeof span, "nothing between %g s and the end (%.1f s)", options.span.from_s,
                 replayed.last_t - replayed.start_t);
@@ -245,7 +248,7 @@ void run(const RunOptions& options) {
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
-  requireRecords(options, slam.setup().options, replayed, result);
+  requireRecords(options, slam.setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
   output->writeResult(slam, result, reader.statistics(), replayed, origin);

@@ -215,11 +215,11 @@ TEST_F(Resume, OfNothingOfAWholeRunAndOfOneUnderWay) {
   EXPECT_TRUE(fs::is_empty(out));
   {
     Program first = started(words(out), 1000);
+    ASSERT_EQ(kill(first.pid(), SIGSTOP), 0);
     expectOneLine(resume(), 1, HasSubstr("another process is writing into it"));
     expectOneLine(call(folder.path(), words(out)), 1, HasSubstr("another process is writing into it"));
-    EXPECT_EQ(kill(first.pid(), SIGSTOP), 0);  // it was still at work
-    EXPECT_EQ(kill(first.pid(), SIGCONT), 0);
-    first.wait();
+    kill(first.pid(), SIGCONT);
+    EXPECT_EQ(first.wait().exit_code, 0);
   }
   const Files whole = resultsIn(out);
   EXPECT_FALSE(fs::exists(checkpoint));
