@@ -252,8 +252,8 @@ void run(const RunOptions& options) {
   RunOrigin origin = originOf(options, networks, checkpoint.get());
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
   output->writeResult(slam, result, reader.statistics(), replayed, origin);
-  const bool drawn = !options.no_snapshot &&
-                     drawSnapshot(result.map, slam.setup().database, output->files().pending("snapshot.png"));
+  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
+                                                          output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish(checkpoint && replayed.interrupted);

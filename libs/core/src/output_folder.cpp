@@ -38,7 +38,7 @@ class WithoutSignals {
   void (*former_[std::size(kSignals)])(int);
 };
 
-constexpr const char* kComplete = "complete";           // names what is to change places, when all is written
+constexpr const char* kComplete = "complete";  // names what is to change places, when all is written
 constexpr const char* kKeptCheckpoint = "/checkpoint";  // among them: no name of a file
 
 void require(const std::error_code& error, const fs::path& path) {

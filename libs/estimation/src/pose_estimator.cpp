@@ -122,8 +122,7 @@ void PoseEstimator::slideWindow() {
   ++first_;
 }
 
-// Poses were moved from outside: they are taken as they are, and the window begins again with the last of
-// them.
+// Poses were moved from outside: they are taken as they are, and the window begins again with the last of them.
 void PoseEstimator::restartWindow() {
   first_ = poses_.nodes().size() - 1;
   prior_.reset();
@@ -166,9 +165,7 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
   };
   return recalled(results_, "whole graph", poses_.nodes().back().t, solve, encode, decode);
 }
-
-std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects,
-                                                         const SolveOptions& until) {
+std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_);

@@ -70,7 +70,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   if (map_) map_->add(frame, people, estimator_.poses());                 // sec. 4.9
   localize(frame.t);                                                      // sec. 4, M-step
   views_.add(frame, people, estimator_.poses().at(frame.t));
-  FrameProposals proposals = propose(frame, detections.boxes);  // sec. 1.2 to 1.D
+  FrameProposals proposals = propose(frame, detections.boxes);            // sec. 1.2 to 1.D
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
@@ -263,8 +263,7 @@ void SemanticSlam::localize(double t) {
   {
     const auto timing = times_.measure("object loop closing");
     const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
-    if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify))
-      addClosures({*closure});
+    if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify)) addClosures({*closure});
   }
   if (estimator_.due()) {
     const auto timing = times_.measure("whole graph");

@@ -16,10 +16,10 @@
 namespace roomgraph::tracking {
 namespace {
 
-constexpr double kAdjustmentChi2 = 5.991;  // 95 %, 2 degrees of freedom
-constexpr double kMaxDepthSigmas = 3;      // a depth further off is not used
-constexpr double kAdjustmentHuber = 2.0;   // sigma
-constexpr int kMinShared = 10;             // points that make two keyframes neighbours
+constexpr double kAdjustmentChi2 = 5.991;   // 95 %, 2 degrees of freedom
+constexpr double kMaxDepthSigmas = 3;  // a depth further off is not used
+constexpr double kAdjustmentHuber = 2.0;         // sigma
+constexpr int kMinShared = 10;         // points that make two keyframes neighbours
 
 /// camera_from_odom as rotation vector and translation.
 using PoseBlock = std::array<double, 6>;

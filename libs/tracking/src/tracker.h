@@ -32,7 +32,7 @@ class Tracker {
     const Frame* frame = nullptr;
     cv::Mat gray;
     Features features;
-    std::vector<std::int64_t> points;   ///< per feature, -1: none
+    std::vector<std::int64_t> points;  ///< per feature, -1: none
     std::vector<std::int64_t> in_view;  ///< points that were predicted to be seen
     Pose3 odom_from_camera = Pose3::Identity();
     PoseSolution solution;

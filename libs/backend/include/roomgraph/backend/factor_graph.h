@@ -50,8 +50,8 @@ class FactorGraph {
   /// size.
   void add(const Factor& factor);
 
-  /// Minimises over everything that is not fixed. The yaw of a landmark is variable only if a factor measures
-  /// it, its size only with a LandmarkSizeFactor.
+  /// Minimises over everything that is not fixed. The yaw of a landmark is variable only if a factor measures it, its
+  /// size only with a LandmarkSizeFactor.
   SolveReport optimize(int max_iterations = 50);
   SolveReport optimize(const SolveOptions& options);
   /// Every number that optimize() may change, in an order that depends only on what the graph holds.
@@ -59,9 +59,8 @@ class FactorGraph {
   /// Takes over what values() gave of the same graph. Throws std::invalid_argument when the graph holds more
   /// or less.
   void setValues(const std::vector<double>& values);
-  /// Initialises the poses from the movements alone by chordal relaxation, which needs no good initial
-  /// estimate; kept when they lower the cost. Only for graphs of poses and movements. Returns whether
-  /// anything changed.
+  /// Initialises the poses from the movements alone by chordal relaxation, which needs no good initial estimate; kept
+  /// when they lower the cost. Only for graphs of poses and movements. Returns whether anything changed.
   bool initializePoses();
   /// Sum of squared residuals, whitened and weighted, with robust losses applied: twice the cost.
   /// NaN when it cannot be evaluated (a residual is not finite or too large).
@@ -79,19 +78,17 @@ class FactorGraph {
   /// singular or cannot be evaluated. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
 
-  /// Marginalises everything but `keep` (Schur complement at the current estimate). The prior contains every
-  /// factor on a removed variable, and every MarginalPrior; the caller adds it, and the factors among kept
-  /// variables, to a graph of the kept variables. Nothing when the removed part has no factor on a kept
-  /// variable, or cannot be evaluated.
+  /// Marginalises everything but `keep` (Schur complement at the current estimate). The prior contains every factor on
+  /// a removed variable, and every MarginalPrior; the caller adds it, and the factors among kept variables, to a graph
+  /// of the kept variables. Nothing when the removed part has no factor on a kept variable, or cannot be evaluated.
   std::optional<MarginalPrior> marginalize(const Variables& keep) const;
 
   /// g2o text: VERTEX_SE3:QUAT for poses and landmarks (landmark ids behind those of the poses),
   /// EDGE_SE3:QUAT between them, in g2o's own error convention (docs/formats.md). The format has
-  /// no priors, points and robust losses. `times` of poses are written as comments. Throws RunError when the
-  /// file cannot be written.
+  /// no priors, points and robust losses. `times` of poses are written as comments. Throws RunError when the file
+  /// cannot be written.
   void saveG2o(const std::filesystem::path& file, const NodeTimes& times = {}) const;
-  /// The graph projected onto the floor: the same vertices (landmarks too) and edges, without height, roll
-  /// and pitch.
+  /// The graph projected onto the floor: the same vertices (landmarks too) and edges, without height, roll and pitch.
   PlanarGraph planar() const;
 
   struct Impl;  ///< private

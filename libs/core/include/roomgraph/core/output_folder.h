@@ -8,10 +8,10 @@
 
 namespace roomgraph {
 
-/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and moved
-/// into place when all are complete, so FOLDER holds the former results or the new ones, never a mixture. It
-/// is locked meanwhile (the lock ends with the process). Files left by a killed process are removed by the
-/// next one; if it was killed while files were being moved, the next one completes that.
+/// A folder of results that belong together. They are written into `FOLDER/roomgraph_unfinished` and moved into place
+/// when all are complete, so FOLDER holds the former results or the new ones, never a mixture. It is locked meanwhile
+/// (the lock ends with the process). Files left by a killed process are removed by the next one; if it was killed while
+/// files were being moved, the next one completes that.
 class OutputFolder {
  public:
   /// Makes and locks the folder. `names`: every file that such a command may write, the one that says that

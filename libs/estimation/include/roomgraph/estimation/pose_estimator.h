@@ -24,8 +24,7 @@ struct PathShift {
 using LandmarkEstimates = std::map<LandmarkId, LandmarkEstimate>;
 
 /// The robot's poses in world: key poses, what was measured between them, and the optimisations (method.md
-/// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their
-/// estimates.
+/// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their estimates.
 class PoseEstimator {
  public:
   /// Both outlive the estimator.
@@ -49,8 +48,8 @@ class PoseEstimator {
   void setPlanar() { measurements_.planar = true; }
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
   bool advance(double t);
-  /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first
-  /// seen there are to be moved likewise.
+  /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first seen there
+  /// are to be moved likewise.
   std::vector<PathShift> addClosures(const std::vector<RelativePose>& closures);
   /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw: world stays in
   /// the frame of an earlier map. Returns how it was moved. Floors measured before are forgotten.
@@ -63,8 +62,7 @@ class PoseEstimator {
   bool due() const;
   /// Optimises the latest key poses.
   void optimizeWindow();
-  /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable
-  /// solution.
+  /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeLive(const ObjectsInGraph& objects);
   /// Optimises everything to the end; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects);

@@ -20,9 +20,9 @@ namespace roomgraph {
 
 /// Where a run comes from.
 struct RunOrigin {
-  std::string input;                       ///< the recording
-  std::string version, revision;           ///< of the program
-  std::vector<std::string> command;        ///< the words of the command line
+  std::string input;                 ///< the recording
+  std::string version, revision;     ///< of the program
+  std::vector<std::string> command;  ///< the words of the command line
   std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
   std::optional<std::vector<Finding>> findings = {};  ///< about the recording; nothing: not examined
   bool resumed = false;  ///< what an interrupted run had computed was recalled: timings are without it

@@ -102,8 +102,7 @@ class SemanticSlam {
   FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
   std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
                                         const std::vector<FeatureTrack>& features);
-  std::vector<ObjectDecision> associate(const Frame& frame,
-                                        const std::vector<ObjectMeasurement>& measurements,
+  std::vector<ObjectDecision> associate(const Frame& frame, const std::vector<ObjectMeasurement>& measurements,
                                         const std::vector<FeatureTrack>& features,
                                         const FrameDetections& detections);
   ScanMatch match(const Scan& scan);
@@ -125,9 +124,8 @@ class SemanticSlam {
   std::vector<std::shared_ptr<Sink>> sinks_;
   StageTimes times_;
 
-  FrontEnds front_ends_;  ///< trajectories of the sources
-  std::unique_ptr<DetectionSchedule>
-      detection_schedule_;   ///< when the detector runs; boxes of frames between
+  FrontEnds front_ends_;     ///< trajectories of the sources
+  std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
   ObjectMapper objects_;     ///< what was seen of objects
