@@ -30,7 +30,9 @@ void addWithCompanions(const fs::path& file, std::set<fs::path>& out) {
   }
 }
 
-RunNeeds describeNeeds(const Setup& setup) {
+}  // namespace
+
+RunNeeds runNeedsOf(const Setup& setup) {
   RunNeeds needs;
   needs.objects = setup.objects;
   const Config effective = Config::fromText(setup.effective_config, "effective configuration");
@@ -52,8 +54,6 @@ RunNeeds describeNeeds(const Setup& setup) {
   return needs;
 }
 
-}  // namespace
-
 ProgramInspector::Known& ProgramInspector::known(const BatchVariant& variant) {
   const auto place = variants_.find(variant.name);
   if (place != variants_.end()) return place->second;
@@ -61,7 +61,7 @@ ProgramInspector::Known& ProgramInspector::known(const BatchVariant& variant) {
   made.configuration = readConfiguration(variant.config.string(), variant.overrides);
   for (const auto& pose : variant.poses) placeSensor(made.configuration.config, pose);
   const auto setup = makeSetup(made.configuration.config, made.configuration.objects_file);
-  made.needs = describeNeeds(*setup);
+  made.needs = runNeedsOf(*setup);
   made.wants_networks =
       setup->options.detection.detector == "auto" && setup->stages.detector && setup->stages.detector->idle();
   return variants_[variant.name] = std::move(made);
@@ -81,7 +81,7 @@ RunNeeds ProgramInspector::needsOf(const BatchVariant& variant, const fs::path& 
   if (!of_variant.wants_networks || peek.detections || !peek.frames) return of_variant.needs;
   if (!of_variant.with_networks) {
     Configuration configuration = of_variant.configuration;
-    of_variant.with_networks = describeNeeds(*makeRunSetup(configuration, rawlog, {}).setup);
+    of_variant.with_networks = runNeedsOf(*makeRunSetup(configuration, rawlog, {}).setup);
   }
   return *of_variant.with_networks;
 }

@@ -29,6 +29,9 @@ class ProgramInspector : public RunInspector {
   std::map<std::string, Known> variants_;
 };
 
+/// Configuration, objects and files that a run with this set-up depends on.
+RunNeeds runNeedsOf(const Setup& setup);
+
 /// This program and its libraries.
 BatchProgram thisProgram();
 

@@ -10,7 +10,6 @@
 
 #include "commands.h"
 #include "configuration.h"
-#include "installed_networks.h"
 #include "interrupts.h"
 #include "program.h"
 #include "report_defaults.h"
@@ -27,19 +26,15 @@
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
 #include "roomgraph/rendering/snapshot.h"
+#include "run_checkpoint.h"
+#include "run_options.h"
+#include "run_places.h"
 #include "run_report.h"
 
 namespace roomgraph {
 namespace {
 
-struct RunOptions {
-  std::string input, output, config, map, recording, detections, progress, pictures;
-  std::vector<std::string> overrides, poses;
-  ModelSource networks;
-  int threads = 0;
-  ReplaySpan span;
-  bool quiet = false, no_snapshot = false, no_report = false;
-};
+constexpr double kCheckpoint_s = 30;
 
 /// Wall-clock time, for people.
 class Stopwatch {
@@ -70,6 +65,13 @@ struct ExtraSinks {
   std::shared_ptr<DetectionRecording> recording;
   std::shared_ptr<DetectionFile> detections;
   std::shared_ptr<DebugPictures> pictures;
+
+  void addTo(SemanticSlam& slam) const {
+    for (const std::shared_ptr<Sink>& sink :
+         {std::shared_ptr<Sink>(recording), std::shared_ptr<Sink>(detections),
+          std::shared_ptr<Sink>(pictures)})
+      if (sink) slam.addSink(sink);
+  }
 };
 
 ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
@@ -92,7 +94,8 @@ ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
   return sinks;
 }
 
-ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam) {
+ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam,
+                               RunPlaces& places) {
   Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
   ProgressFile file(options.progress);
   const Stopwatch watch;
@@ -100,9 +103,11 @@ ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, 
                                    {[&](const ReplayState& now) {
                                       line.update(now.share, describeProgress(now, watch.seconds()));
                                       file.update(now.share);
+                                      places.look();
                                     },
                                     interrupted});
   line.finish();
+  places.require();  // what was cut looks like its end
   return state;
 }
 
@@ -125,11 +130,14 @@ std::optional<std::vector<Finding>> examine(const RunOptions& options, const Opt
 
 // A run without poses has no result, and there is a reason.
 void requireRecords(const RunOptions& options, const Options& run, const ReplayState& replayed,
-                    const SlamResult& result) {
+                    const SlamResult& result, RunCheckpoint* checkpoint) {
   const bool sensors = run.tracking.enabled || run.lidar.enabled;
   const bool nothing_seen = sensors && result.counts.frames + result.counts.scans == 0;
   if (replayed.interrupted && (nothing_seen || result.world_from_robot.empty()))
     throw Interrupted("interrupted before there was a pose; " + options.output + " is as it was");
+  // It would go on to the same end.
+  if (checkpoint && (replayed.records == 0 || nothing_seen || result.world_from_robot.empty()))
+    checkpoint->discard();
   char span[96];
   std::snprintf(span, sizeof span, "nothing between %g s and the end (%.1f s)", options.span.from_s,
                 replayed.last_t - replayed.start_t);
@@ -157,12 +165,50 @@ bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const
   return false;
 }
 
-std::string whatWasReplayed(const ReplayState& replayed) {
+std::string whatWasReplayed(const ReplayState& replayed, RunCheckpoint* checkpoint,
+                            const std::string& output) {
   char text[128];
   std::snprintf(text, sizeof text,
                 "interrupted: the results cover %.1f s of the recording, %.0f %% of what was asked for",
                 replayed.seconds(), 100 * replayed.share);
-  return text;
+  if (!checkpoint || checkpoint->results().empty()) return text;
+  return text + ("; for the whole: roomgraph run --resume " + output);
+}
+
+RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& networks,
+                   const RunCheckpoint* checkpoint) {
+  RunOrigin origin{options.input, kVersion, kRevision, checkpoint ? checkpoint->command() : commandLine(),
+                   networks};
+  origin.resumed = !options.resume.empty();
+  return origin;
+}
+
+void printWarnings(const ReadStatistics& read, const std::string& of_detector) {
+  std::vector<std::string> warnings = read.sensor_warnings;
+  warnings.insert(warnings.end(), {read.warning, of_detector});
+  for (const std::string& warning : warnings)
+    if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
+}
+
+// Nothing with --checkpoint 0, unless it is to be gone on with.
+std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const Setup& setup,
+                                              const OutputFolder& files) {
+  const double seconds = options.checkpoint_s.value_or(kCheckpoint_s);
+  const bool resume = !options.resume.empty();
+  std::error_code none;
+  const bool there = std::filesystem::exists(files.checkpoint(), none);
+  if (there && !resume)
+    std::cerr
+        << "roomgraph: warning: " << files.folder().string()
+        << ": the checkpoint of an unfinished run is there (--resume would go on with it); begun anew\n";
+  if (seconds <= 0 && !resume) {
+    std::filesystem::remove_all(files.checkpoint(), none);
+    return nullptr;
+  }
+  auto checkpoint = std::make_unique<RunCheckpoint>(files, identityOf(options, setup), seconds, resume);
+  if (resume && (!options.quiet || checkpoint->results().found().damaged > 0))
+    std::cerr << "roomgraph: " << checkpoint->whatIsThere() << "\n";
+  return checkpoint;
 }
 
 void run(const RunOptions& options) {
@@ -185,52 +231,43 @@ void run(const RunOptions& options) {
     if (!written.empty()) requireOther(written, inputs);
   catchInterrupts();
   auto output = std::make_shared<RunOutput>(options.output, inputs);
+  const auto checkpoint = openCheckpoint(options, *setup, output->files());
+  RunPlaces places(options.input, output->files());
   const ExtraSinks extra = addSinks(options, *setup);
   SemanticSlam slam(std::move(setup));
+  if (checkpoint) slam.setResultStore(checkpoint->results());
   if (earlier) slam.setMap(std::move(*earlier));
   slam.addSink(output);
-  if (extra.recording) slam.addSink(extra.recording);
-  if (extra.detections) slam.addSink(extra.detections);
-  if (extra.pictures) slam.addSink(extra.pictures);
+  extra.addTo(slam);
 
   const Stopwatch watch;
-  const ReplayState replayed = replayWithProgress(options, reader, slam);
+  const ReplayState replayed = replayWithProgress(options, reader, slam, places);
+  // The whole run goes another way from here.
+  if (checkpoint && replayed.interrupted) checkpoint->results().stop();
   SlamResult result = slam.finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
-  requireRecords(options, slam.setup().options, replayed, result);
-  RunOrigin origin{options.input, kVersion, kRevision, commandLine(), networks, {}};
+  requireRecords(options, slam.setup().options, replayed, result, checkpoint.get());
+  RunOrigin origin = originOf(options, networks, checkpoint.get());
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
   output->writeResult(slam, result, reader.statistics(), replayed, origin);
   const bool drawn = !options.no_snapshot &&
                      drawSnapshot(result.map, slam.setup().database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
-  output->files().publish();
+  output->files().publish(checkpoint && replayed.interrupted);
   if (extra.recording) extra.recording->finish();
   if (extra.detections && !replayed.interrupted) extra.detections->finish();
 
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  const std::string detector = slam.setup().stages.detector ? slam.setup().stages.detector->warning() : "";
-  std::vector<std::string> warnings = reader.statistics().sensor_warnings;
-  warnings.insert(warnings.end(), {reader.statistics().warning, detector});
-  for (const std::string& warning : warnings)
-    if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
+  const auto& detector = slam.setup().stages.detector;
+  printWarnings(reader.statistics(), detector ? detector->warning() : "");
   std::cout << "results in " << options.output;
   if (reported || drawn)
     std::cout << "; look at "
               << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
   std::cout << "\n";
-  if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed));
-}
-
-// Further files, mostly for other programs.
-void addFileOptions(CLI::App& command, RunOptions& options) {
-  command.add_option("--save-detections", options.detections,
-                     "also write this rawlog of nothing but what the detector found, for --set "
-                     "detection.file=FILE.rawlog; none when interrupted");
-  command.add_option("--progress-file", options.progress,
-                     "file that holds the share of the replay that is done, for programs that watch");
+  if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed, checkpoint.get(), options.output));
 }
 
 }  // namespace
@@ -238,60 +275,16 @@ void addFileOptions(CLI::App& command, RunOptions& options) {
 void addRunCommand(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   auto* command = app.add_subcommand("run", "Replay a rawlog: trajectory, semantic map and picture");
-  command->add_option("INPUT", options->input, "rawlog, plain or gzipped")->required();
-  command->add_option("-o,--output", options->output, "folder for the results")->required();
-  command->add_option("--config", options->config, "configuration (default: the installed config.ini)");
-  command->add_option("--set", options->overrides, "override: section.key=value; may be repeated");
-  command->add_option("--pose", options->poses,
-                      "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
-                      "recorded one; may be repeated");
-  command->add_option("--map", options->map,
-                      "map.rgmap of an earlier run, which this one continues once objects, scans or images "
-                      "tell where in it the "
-                      "robot is; OUT/map.rgmap then holds both, in the frame of the earlier one");
-  command->add_option(
-      "--models", options->networks.models,
-      "model folder, whose networks run when none is named and the recording has no boxes (default: "
-      "roomgraph/models in $XDG_DATA_HOME or ~/.local/share)");
-  command->add_option("--catalogue", options->networks.catalogue,
-                      "catalogue of networks (default: the installed networks.json)");
-  command->add_option("--threads", options->threads, "upper limit of threads; 0: all cores")
-      ->check(atLeastZero());
-  command->add_option("--from", options->span.from_s, "start this many seconds after the first record")
-      ->check(atLeastZero());
-  command
-      ->add_option("--until", options->span.until_s,
-                   "stop this many seconds after the first record; 0: the end")
-      ->check(atLeastZero());
-  command->add_option("--record-detections", options->recording,
-                      "also write this rawlog: the input with what the detector found; a run of it needs no "
-                      "network");
-  addFileOptions(*command, *options);
-  command->add_option("--debug-images", options->pictures,
-                      "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
-  command->add_flag("--quiet", options->quiet, "no progress");
-  command->add_flag("--no-snapshot", options->no_snapshot, "do not render snapshot.png");
-  command->add_flag("--no-report", options->no_report, "do not write report.html");
-  command->footer(
-      "Examples:\n"
-      "  roomgraph run lab.rawlog -o out/lab\n"
-      "  roomgraph run lab.rawlog -o out/lidar --set tracking.enabled=false --set detection.enabled=false\n"
-      "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx\n"
-      "  roomgraph run lab.rawlog -o out/fast --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
-      "      --set detection.every_nth_frame=3 --debug-images out/fast/pictures\n"
-      "Networks installed by 'roomgraph models fetch' need not be named:\n"
-      "  roomgraph run lab.rawlog -o out/lab --models /media/usb/models\n"
-      "Run the network once, then as often as you like without it:\n"
-      "  roomgraph run lab.rawlog -o out/lab --set detection.models=nanodet-plus-m-1.5x_416.onnx \\\n"
-      "      --record-detections lab_boxes.rawlog\n"
-      "  roomgraph run lab_boxes.rawlog -o out/again\n"
-      "The same place another day: continues the map of the first run:\n"
-      "  roomgraph run later.rawlog -o out/later --map out/lab/map.rgmap\n"
-      "The same again, from the files of a run:\n"
-      "  roomgraph run lab.rawlog -o out/again --config out/lab/config.ini\n"
-      "Ctrl-C (or SIGTERM, SIGHUP) ends the replay; the results then cover what was replayed, and the exit "
-      "code is 4.");
-  command->callback([options] { run(*options); });
+  declareRunOptions(*command, *options);
+  command->callback([options] {
+    if (options->resume.empty()) {
+      if (options->input.empty()) throw CLI::RequiredError("INPUT");
+      if (options->output.empty()) throw CLI::RequiredError("--output");
+      run(*options);
+    } else if (const auto resumed = optionsToResume(*options)) {
+      run(*resumed);
+    }
+  });
 }
 
 }  // namespace roomgraph

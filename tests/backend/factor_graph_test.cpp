@@ -148,6 +148,28 @@ TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   EXPECT_EQ(graph.factors(), 0u);
 }
 
+TEST(FactorGraph, TheValuesOfASolvedGraphStandForItsSolution) {
+  SimulatedLoop first(3), second(3);  // the same noise
+  FactorGraph solved = first.graph(), other = second.graph();
+  const auto start = other.values();
+  ASSERT_TRUE(solved.optimize().usable);
+  EXPECT_NE(solved.values(), start);
+  EXPECT_GT(other.chiSquared(), 2 * solved.chiSquared());
+  other.setValues(solved.values());
+  EXPECT_EQ(other.chiSquared(), solved.chiSquared());
+  for (int i = 0; i < first.size(); ++i)
+    EXPECT_TRUE(other.pose(NodeId{i}).matrix() == solved.pose(NodeId{i}).matrix()) << "pose " << i;
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(other.landmark(LandmarkId{k}).yaw, solved.landmark(LandmarkId{k}).yaw);
+  EXPECT_TRUE(other.landmarkCovariances()->at(LandmarkId{1}) ==
+              solved.landmarkCovariances()->at(LandmarkId{1}));
+  other.setValues(start);
+  EXPECT_EQ(other.values(), start);
+  other.addPoint(PointId{0}, {1, 2, 3});
+  EXPECT_EQ(other.values().size(), start.size() + 3);
+  EXPECT_THROW(other.setValues(start), std::invalid_argument);
+}
+
 TEST(FactorGraph, AddingTwiceIsAnError) {
   FactorGraph graph;
   graph.addPose(NodeId{0}, Pose3::Identity(), true);

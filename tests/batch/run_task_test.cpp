@@ -110,6 +110,26 @@ TEST_F(TaskOfAScript, AnInterruptionIsNoFailure) {
   EXPECT_TRUE(result.failures.empty());
 }
 
+TEST_F(TaskOfAScript, GoesOnFromACheckpointThatFits) {
+  const std::string resumed = "run x.rawlog --resume " + folder.path().string() + "\n";
+  const std::string notes = "[ $1 = run ] && echo $* >> words.txt\n";
+  perform(notes);
+  EXPECT_EQ(folder.read("words.txt"), "run x.rawlog\n") << "there is no checkpoint";
+  std::filesystem::create_directory(folder.file("roomgraph_checkpoint"));
+  folder.write("roomgraph_checkpoint/run.json", "{}");
+  EXPECT_EQ(perform("rm words.txt\n" + notes), 0);
+  EXPECT_EQ(folder.read("words.txt"), resumed);
+  // One of another program or configuration is refused, and the run begins anew.
+  for (const std::string code : {"2", "3"}) {
+    folder.write("words.txt", "");
+    EXPECT_EQ(perform(notes + "[ \"$3\" = --resume ] && exit " + code + "\nexit 0\n"), 0);
+    EXPECT_EQ(folder.read("words.txt"), resumed + "run x.rawlog\n");
+  }
+  folder.write("words.txt", "");
+  EXPECT_EQ(perform(notes + "exit 1\n"), 1);
+  EXPECT_EQ(folder.read("words.txt"), resumed) << "a full disk is as full for a run that begins";
+}
+
 TEST_F(TaskOfAScript, OnlyWhatIsWantedIsKept) {
   const std::string script =
       std::string(

@@ -13,9 +13,9 @@
 namespace roomgraph {
 namespace {
 
-using ::testing::HasSubstr;
 using test::messageOf;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 
 class OutputFolderTest : public ::testing::Test {
  protected:
@@ -100,6 +100,54 @@ TEST_F(OutputFolderTest, AFolderIsNotReplacedByAResult) {
   EXPECT_THAT(messageOf<RunError>([&] { OutputFolder(folder.path(), names); }),
               HasSubstr("'picture' is a folder"));
   EXPECT_NO_THROW(OutputFolder(folder.file("other"), names));
+}
+
+TEST_F(OutputFolderTest, TheCheckpointVanishesWithThePublicationUnlessItIsKept) {
+  const auto checkpoint = folder.file("roomgraph_checkpoint");
+  std::filesystem::create_directory(checkpoint);
+  folder.write("roomgraph_checkpoint/results", "of an hour");
+  { const OutputFolder given_up(folder.path(), names); }
+  EXPECT_TRUE(std::filesystem::exists(checkpoint / "results")) << "nothing was published";
+  {
+    OutputFolder out(folder.path(), names);
+    EXPECT_EQ(out.checkpoint(), checkpoint);
+    put(out, "summary", "of a part");
+    out.publish(true);
+    EXPECT_EQ(folder.read("summary"), "of a part");
+  }
+  EXPECT_TRUE(std::filesystem::exists(checkpoint / "results"));
+  OutputFolder out(folder.path(), names);
+  put(out, "summary", "of all");
+  out.publish();
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+// Killed while files were being moved: whoever completes that also does what was to become of the checkpoint.
+TEST_F(OutputFolderTest, TheCheckpointOfACompletedPublicationVanishes) {
+  for (const std::string kept : {"", "/checkpoint\n"}) {
+    std::filesystem::create_directory(folder.file("roomgraph_unfinished"));
+    std::filesystem::create_directory(folder.file("roomgraph_checkpoint"));
+    folder.write("roomgraph_unfinished/summary", "new");
+    folder.write("roomgraph_unfinished/complete", kept + "summary\n");
+    { const OutputFolder next(folder.path(), names); }
+    EXPECT_EQ(folder.read("summary"), "new");
+    EXPECT_EQ(std::filesystem::exists(folder.file("roomgraph_checkpoint")), !kept.empty());
+  }
+}
+
+TEST_F(OutputFolderTest, AFolderThatVanishedIsNoticed) {
+  const auto place = folder.file("out"), moved = folder.file("moved");
+  OutputFolder out(place, names);
+  put(out, "summary", "new");
+  EXPECT_NO_THROW(out.requireInPlace());
+  std::filesystem::rename(place, moved);
+  EXPECT_THAT(messageOf<RunError>([&] { out.requireInPlace(); }), HasSubstr("vanished"));
+  std::filesystem::create_directories(place / "roomgraph_unfinished");
+  EXPECT_THAT(messageOf<RunError>([&] { out.publish(); }), HasSubstr("vanished"))
+      << "another folder of that name";
+  std::filesystem::remove_all(place);
+  std::filesystem::rename(moved, place);
+  EXPECT_NO_THROW(out.publish());
 }
 
 TEST_F(OutputFolderTest, ForeignNamesAreAMistakeOfTheProgram) {

@@ -43,7 +43,9 @@ class FullDisk : public ::testing::Test {
   std::map<std::string, std::string> contents(const std::filesystem::path& top) {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(top))
-      if (entry.is_regular_file()) files[entry.path()] = contentOf(entry.path());
+      // What a run had computed stays: see below.
+      if (entry.is_regular_file() && entry.path().parent_path().filename() != "roomgraph_checkpoint")
+        files[entry.path()] = contentOf(entry.path());
     return files;
   }
   /// With any limit that is too small the folder is as it was, and the message names a file.
@@ -75,6 +77,33 @@ TEST_F(FullDisk, ARunLeavesTheFormerResults) {
             0);
   expectAllOrNothing({500, 2000, 3500, 6000, 10000, 20000, 40000}, place,
                      {"run", folder.file("b.rawlog").string(), "-o", place.string(), "--quiet"});
+}
+
+// Whatever was full, and however often: when there is room again the run goes on.
+TEST_F(FullDisk, ARunIsGoneOnWithWhenThereIsRoomAgain) {
+  test::writeRawlog(folder.file("a.rawlog"), TinyRecording(200).records({true, false, true}));
+  const auto words = [&](const std::filesystem::path& to) {
+    return std::vector<std::string>{
+        "run", folder.file("a.rawlog").string(), "-o", to.string(), "--quiet", "--no-report"};
+  };
+  ASSERT_EQ(call(folder.path(), words(folder.file("whole"))).exit_code, 0);
+  int left = 0;
+  for (const rlim_t limit : {20000, 40000, 60000}) {
+    const auto out = folder.path() / std::to_string(limit);
+    const CallResult full = limited(limit, words(out));
+    expectOneLine(full, 1, HasSubstr("File too large"));
+    const bool kept = std::filesystem::exists(out / "roomgraph_checkpoint");
+    left += kept;
+    const CallResult resumed =
+        call(folder.path(),
+             kept ? std::vector<std::string>{"run", "--resume", out.string(), "--quiet"} : words(out));
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    for (const char* name :
+         {"trajectory.tum", "landmarks.json", "map.rgmap", "graph.g2o", "live.tum", "snapshot.png"})
+      EXPECT_TRUE(contentOf(out / name) == contentOf(folder.file("whole") / name))
+          << name << ", limit " << limit;
+  }
+  EXPECT_GT(left, 0) << "no limit left a checkpoint";
 }
 
 TEST_F(FullDisk, SimulatedWorldsRecordingsAndGraphsAreWholeOrAbsent) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "chordal.h"
 #include "costs.h"
@@ -270,6 +271,41 @@ SolveReport FactorGraph::optimize(const SolveOptions& options) {
   // ordering would be sorted by addresses, which differ from run to run.
   if (!impl_->points.empty()) solver.linear_solver_type = ceres::SPARSE_SCHUR;
   return solve(options, solver, *impl_->problem);
+}
+
+namespace {
+
+// Calls `visit` for every array of numbers in the graph, in the order of the ids.
+template <class OfGraph, class Visit>
+void visitValues(OfGraph& graph, const Visit& visit) {
+  for (auto& [id, pose] : graph.poses) {
+    visit(pose.t);
+    visit(pose.q);
+  }
+  for (auto& [id, object] : graph.objects) {
+    visit(object.value);
+    visit(object.size);
+  }
+  for (auto& [id, point] : graph.points) visit(point.value);
+}
+
+}  // namespace
+
+std::vector<double> FactorGraph::values() const {
+  std::vector<double> out;
+  visitValues(std::as_const(*impl_),
+              [&](const auto& array) { out.insert(out.end(), array.begin(), array.end()); });
+  return out;
+}
+
+void FactorGraph::setValues(const std::vector<double>& values) {
+  std::size_t count = 0;
+  visitValues(*impl_, [&](const auto& array) { count += array.size(); });
+  if (count != values.size()) throw std::invalid_argument("factor graph: values of another graph");
+  auto next = values.begin();
+  visitValues(*impl_, [&](auto& array) {
+    for (double& value : array) value = *next++;
+  });
 }
 
 bool FactorGraph::initializePoses() {

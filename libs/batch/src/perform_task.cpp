@@ -114,9 +114,21 @@ class Performance {
     return waitFor(child, limit_s, interrupted_);
   }
 
+  // Goes on from the checkpoint of an attempt that was killed; one that cannot be gone on with (exit code 2
+  // or 3: of another program, unreadable) is replaced.
+  StepEnd runOrResume() {
+    if (fs::exists(task_.folder / "roomgraph_checkpoint" / "run.json")) {
+      std::vector<std::string> words = task_.run;
+      words.insert(words.end(), {"--resume", task_.folder.string()});
+      StepEnd end = step(words, task_.time_limit_s);
+      if (end.child.exit_code != 2 && end.child.exit_code != 3) return end;
+    }
+    return step(task_.run, task_.time_limit_s);
+  }
+
   void replay() {
     const auto begin = sizeOf(log_);
-    const StepEnd end = step(task_.run, task_.time_limit_s);
+    const StepEnd end = runOrResume();
     result_.exit_code = end.child.exit_code;
     result_.wall_s = end.wall_s;
     result_.cpu_s = end.child.cpu_s;

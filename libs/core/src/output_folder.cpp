@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,6 +39,7 @@ class WithoutSignals {
 };
 
 constexpr const char* kComplete = "complete";  // names what is to change places, when all is written
+constexpr const char* kKeptCheckpoint = "/checkpoint";  // among them: no name of a file
 
 void require(const std::error_code& error, const fs::path& path) {
   if (error) throw RunError("output folder " + path.string() + ": " + error.message());
@@ -97,14 +99,25 @@ void OutputFolder::protect(const fs::path& input) const {
   const bool replaced = std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
     return fs::equivalent(input, folder_ / name, none);
   });
-  if (replaced || isInside(input, unfinished_))
+  if (replaced || isInside(input, unfinished_) || isInside(input, checkpoint()))
     throw ConfigError(input.string() +
                       ": is read by this run and would be replaced by its results; choose "
                       "another output folder");
 }
 
-void OutputFolder::publish() {
-  std::string written;
+void OutputFolder::requireInPlace() const {
+  struct stat at_path {
+  }, locked{};
+  const bool there = stat(folder_.c_str(), &at_path) == 0 && fs::exists(unfinished_);
+  const bool other = lock_ >= 0 && fstat(lock_, &locked) == 0 &&
+                     (at_path.st_dev != locked.st_dev || at_path.st_ino != locked.st_ino);
+  if (!there || other)
+    throw RunError("output folder " + folder_.string() + ": vanished while it was written into");
+}
+
+void OutputFolder::publish(bool keep_checkpoint) {
+  requireInPlace();
+  std::string written = keep_checkpoint ? std::string(kKeptCheckpoint) + "\n" : "";
   for (const auto& name : names_) {
     if (!fs::exists(unfinished_ / name)) continue;
     flushToDisk(unfinished_ / name);
@@ -131,6 +144,8 @@ void OutputFolder::settle() {
     require(error, folder_ / name);
   }
   if (lock_ >= 0) fsync(lock_);
+  if (!written.contains(kKeptCheckpoint)) fs::remove_all(checkpoint(), error);
+  require(error, checkpoint());
   fs::remove_all(unfinished_, error);
 }
 

@@ -21,7 +21,7 @@ constexpr std::size_t kForgetBytes = 4u << 20;
 
 }  // namespace
 
-ReplayStream::ReplayStream(const std::filesystem::path& file) {
+ReplayStream::ReplayStream(const std::filesystem::path& file) : name_(file.string()) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw InputError(file.string() + ": no such file");
   if (std::filesystem::is_directory(file, error))
@@ -50,6 +50,14 @@ void ReplayStream::mark() {
   cursor_ = 0;
 }
 
+// zlib goes on to say so whenever it is asked again; the cause is only known the first time.
+void ReplayStream::failToRead(int error) {
+  if (read_error_.empty())
+    read_error_ =
+        name_ + ": read error behind byte " + std::to_string(filePosition()) + ": " + std::strerror(error);
+  throw RunError(read_error_);
+}
+
 bool ReplayStream::fetch() {
   if (ended_ || bytes_.size() > kLongestUnreadBytes) return false;
   const AllocationLimit unlimited(
@@ -57,6 +65,7 @@ bool ReplayStream::fetch() {
   const std::size_t before = bytes_.size();
   bytes_.resize(before + kChunkBytes);
   const int got = gzread(file_.get(), bytes_.data() + before, kChunkBytes);
+  const int error = errno;
   bytes_.resize(before + static_cast<std::size_t>(std::max(got, 0)));
   if (got < static_cast<int>(kChunkBytes)) {
     int code = Z_OK;
@@ -64,7 +73,7 @@ bool ReplayStream::fetch() {
     if (code == Z_BUF_ERROR)
       damage_ = "the gzip stream is cut off";
     else if (code == Z_ERRNO)
-      damage_ = std::string("read error: ") + std::strerror(errno);
+      failToRead(error);
     else if (code != Z_OK)
       damage_ = std::string("the gzip stream is damaged (") + message + ")";
     ended_ = got <= 0 || code != Z_OK || gzeof(file_.get());

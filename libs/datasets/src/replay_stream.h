@@ -17,7 +17,8 @@ namespace roomgraph {
 /// broken can be read again byte by byte.
 class ReplayStream : public mrpt::serialization::CArchive {
  public:
-  /// Throws InputError when the file cannot be opened or is empty.
+  /// Throws InputError when the file cannot be opened or is empty; everything else that reads throws RunError
+  /// when the system cannot (a broken disk, a lost network).
   explicit ReplayStream(const std::filesystem::path& file);
 
   /// Uncompressed offset of the next byte.
@@ -44,9 +45,11 @@ class ReplayStream : public mrpt::serialization::CArchive {
 
  private:
   bool fetch();
+  [[noreturn]] void failToRead(int error);
   struct Close {
     void operator()(gzFile file) const { gzclose(file); }
   };
+  std::string name_, read_error_;
   std::unique_ptr<gzFile_s, Close> file_;
   std::uint64_t file_size_ = 0;
   std::vector<std::uint8_t> bytes_;  ///< from the mark on (or a little before)

@@ -17,6 +17,7 @@ class AutoDetector : public Detector {
   void declareParameters(ParameterVisitor& visitor) override;
   void setDatabase(const ObjectDatabase& database) override;
   void prepare() override;
+  void setResultStore(ResultStore& store) override { networks_.setResultStore(store); }
   void feed(const CObservationDetections& recorded) override;
   /// No network, and no recorded boxes so far.
   bool idle() const override { return !networks_.hasModels() && records_.empty(); }

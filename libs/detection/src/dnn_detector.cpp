@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
+#include "detection_bytes.h"
 #include "network.h"
+#include "roomgraph/core/result_store.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/detection/detection_record.h"
 #include "suppress.h"
@@ -104,6 +106,11 @@ DetectorIdentity DnnDetector::identity() const {
 }
 
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
+  return recalled(
+      results_, "boxes", frame.t, [&] { return run(frame); }, bytesOf, detectionsFrom);
+}
+
+Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) const {
   using Result = Outcome<std::vector<Detection>>;
   if (networks_.empty() || !database_) return Result::failure(kNoNetwork);
   if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");

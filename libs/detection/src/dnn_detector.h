@@ -20,12 +20,16 @@ class DnnDetector : public Detector {
   void setDatabase(const ObjectDatabase& database) override { database_ = &database; }
   /// Loads the networks. Throws InputError with the file and the cause.
   void prepare() override;
+  /// The networks run only when their boxes of that frame are not in the result store.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  void setResultStore(ResultStore& store) override { results_ = &store; }
   DetectorIdentity identity() const override;
   bool hasModels() const { return !models_.empty(); }
   double scoreThreshold() const { return score_threshold_; }
 
  private:
+  Outcome<std::vector<Detection>> run(const Frame& frame) const;
+
   std::vector<std::string> models_;
   std::string labels_file_;
   std::vector<std::string> segmentation_labels_{"door"};
@@ -37,6 +41,7 @@ class DnnDetector : public Detector {
   const ObjectDatabase* database_ = nullptr;
   std::vector<std::shared_ptr<Network>> networks_;
   DetectorIdentity identity_;
+  ResultStore* results_ = nullptr;
 };
 
 }  // namespace roomgraph

@@ -3,6 +3,9 @@
 #include "roomgraph/estimation/pose_estimator.h"
 
 #include <algorithm>
+#include <cstring>
+
+#include "roomgraph/core/result_store.h"
 
 namespace roomgraph {
 namespace {
@@ -144,11 +147,29 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   return optimize(objects, SolveOptions{options_.max_iterations});
 }
 
+// The graph is the same when a run is repeated: its solution need not be sought again.
+SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
+  const auto solve = [&] { return graph_.optimize(until); };
+  const auto encode = [&](const SolveReport& report) {
+    std::vector<double> numbers = graph_.values();
+    numbers.insert(numbers.end(), {report.usable ? 1.0 : 0.0, static_cast<double>(report.iterations)});
+    return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+  };
+  const auto decode = [&](const std::string& bytes) {
+    std::vector<double> numbers(bytes.size() / sizeof(double));
+    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+    SolveReport report{.usable = numbers.end()[-2] != 0, .iterations = static_cast<int>(numbers.back())};
+    numbers.resize(numbers.size() - 2);
+    graph_.setValues(numbers);
+    return report;
+  };
+  return recalled(results_, "whole graph", poses_.nodes().back().t, solve, encode, decode);
+}
 std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_);
-  const SolveReport report = graph_.optimize(until);
+  const SolveReport report = solveWhole(until);
   surprised_ = surprised_ && report.usable && report.iterations >= until.max_iterations;
   if (report.usable)
     for (const auto& node : poses_.nodes()) poses_.set(node.id, graph_.pose(node.id));

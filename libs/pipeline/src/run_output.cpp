@@ -145,6 +145,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
                        {"revision", origin.revision},
                        {"command", origin.command},
                        {"interrupted", replayed.interrupted ? "yes" : "no"},
+                       {"resumed", origin.resumed ? "yes" : "no"},
                        {"replay", replayJson(replayed)},
                        {"counts", countsJson(result)}};
   if (const auto& detector = slam.setup().stages.detector)

@@ -47,6 +47,11 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
 
 SemanticSlam::~SemanticSlam() = default;
 
+void SemanticSlam::setResultStore(ResultStore& store) {
+  for (Stage* stage : allOf(setup_->stages)) stage->setResultStore(store);
+  estimator_.setResultStore(store);
+}
+
 void SemanticSlam::process(const Record& record) {
   times_.startRecord(timeOf(record));
   if (!first_t_) first_t_ = timeOf(record);

@@ -33,14 +33,19 @@ void prepare(const Setup& setup) {
   if (stages.detector) stages.detector->setDatabase(setup.database);
   stages.proposal_generator->setDatabase(setup.database);
   stages.proposal_generator->setShapeGenerators(stages.shape_generators);
-  for (Stage* stage : std::initializer_list<Stage*>{stages.rgbd_odometry.get(), stages.scan_matcher.get(),
-                                                    stages.scan_loop_closer.get(), stages.detector.get(),
-                                                    stages.ground_detector.get(), stages.proposal_generator.get(),
-                                                    stages.proposal_selector.get(), stages.associator.get()})
-    if (stage) stage->prepare();
+  for (Stage* stage : allOf(stages)) stage->prepare();
 }
 
 }  // namespace
+
+std::vector<Stage*> allOf(const Stages& stages) {
+  std::vector<Stage*> all{stages.rgbd_odometry.get(),     stages.scan_matcher.get(),
+                          stages.scan_loop_closer.get(),  stages.detector.get(),
+                          stages.ground_detector.get(),   stages.proposal_generator.get(),
+                          stages.proposal_selector.get(), stages.associator.get()};
+  std::erase(all, nullptr);
+  return all;
+}
 
 void registerAllClasses() {
   observations::registerClasses();

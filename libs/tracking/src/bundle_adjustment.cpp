@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <map>
+#include <set>
+
+#include "roomgraph/core/result_store.h"
 
 namespace roomgraph::tracking {
 namespace {
@@ -82,12 +86,14 @@ class LocalProblem {
     ids_ = map_.pointsOf(moving);
   }
 
-  void solve() {
+  /// The solution as numbers: camera_from_odom of the keyframes that move, then each point that takes part
+  /// with its id; nothing when there is none.
+  std::vector<double> solve() {
     ceres::Problem::Options options;
     options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     ceres::Problem problem(options);
     for (const auto id : ids_) addPoint(problem, id);
-    if (problem.NumResidualBlocks() == 0) return;
+    if (problem.NumResidualBlocks() == 0) return {};
     for (const auto& [index, moves] : window_)
       if (!moves && problem.HasParameterBlock(poses_[index].data()))
         problem.SetParameterBlockConstant(poses_[index].data());
@@ -99,7 +105,32 @@ class LocalProblem {
     solver.function_tolerance = 1e-4;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
-    if (summary.IsSolutionUsable()) write(problem);
+    if (!summary.IsSolutionUsable()) return {};
+    std::vector<double> solution;
+    for (const auto& [index, moves] : window_)
+      if (moves) solution.insert(solution.end(), poses_[index].begin(), poses_[index].end());
+    for (const auto id : ids_) {
+      const Eigen::Vector3d& place = map_.point(id).position;
+      if (problem.HasParameterBlock(place.data()))
+        solution.insert(solution.end(), {static_cast<double>(id), place.x(), place.y(), place.z()});
+    }
+    return solution;
+  }
+
+  /// Takes over what solve() gave.
+  void write(const std::vector<double>& solution) {
+    if (solution.empty()) return;
+    auto next = solution.begin();
+    for (const auto& [index, moves] : window_)
+      for (std::size_t k = 0; moves && k < poses_[index].size(); ++k) poses_[index][k] = *next++;
+    std::set<std::int64_t> adjusted;
+    while (next != solution.end()) {
+      const auto id = static_cast<std::int64_t>(*next++);
+      adjusted.insert(id);
+      for (double& value : map_.point(id).position) value = *next++;
+    }
+    moveAlong(adjusted);
+    removeOutliers();
   }
 
  private:
@@ -121,20 +152,18 @@ class LocalProblem {
     }
   }
 
-  void write(const ceres::Problem& problem) {
+  // A point that was not optimised moves rigidly with the keyframe that created it.
+  void moveAlong(const std::set<std::int64_t>& adjusted) {
     for (const auto& [index, moves] : window_) {
       if (!moves) continue;
       Keyframe& keyframe = map_.keyframe(index);
       const Pose3 refined = fromBlock(poses_[index]);
       const Pose3 shift = refined * keyframe.odom_from_camera.inverse();
-      // A point that was not optimised and that this keyframe created moves rigidly with it.
       for (const auto id : keyframe.points)
-        if (id >= 0 && !problem.HasParameterBlock(map_.point(id).position.data()) &&
-            map_.point(id).sightings.front().keyframe == index)
+        if (id >= 0 && !adjusted.contains(id) && map_.point(id).sightings.front().keyframe == index)
           map_.point(id).position = shift * map_.point(id).position;
       keyframe.odom_from_camera = refined;
     }
-    removeOutliers();
   }
 
   void removeOutliers() {
@@ -161,11 +190,21 @@ class LocalProblem {
 
 }  // namespace
 
-void adjustLocally(LocalMap& map, int index, const TrackingParameters& parameters) {
+void adjustLocally(LocalMap& map, int index, const TrackingParameters& parameters, ResultStore* results) {
   if (parameters.ba_iterations == 0) return;
   auto window = chooseWindow(map, index, parameters);
   if (window.size() < 2) return;
-  LocalProblem(map, std::move(window), parameters).solve();
+  LocalProblem problem(map, std::move(window), parameters);
+  problem.write(recalled(
+      results, "local adjustment", map.keyframe(index).t, [&] { return problem.solve(); },
+      [](const std::vector<double>& numbers) {
+        return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+      },
+      [](const std::string& bytes) {
+        std::vector<double> numbers(bytes.size() / sizeof(double));
+        std::memcpy(numbers.data(), bytes.data(), bytes.size());
+        return numbers;
+      }));
 }
 
 }  // namespace roomgraph::tracking

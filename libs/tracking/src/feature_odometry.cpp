@@ -15,6 +15,11 @@ void FeatureOdometry::prepare() {
   tracker_ = std::make_unique<tracking::Tracker>(parameters_);
 }
 
+void FeatureOdometry::setResultStore(ResultStore& store) {
+  if (!tracker_) prepare();
+  tracker_->setResultStore(store);
+}
+
 TrackingResult FeatureOdometry::track(const Frame& frame, const TrackingPrior& prior) {
   if (!tracker_) prepare();
   return tracker_->track(frame, prior);

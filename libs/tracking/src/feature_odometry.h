@@ -25,6 +25,8 @@ class FeatureOdometry : public RgbdOdometry {
   void declareParameters(ParameterVisitor& visitor) override { parameters_.declareParameters(visitor); }
   /// Forgets everything tracked so far; called by itself before the first frame.
   void prepare() override;
+  /// What was found of frames between keyframes, and local bundle adjustments, are kept there.
+  void setResultStore(ResultStore& store) override;
   TrackingResult track(const Frame& frame, const TrackingPrior& prior) override;
   Trajectory trajectory() const override;
   std::vector<RelativePose> takeLoopClosures() override;

@@ -10,7 +10,9 @@
 #include "bundle_adjustment.h"
 #include "keyframe_insertion.h"
 #include "place_recognition.h"
+#include "roomgraph/core/result_store.h"
 #include "roomgraph/geometry/covariance.h"
+#include "view_bytes.h"
 
 namespace roomgraph::tracking {
 namespace {
@@ -61,19 +63,64 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
   last_t_ = frame.t;
+  const auto known = results_ ? results_->recall("view", frame.t) : std::nullopt;
+  keeps_view_ = results_ && !known;
+  return known && !known->empty() ? recall(frame, *known) : look(frame, prior);
+}
+
+TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   View view;
   view.frame = &frame;
   view.gray = grayOf(frame);
   view.features = extractFeatures(view.gray, frame, prior.dynamic_regions, parameters_);
   view.points.assign(view.features.size(), -1);
   const int with_depth = countDepth(view.features);
-  if (with_depth < parameters_.min_inliers)
+  if (with_depth < parameters_.min_inliers) {
+    keep(nullptr);
     return lost(with_depth == 0 && view.features.size() > 0 ? "no depth" : "too few features", nullptr);
-  if (reference_ < 0) return start(std::move(view));
-  const Pose3 previous = lastPose();
+  }
+  const Pose3 previous = reference_ < 0 ? Pose3::Identity() : lastPose();
   view.odom_from_camera = previous * dead_reckoned_;
-  if (!findPose(view)) return lost("too few inliers", &view);
-  return accept(view, previous);
+  if (reference_ >= 0 && findPose(view)) return accept(view, previous);
+  keep(nullptr);
+  return reference_ < 0 ? start(std::move(view)) : lost("too few inliers", &view);
+}
+
+TrackingResult Tracker::recall(const Frame& frame, const std::string& bytes) {
+  LocatedView kept = locatedView(bytes);
+  View view{.frame = &frame,
+            .features = std::move(kept.features),
+            .points = std::move(kept.points),
+            .in_view = std::move(kept.in_view),
+            .odom_from_camera = kept.odom_from_camera,
+            .matches = kept.matches};
+  view.solution.inliers = kept.inliers;
+  view.solution.covariance = kept.covariance;
+  count(view);
+  reference_ = kept.reference;
+  reference_inliers_ = kept.reference_inliers;
+  return accept(view, lastPose());
+}
+
+void Tracker::keep(const View* view) {
+  if (!keeps_view_) return;
+  LocatedView kept;
+  for (std::size_t i = 0; view && i < view->points.size(); ++i) {
+    if (view->points[i] < 0) continue;
+    kept.features.keypoints.push_back(view->features.keypoints[i]);
+    kept.features.depth.push_back(view->features.depth[i]);
+    kept.points.push_back(view->points[i]);
+  }
+  if (view) {
+    kept.in_view = view->in_view;
+    kept.odom_from_camera = view->odom_from_camera;
+    kept.covariance = view->solution.covariance;
+    kept.inliers = view->solution.inliers;
+    kept.matches = view->matches;
+    kept.reference = reference_;
+    kept.reference_inliers = reference_inliers_;
+  }
+  results_->keep("view", last_t_, view ? bytesOf(kept) : "");
 }
 
 TrackingResult Tracker::start(View view) {
@@ -130,6 +177,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   for (const auto id : view.points)
     if (id >= 0) last_points_.push_back(id);
   result.keyframe = needsKeyframe(view);
+  keep(result.keyframe ? nullptr : &view);
   if (result.keyframe) addKeyframe(view);
   records_.push_back({view.frame->t, reference_,
                       result.keyframe
@@ -160,7 +208,7 @@ void Tracker::addKeyframe(const View& view) {
                     view.features, view.points, makeThumbnail(view.gray)};
   reference_ = insertKeyframe(map_, std::move(keyframe), parameters_);
   reference_inliers_ = 0;
-  adjustLocally(map_, reference_, parameters_);
+  adjustLocally(map_, reference_, parameters_, results_);
   last_points_.clear();
   for (const auto id : map_.keyframe(reference_).points)
     if (id >= 0) last_points_.push_back(id);

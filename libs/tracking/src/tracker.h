@@ -10,12 +10,17 @@
 #include "pose_solver.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
 
+namespace roomgraph {
+class ResultStore;
+}
+
 namespace roomgraph::tracking {
 
 /// State and main loop of FeatureOdometry.
 class Tracker {
  public:
   explicit Tracker(const TrackingParameters& parameters) : parameters_(parameters) {}
+  void setResultStore(ResultStore& store) { results_ = &store; }
   TrackingResult track(const Frame& frame, const TrackingPrior& prior);
   Trajectory trajectory() const;
   std::vector<RelativePose> takeLoopClosures() { return std::exchange(closures_, {}); }
@@ -28,6 +33,7 @@ class Tracker {
     cv::Mat gray;
     Features features;
     std::vector<std::int64_t> points;  ///< per feature, -1: none
+    std::vector<std::int64_t> in_view;  ///< points that were predicted to be seen
     Pose3 odom_from_camera = Pose3::Identity();
     PoseSolution solution;
     int matches = 0;
@@ -49,6 +55,15 @@ class Tracker {
   /// Solves for the pose of the view from its matched points and drops outliers.
   bool solve(View& view, int min_inliers, bool start_is_good) const;
   std::vector<std::int64_t> localPoints(const View& view) const;
+
+  /// Tracks by the images.
+  TrackingResult look(const Frame& frame, const TrackingPrior& prior);
+  /// Takes over a located view that was kept.
+  TrackingResult recall(const Frame& frame, const std::string& bytes);
+  /// Keeps a located view for recall(); of a frame for which all has to be done again null.
+  void keep(const View* view);
+  /// Notes in the map which points were seen, and which might have been.
+  void count(const View& view);
 
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
@@ -80,6 +95,8 @@ class Tracker {
   int reference_inliers_ = 0;  ///< of the first frame after it, 0: not seen yet
   int last_loop_ = -1000;
   double last_t_ = -1e300;
+  ResultStore* results_ = nullptr;
+  bool keeps_view_ = false;  ///< of the frame being tracked nothing was kept so far
 };
 
 }  // namespace roomgraph::tracking

@@ -83,17 +83,22 @@ std::vector<std::int64_t> Tracker::localPoints(const View& view) const {
   return ids;
 }
 
+void Tracker::count(const View& view) {
+  for (const auto id : view.in_view) ++map_.point(id).visible;
+  for (const auto id : view.points)
+    if (id >= 0) ++map_.point(id).found;
+}
+
 bool Tracker::trackLocalMap(View& view) {
-  std::vector<std::int64_t> in_view;
-  std::copy_if(view.points.begin(), view.points.end(), std::back_inserter(in_view),
+  view.in_view.clear();
+  std::copy_if(view.points.begin(), view.points.end(), std::back_inserter(view.in_view),
                [](std::int64_t id) { return id >= 0; });
   const Pose3 camera_from_odom = view.odom_from_camera.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, parameters_.local_map_radius_px};
-  assign(view.points, search.match(localPoints(view), view.features, view.points, parameters_, &in_view));
+  assign(view.points,
+         search.match(localPoints(view), view.features, view.points, parameters_, &view.in_view));
   if (!solve(view, parameters_.min_inliers, true)) return false;
-  for (const auto id : in_view) ++map_.point(id).visible;
-  for (const auto id : view.points)
-    if (id >= 0) ++map_.point(id).found;
+  count(view);
   const auto neighbours = map_.covisible(view.points);
   const bool reference_seen = std::any_of(neighbours.begin(), neighbours.end(),
                                           [&](const auto& entry) { return entry.second == reference_; });

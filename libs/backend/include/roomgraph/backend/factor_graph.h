@@ -54,6 +54,11 @@ class FactorGraph {
   /// size only with a LandmarkSizeFactor.
   SolveReport optimize(int max_iterations = 50);
   SolveReport optimize(const SolveOptions& options);
+  /// Every number that optimize() may change, in an order that depends only on what the graph holds.
+  std::vector<double> values() const;
+  /// Takes over what values() gave of the same graph. Throws std::invalid_argument when the graph holds more
+  /// or less.
+  void setValues(const std::vector<double>& values);
   /// Initialises the poses from the movements alone by chordal relaxation, which needs no good initial estimate; kept
   /// when they lower the cost. Only for graphs of poses and movements. Returns whether anything changed.
   bool initializePoses();

@@ -28,10 +28,14 @@ class OutputFolder {
   const std::filesystem::path& folder() const { return folder_; }
   /// Where to write the file `name`, which is one of the names.
   std::filesystem::path pending(const std::string& name) const;
+  /// Where to put what lets another process go on with this work. Nothing is done to it before publish().
+  std::filesystem::path checkpoint() const { return folder_ / "roomgraph_checkpoint"; }
+  /// Throws RunError when the folder is no longer where it was: what is written would be lost.
+  void requireInPlace() const;
   /// Puts all files into place, the last name last; removes those of the names that were not written this
-  /// time. Before that the last one of the former results goes: without it a folder is not whole. Signals
-  /// that end a program are ignored meanwhile. Throws RunError.
-  void publish();
+  /// time, and the checkpoint, unless it is to be kept. Before that the last one of the former results goes:
+  /// without it a folder is not whole. Signals that end a program are ignored meanwhile. Throws RunError.
+  void publish(bool keep_checkpoint = false);
 
  private:
   void protect(const std::filesystem::path& input) const;

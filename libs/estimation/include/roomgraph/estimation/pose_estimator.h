@@ -12,6 +12,8 @@
 
 namespace roomgraph {
 
+class ResultStore;
+
 /// A rigid transform, in world, of everything first seen at that time or later.
 struct PathShift {
   double since_t = 0;
@@ -27,6 +29,9 @@ class PoseEstimator {
  public:
   /// Both outlive the estimator.
   PoseEstimator(const BackendOptions& options, const Motion& motion);
+
+  /// Solutions of the whole graph are kept there, and recalled. The store outlives the estimator's work.
+  void setResultStore(ResultStore& store) { results_ = &store; }
 
   const KeyPoses& poses() const { return poses_; }
   /// Of the latest key pose.
@@ -68,6 +73,7 @@ class PoseEstimator {
 
  private:
   std::optional<LandmarkEstimates> optimize(const ObjectsInGraph& objects, const SolveOptions& until);
+  SolveReport solveWhole(const SolveOptions& until);
   void slideWindow();
   void restartWindow();
   bool surprising(const RelativePose& closure) const;
@@ -85,6 +91,7 @@ class PoseEstimator {
   int nodes_since_optimization_ = 0;
   bool surprised_ = false;  ///< a closure disagrees with the estimate: optimise soon
   bool levelled_ = false;
+  ResultStore* results_ = nullptr;
 };
 
 }  // namespace roomgraph

@@ -25,6 +25,7 @@ struct RunOrigin {
   std::vector<std::string> command;  ///< the words of the command line
   std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
   std::optional<std::vector<Finding>> findings = {};  ///< about the recording; nothing: not examined
+  bool resumed = false;  ///< what an interrupted run had computed was recalled: timings are without it
 };
 
 /// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end.

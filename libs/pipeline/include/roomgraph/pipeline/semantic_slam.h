@@ -56,6 +56,7 @@ struct SlamResult {
 };
 
 class DetectionSchedule;
+class ResultStore;
 struct PeopleInView;
 
 /// Object-level semantic SLAM: wires the stages and owns everything that changes while a run goes on.
@@ -64,6 +65,9 @@ class SemanticSlam {
   explicit SemanticSlam(std::unique_ptr<Setup> setup);
   ~SemanticSlam();
 
+  /// What takes long is kept there, and recalled when the run is repeated with the same store
+  /// (core/result_store.h). To be called before the first record; the store outlives this.
+  void setResultStore(ResultStore& store);
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to continue this map; until its place in it is known the run is in its own frame.
   void setMap(CSemanticMap map);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "roomgraph/association/associator.h"
 #include "roomgraph/detection/detector.h"
@@ -26,5 +27,8 @@ struct Stages {
   std::shared_ptr<ProposalSelector> proposal_selector;
   std::shared_ptr<Associator> associator;
 };
+
+/// Those that there are, but the generators of single shapes.
+std::vector<Stage*> allOf(const Stages& stages);
 
 }  // namespace roomgraph

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ResultStore: results of costly computations, kept while a run goes on and given back when it is repeated.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "roomgraph/core/journal.h"
+
+namespace roomgraph {
+
+/// Results that a run has computed, in the order in which they came. A run that was killed is repeated with
+/// them: everything that asks gets what it computed the first time, as long as there are results left, and
+/// computes again from there on. As the same input gives the same bits, the state behind all of this is that
+/// of the first time; any beginning of the results will do. For computations that take much longer than their
+/// results do to be read.
+class ResultStore {
+ public:
+  virtual ~ResultStore() = default;
+  /// The next result, when it is of that name and time (s, of the record); else nothing, now and ever after.
+  virtual std::optional<std::string> recall(std::string_view name, double t) = 0;
+  /// A result that was computed, as recall() gave nothing. Throws RunError when it cannot be written.
+  virtual void keep(std::string_view name, double t, std::string_view bytes) = 0;
+};
+
+/// `compute()`, or what it gave the first time. `store` may be null. `encode` turns the result into bytes,
+/// `decode` these into an equal result.
+template <class Compute, class Encode, class Decode>
+auto recalled(ResultStore* store, std::string_view name, double t, const Compute& compute,
+              const Encode& encode, const Decode& decode) -> decltype(compute()) {
+  if (!store) return compute();
+  if (const auto bytes = store->recall(name, t)) return decode(*bytes);
+  auto result = compute();
+  store->keep(name, t, encode(result));
+  return result;
+}
+
+/// A ResultStore in a journal.
+class JournalledResults : public ResultStore {
+ public:
+  /// What an earlier run with the same key left.
+  struct Found {
+    int results = 0;
+    std::uintmax_t bytes = 0, damaged = 0;  ///< of sound results; behind them
+  };
+  /// `key`: of the run. `sync_s`: wall time after which results are on the disk, s; 0: none are kept. Throws
+  /// RunError.
+  JournalledResults(const std::filesystem::path& file, std::string_view key, double sync_s);
+
+  std::optional<std::string> recall(std::string_view name, double t) override;
+  void keep(std::string_view name, double t, std::string_view bytes) override;
+  /// From now on nothing is recalled nor kept: what follows is no part of the whole run.
+  void stop() { stopped_ = true; }
+
+  const Found& found() const { return found_; }
+  /// Neither found nor kept anything.
+  bool empty() const { return found_.results + kept_ == 0; }
+  /// Whether a result that was found was not what was asked for: the run did not repeat itself.
+  bool diverged() const { return diverged_; }
+
+ private:
+  Found found_;
+  Journal journal_;
+  double sync_s_;
+  std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
+  int kept_ = 0;
+  bool recalling_ = true, stopped_ = false, diverged_ = false;
+};
+
+}  // namespace roomgraph

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Detections through MRPT's archives.
+#include "detection_bytes.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+#include "roomgraph/observations/mask_runs.h"
+
+namespace roomgraph {
+
+using mrpt::serialization::archiveFrom;
+using mrpt::serialization::CArchive;
+
+namespace {
+
+void write(CArchive& out, const Detection& d) {
+  const MaskRuns mask = toRuns(d.mask);
+  out << d.box.u_min << d.box.v_min << d.box.u_max << d.box.v_max << d.class_name << d.label << d.score;
+  out << mask.width << mask.height << mask.runs << d.track.value << d.carried << d.rival_score
+      << d.rival_label;
+}
+
+Detection read(CArchive& in) {
+  Detection d;
+  MaskRuns mask;
+  in >> d.box.u_min >> d.box.v_min >> d.box.u_max >> d.box.v_max >> d.class_name >> d.label >> d.score;
+  in >> mask.width >> mask.height >> mask.runs >> d.track.value >> d.carried >> d.rival_score >>
+      d.rival_label;
+  d.mask = toMask(mask);
+  return d;
+}
+
+}  // namespace
+
+std::string bytesOf(const Outcome<std::vector<Detection>>& found) {
+  mrpt::io::CMemoryStream memory;
+  auto out = archiveFrom(memory);
+  out << found.ok() << found.reason() << static_cast<std::uint32_t>(found ? found->size() : 0);
+  if (found)
+    for (const Detection& detection : *found) write(out, detection);
+  return {static_cast<const char*>(memory.getRawBufferData()),
+          static_cast<std::size_t>(memory.getTotalBytesCount())};
+}
+
+Outcome<std::vector<Detection>> detectionsFrom(const std::string& bytes) {
+  mrpt::io::CMemoryStream memory;
+  memory.assignMemoryNotOwn(bytes.data(), bytes.size());
+  auto in = archiveFrom(memory);
+  bool ok = false;
+  std::string reason;
+  std::uint32_t count = 0;
+  in >> ok >> reason >> count;
+  if (!ok) return Outcome<std::vector<Detection>>::failure(reason);
+  std::vector<Detection> detections;
+  for (std::uint32_t i = 0; i < count; ++i) detections.push_back(read(in));
+  return detections;
+}
+
+}  // namespace roomgraph

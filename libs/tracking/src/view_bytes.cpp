@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Located views through MRPT's archives.
+#include "view_bytes.h"
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+namespace roomgraph::tracking {
+
+using mrpt::serialization::archiveFrom;
+
+namespace {
+
+// Ids of points are indices: half the bytes will do.
+std::vector<std::uint32_t> shortened(const std::vector<std::int64_t>& ids) {
+  std::vector<std::uint32_t> out;
+  for (const auto id : ids) out.push_back(static_cast<std::uint32_t>(id));
+  return out;
+}
+
+}  // namespace
+
+std::string bytesOf(const LocatedView& view) {
+  std::vector<float> pixels;
+  for (const auto& keypoint : view.features.keypoints)
+    pixels.insert(pixels.end(), {keypoint.pt.x, keypoint.pt.y});
+  const double* pose = view.odom_from_camera.data();
+  const double* covariance = view.covariance.data();
+  mrpt::io::CMemoryStream memory;
+  auto out = archiveFrom(memory);
+  out << pixels << view.features.depth << shortened(view.points) << shortened(view.in_view);
+  out << std::vector<double>(pose, pose + 16) << std::vector<double>(covariance, covariance + 36);
+  out << view.inliers << view.matches << view.reference << view.reference_inliers;
+  return {static_cast<const char*>(memory.getRawBufferData()),
+          static_cast<std::size_t>(memory.getTotalBytesCount())};
+}
+
+LocatedView locatedView(const std::string& bytes) {
+  LocatedView view;
+  std::vector<float> pixels;
+  std::vector<std::uint32_t> points, in_view;
+  std::vector<double> pose, covariance;
+  mrpt::io::CMemoryStream memory;
+  memory.assignMemoryNotOwn(bytes.data(), bytes.size());
+  auto in = archiveFrom(memory);
+  in >> pixels >> view.features.depth >> points >> in_view >> pose >> covariance;
+  in >> view.inliers >> view.matches >> view.reference >> view.reference_inliers;
+  for (std::size_t i = 0; i + 1 < pixels.size(); i += 2)
+    view.features.keypoints.emplace_back(cv::Point2f(pixels[i], pixels[i + 1]), 1.f);
+  view.points.assign(points.begin(), points.end());
+  view.in_view.assign(in_view.begin(), in_view.end());
+  view.odom_from_camera.matrix() = Eigen::Map<const Eigen::Matrix4d>(pose.data());
+  view.covariance = Eigen::Map<const Matrix6d>(covariance.data());
+  return view;
+}
+
+}  // namespace roomgraph::tracking
