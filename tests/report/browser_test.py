@@ -191,13 +191,17 @@ class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
 
     def test_several_runs(self):
         page = self.folder / "two.html"
-        roomgraph("report", self.out, self.out, "-o", page)
+        roomgraph("report", self.out, self.out, self.out, "-o", page)
         one = self.open(page)
-        self.assertEqual(one.run("return document.querySelectorAll('.maps .map').length"), 2)
+        self.assertEqual(one.run("return document.querySelectorAll('.maps .map').length"), 3)
         x, y = one.place(".maps .map")
         one.wheel(x, y, -240)
         shapes = one.run("return [...document.querySelectorAll('.maps .world')].map(w => w.getAttribute('transform'))")
         self.assertEqual(shapes[0], shapes[1], "they move together")
+        narrow = self.open(page, width=360, height=740)
+        narrow.run("document.querySelectorAll('#compare td:last-child').forEach((cell) => cell.append("
+                   "Object.assign(document.createElement('span'), {className: 'hidden-text', textContent: '(best)'})))")
+        self.assertLessEqual(narrow.run("return document.documentElement.scrollWidth"), 360, "it scrolls sideways")
         self.keep(one, "two")
 
     def test_an_hour_in_a_thousand_square_metres_opens_in_two_seconds(self):

@@ -47,7 +47,7 @@ TEST(Descriptions, OfARoundThingNoFrontAndOfACandidateThatItIsNone) {
   ShownLandmark round{sampleLandmark(3, "swivel_chair", ShapeKind::kCylinder, 0, 0), false, {}};
   round.landmark.covariance(0, 0) = -1e-9;
   const auto blocks = describeLandmark(round, {}, kBegin_t);
-  EXPECT_THAT(blocks.front().lines.front(), HasSubstr("not in the map"));
+  EXPECT_THAT(blockOf(blocks, "swivel chair 3").lines.front(), HasSubstr("not in the map"));
   EXPECT_EQ(blockOf(blocks, "Size and place").lines.size(), 2u);
   EXPECT_THAT(blockOf(blocks, "Size and place").lines[1], HasSubstr("x 0.00 ± 0.00 m"));
 }

@@ -36,7 +36,7 @@ std::vector<std::string> classLines(const Landmark& landmark) {
   std::vector<std::string> lines;
   const auto& posterior = landmark.class_posterior;
   for (const auto& [name, p] : ranked<std::string>({posterior.begin(), posterior.end()}))
-    if (p >= 0.005) lines.push_back(printed("%3.0f %%  %s", 100 * p, name.c_str()));
+    if (p >= 0.005) lines.push_back(printed("%3.0f %%  %s", 100 * p, inWords(name).c_str()));
   return lines;
 }
 
