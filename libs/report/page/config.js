@@ -9,7 +9,8 @@ function configTable(rows) {
               [row.key, row.value === '' ? '(empty)' : row.value,
                row.shipped === undefined ? '' :
                    row.shipped === ''    ? '(empty)' :
-                                           row.shipped]));
+                                           row.shipped]),
+      {'aria-label': `Keys of ${rows[0].section}`});
   element.querySelectorAll('tbody tr').forEach((tr, i) => {
     if (rows[i].shipped === undefined) return;
     tr.classList.add('changed');

@@ -147,7 +147,8 @@ function evaluationPart(run) {
             table(
                 null, [{title: 'figure'}, {title: 'value', number: true}],
                 Object.entries(e.figures).map(
-                    ([name, v]) => [words(name), fixed(v, Number.isInteger(v) ? 0 : 4)]))));
+                    ([name, v]) => [words(name), fixed(v, Number.isInteger(v) ? 0 : 4)]),
+                {'aria-label': e.file})));
   return h(
       'div', {class: 'two'}, diagram,
       figures.length ? h('div', {class: 'card pad'}, h('h3', {}, 'Figures of evaluations'), figures) : null);
