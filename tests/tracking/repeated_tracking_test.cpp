@@ -52,7 +52,8 @@ std::vector<double> track(const std::vector<Frame>& frames, ResultStore* results
       out.insert(out.end(),
                  {feature.pixel.x(), feature.pixel.y(), static_cast<double>(feature.point), feature.depth_m});
   }
-  for (const auto& stamped : odometry.trajectory().poses()) append(out, stamped.pose);
+  const Trajectory trajectory = odometry.trajectory();
+  for (const auto& stamped : trajectory.poses()) append(out, stamped.pose);
   for (const auto& closure : odometry.takeLoopClosures()) {
     out.insert(out.end(), {closure.t_a, closure.t_b});
     append(out, closure.a_from_b);
