@@ -123,10 +123,9 @@ RunOptions withWordsOf(const std::vector<std::string>& words, const RunOptions& 
   replace(out.checkpoint_s, now.checkpoint_s);
   out.progress = now.progress;
   out.resume = now.resume;
-  for (const auto& [before, said] : {std::pair{&out.quiet, now.quiet},
-                                     {&out.no_snapshot, now.no_snapshot},
-                                     {&out.no_report, now.no_report}})
-    *before = *before || said;
+  out.quiet = now.quiet;
+  out.no_snapshot = out.no_snapshot || now.no_snapshot;
+  out.no_report = out.no_report || now.no_report;
   return out;
 }
 
