@@ -3,6 +3,7 @@
 #include "scan_sides.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -12,16 +13,18 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kReach_m = 5;         // of a lidar that looks at a landmark
-constexpr double kNearSide_m = 0.2;    // of a return to the side it may lie on
+constexpr double kReach_m = 5;  // of a lidar that looks at a landmark
+constexpr double kNearSide_m =
+    0.12;  // of a return to the side it may lie on: legs of who sits there stand farther off
 constexpr double kNearWall_m = 0.1;    // likewise, of a wall: walls are well known
 constexpr double kNearLegs_m = 0.15;   // outside a cylinder
 constexpr double kLeastFacing = 0.25;  // cosine between the side's normal and the direction to the lidar
 constexpr double kCorner_m = 0.05;     // at the ends of a side returns may be on the next one
 constexpr double kWallBeside_m = 0.6;  // of the wall on both sides of a door
+constexpr double kLeastShown = 0.5;    // share of the length of a cuboid's side that returns must lie along
 constexpr double kSpread_m = 0.05, kMostAlike = 0.7;        // so many of a side's returns are so near a line
 constexpr std::size_t kLeastReturns = 4, kMostReturns = 6;  // of one side in one scan
-constexpr std::size_t kMostOfDirection = 24;                // more say nothing new
+constexpr std::size_t kMostOfDirection = 12;                // more say nothing new
 
 // In the landmark's frame.
 struct Side {
@@ -71,6 +74,16 @@ bool onALine(const Side& side, const std::vector<Return>& returns) {
   const Eigen::VectorXd line = places.colPivHouseholderQr().solve(distances);
   const auto alike = ((places * line - distances).cwiseAbs().array() < kSpread_m).count();
   return static_cast<double>(alike) >= kMostAlike * static_cast<double>(returns.size());
+}
+
+// Whether the returns lie along enough of a cuboid's side to be the side, not somebody's legs before it.
+bool showsTheSide(const Side& side, const std::vector<Return>& returns) {
+  const auto [first, last] =
+      std::minmax_element(returns.begin(), returns.end(), [&side](const Return& a, const Return& b) {
+        return along(side, a.in_landmark) < along(side, b.in_landmark);
+      });
+  return along(side, last->in_landmark) - along(side, first->in_landmark) >
+         kLeastShown * 2 * side.half_length_m;
 }
 
 // Evenly in their order, that of the beams or of time.
@@ -156,6 +169,7 @@ class SideFinder {
     for (const Return& r : near)
       if (isOn(side, landmark_.shape.kind, r.in_landmark)) on_side.push_back(r);
     if (on_side.size() < kLeastReturns || !onALine(side, on_side)) return;
+    if (landmark_.shape.kind == ShapeKind::kCuboid && !showsTheSide(side, on_side)) return;
     for (const Return& r : thinned(on_side, kMostReturns)) keep(scan, r, side.outward);
   }
 
