@@ -54,7 +54,8 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
   place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);
   place("person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, -2.0, 1.0, 0);
-  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  SemanticSlam slam(
+      setupWith(kFakeObjects + "[tracking]\nenabled = false\n[landmarks]\ndoubt_by_scan = false\n"));
   const SlamResult result = drive(slam);
   ASSERT_EQ(result.map.landmarks.size(), 2u) << "the person is no landmark";
   for (const auto& landmark : result.map.landmarks) {

@@ -86,7 +86,7 @@ TEST_F(ReportCommand, ARunIsARunWithoutItsReport) {
   const rlimit small{60000, former.rlim_max};
   const auto handler = signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &small);
-  const CallResult result = run({"--until", "2"});
+  const CallResult result = run({"--until", "2", "--checkpoint", "0"});
   setrlimit(RLIMIT_FSIZE, &former);
   signal(SIGXFSZ, handler);
   expectOneLine(result, 0, HasSubstr("warning: no report.html: "));

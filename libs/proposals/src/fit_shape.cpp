@@ -186,9 +186,10 @@ class FitProblem {
     r.head<4>() = boxSides(p);
     const ObjectModel& m = *e_.model;
     r.segment<3>(kWidth) = (sizeOf(p.shape) - sizeOf(m.nominal())).cwiseQuotient(m.sizeSigma());
-    r[kNearSide] = nearSideKnown() && p.behind_its_points ? saturated((nearestRange(p) - near_range_) / (w_.near_side_gain * sigma_point_),
-                                               w_.near_side_saturation)
-                                   : 0;
+    r[kNearSide] = nearSideKnown() && p.behind_its_points
+                       ? saturated((nearestRange(p) - near_range_) / (w_.near_side_gain * sigma_point_),
+                                   w_.near_side_saturation)
+                       : 0;
     // The directions of the sides, found in the depth points, are more accurate than what the box tells of yaw.
     const double yaw_sigma = points_.empty() ? w_.yaw_sigma_blind_rad : w_.yaw_sigma_rad;
     r[kYaw] = round() ? 0 : wrapAngle(p.yaw - initial_.yaw) / yaw_sigma;
