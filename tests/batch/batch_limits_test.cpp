@@ -52,10 +52,10 @@ TEST_F(BatchLimited, ABrokenInputCostsItselfOnly) {
 }
 
 TEST_F(BatchLimited, ARunHasItsTime) {
-  makeRecording("a", 400);
-  const auto ended = batch({jobs(), "-o", "out", "--time", "1 s", "--retries", "2"});
+  makeRecording("a", 4000);
+  const auto ended = batch({jobs(), "-o", "out", "--time", "4 s", "--retries", "2"});
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_EQ(result("a--default").reason, "over its time limit of 1 s");
+  EXPECT_EQ(result("a--default").reason, "over its time limit of 4 s");
   EXPECT_EQ(result("a--default").failures.size(), 1u);
   EXPECT_TRUE(std::filesystem::exists(runFolder("a--default") / "summary.json")) << "what it had is written";
 }
