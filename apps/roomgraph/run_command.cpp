@@ -26,7 +26,6 @@
 #include "roomgraph/pipeline/read_options.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
-#include "roomgraph/rendering/snapshot.h"
 #include "run_report.h"
 
 namespace roomgraph {
@@ -143,22 +142,6 @@ void requireRecords(const RunOptions& options, const Options& run, const ReplayS
   if (result.world_from_robot.empty()) throw RunError(options.input + ": no pose could be found");
 }
 
-// A run without a picture is a run all the same; a full disk is another matter.
-bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png) {
-  try {
-    renderSnapshot(map, database, {.title = map.origin}, png);
-    return true;
-  } catch (const NoRenderer& error) {
-    std::cerr << "roomgraph: warning: no snapshot.png: " << error.what()
-              << " (--no-snapshot: not asked for)\n";
-  } catch (const RunError&) {
-    throw;
-  } catch (const std::exception& error) {
-    std::cerr << "roomgraph: warning: no snapshot.png: " << firstLine(error) << "\n";
-  }
-  return false;
-}
-
 std::string whatWasReplayed(const ReplayState& replayed) {
   char text[128];
   std::snprintf(text, sizeof text,
@@ -203,8 +186,8 @@ void run(const RunOptions& options) {
   RunOrigin origin{options.input, kVersion, kRevision, commandLine(), networks, {}};
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
   output->writeResult(slam, result, reader.statistics(), replayed, origin);
-  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, slam.setup().database,
-                                                          output->files().pending("snapshot.png"));
+  const bool drawn = !options.no_snapshot &&
+                     drawSnapshot(result.map, slam.setup().database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish();
