@@ -6,7 +6,8 @@
 #     bench/slurm_here.sh start DIR [KEY=VALUE...]    # of slurm.conf, e.g. MaxJobCount=5; CPUS=4 and MEMORY=4000 (MB) of the node
 #     export SLURM_CONF=DIR/slurm.conf                # from here on sbatch, squeue... speak to it
 #     bench/slurm_here.sh kill-node DIR               # SIGKILL to the node daemon; what it runs goes on
-#     bench/slurm_here.sh crash-node DIR              # SIGKILL to it and to all that it runs, as if the machine had died
+#     bench/slurm_here.sh crash-node DIR              # SIGKILL to it and to all that it runs: the machine has died, and the
+#                                                     # controller has noticed
 #     bench/slurm_here.sh start-node DIR
 #     bench/slurm_here.sh stop DIR
 #
@@ -101,6 +102,7 @@ start_munge() {
 
 start_node() {
   slurmd -N node0 -f "$folder/slurm.conf" || die "slurmd: $(tail -n 1 "$folder/slurmd.log")"
+  scontrol update NodeName=node0 State=RESUME 2>/dev/null || true  # it is down after a crash only
 }
 
 start() {
@@ -143,10 +145,15 @@ kill_node() {
   rm -f "$folder/slurmd.pid"
 }
 
-crash_node() {
+kill_node_and_jobs() {
   local step
   kill_node
   for step in $(steps); do kill -9 $(descendants "$step") "$step" 2>/dev/null || true; done
+}
+
+crash_node() {
+  kill_node_and_jobs
+  scontrol update NodeName=node0 State=DOWN Reason=crashed
 }
 
 gone() { ! kill -0 "$1" 2>/dev/null; }
@@ -154,7 +161,7 @@ gone() { ! kill -0 "$1" 2>/dev/null; }
 stop() {
   local name pid
   scancel --user="$(id -un)" 2>/dev/null || true
-  crash_node
+  kill_node_and_jobs
   for name in slurmctld.pid munge/pid; do
     pid=$(pid_in "$name")
     [ -n "$pid" ] || continue

@@ -21,7 +21,8 @@ TEST(Pieces, CoverTheRecordingAndOverlap) {
       const double end = i + 1 < pieces.size() ? pieces[i].until_s : seconds;
       EXPECT_LE(end - pieces[i].from_s, 600 * 1.25 + 20);
       EXPECT_GE(end - pieces[i].from_s, 600 * 0.6);
-      if (i > 0) EXPECT_NEAR(pieces[i - 1].until_s - pieces[i].from_s, 20, 1e-9);
+      const double common = i > 0 ? pieces[i - 1].until_s - pieces[i].from_s : 20;
+      EXPECT_NEAR(common, 20, 1e-9);
     }
   }
   EXPECT_THAT(piecesOf(3600, {600, 20}), SizeIs(6));

@@ -180,6 +180,17 @@ TEST_F(OfAnArray, EarlierStartsAreToldAndBounded) {
   EXPECT_THAT(readTaskEnd(folder.path(), 1)->reason, HasSubstr("lost on node"));
 }
 
+TEST_F(OfAnArray, WhatWasToldToEndMayBeBegunAgain) {
+  writeArray("echo done", 2);
+  noteStart(folder.path(), 1);
+  writeTaskEnd(folder.path(), 1, {4, ""});  // by its node, when the queue took it back
+  EXPECT_EQ(perform(), 0);
+  EXPECT_EQ(readTaskEnd(folder.path(), 1)->exit_code, 0);
+  EXPECT_THAT(lostStarts(folder.path(), 1), SizeIs(1));
+  writeTaskEnd(folder.path(), 1, {4, "given up"});
+  EXPECT_THROW(perform(), InputError);
+}
+
 TEST_F(OfAnArray, AnotherProgramIsRefused) {
   const auto program = folder.write("program", "1");
   auto stamps = coarseStamps({program});

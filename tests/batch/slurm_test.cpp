@@ -138,7 +138,10 @@ TEST_F(SlurmBatch, ARequeuedJobIsSeenTwice) {
   options = ", options: [--requeue]";
   Program program = started(words(slurmJobs(kOne, "limits: {retries: 1}\n")));
   ASSERT_TRUE(waitUntil([this] { return std::filesystem::exists(runFolder("a--default") / "progress"); }));
-  said("scontrol requeue " + active().front().substr(0, active().front().find(' ')));
+  const std::string task = active().front().substr(0, active().front().find(' '));
+  said("scontrol requeue " + task);
+  ASSERT_TRUE(waitUntil([] { return countOf("PENDING") == 1; }));
+  said("scontrol update StartTime=now JobId=" + task);  // it would wait for two minutes
   const auto ended = program.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(submitted(ended.err), 1u);

@@ -60,7 +60,8 @@ TEST(PathsOfPieces, TheFirstMomentsOfAPieceDoNotPull) {
 }
 
 TEST(PathsOfPieces, DoNotMeetWithoutAReason) {
-  EXPECT_THAT(alignPaths(pathIn({}, 0, 20), pathIn({}, 19.7, 40)).reason(), HasSubstr("4 instants in common"));
+  EXPECT_THAT(alignPaths(pathIn({}, 0, 20), pathIn({}, 19.7, 40)).reason(),
+              HasSubstr("4 instants in common"));
   EXPECT_THAT(alignPaths(pathIn({}, 0, 20), {}).reason(), HasSubstr("0 instants in common"));
   auto other = pathIn({}, 20, 50);
   for (auto& stamped : other) stamped.pose.translation() *= 3;
@@ -116,12 +117,14 @@ TEST(MapsOfPieces, AreOneMap) {
   EXPECT_LT(worstPlace(joined->map), 0.05);
   EXPECT_THAT(joined->map.world_from_robot, SizeIs(501));
   EXPECT_EQ(joined->map.origin, "lab.rawlog");
-  for (const auto& line : joined->map.provenance.history) EXPECT_THAT(line, ::testing::Not(HasSubstr("left out")));
+  for (const auto& line : joined->map.provenance.history)
+    EXPECT_THAT(line, ::testing::Not(HasSubstr("left out")));
 }
 
 TEST(MapsOfPieces, ObjectsAndWallsCorrectThePaths) {
   const Pose2 b_from_world{1, -2, 0.7};
-  const auto joined = unitedPieces(pieceMap({}, 0, 30, true), pieceMap(b_from_world, 20, 50, false, {0.15, 0.1, 0.02}));
+  const auto joined =
+      unitedPieces(pieceMap({}, 0, 30, true), pieceMap(b_from_world, 20, 50, false, {0.15, 0.1, 0.02}));
   ASSERT_TRUE(joined) << joined.reason();
   EXPECT_TRUE(joined->by_maps);
   EXPECT_LT(worstPlace(joined->map), 0.05);
@@ -130,7 +133,8 @@ TEST(MapsOfPieces, ObjectsAndWallsCorrectThePaths) {
 
 TEST(MapsOfPieces, PathsDecideWhereMapsDoNot) {
   const Pose2 b_from_world{1, -2, 0.7};
-  const auto far = unitedPieces(pieceMap({}, 0, 30, true), pieceMap(b_from_world, 20, 50, false, {1.5, 0, 0}));
+  const auto far =
+      unitedPieces(pieceMap({}, 0, 30, true), pieceMap(b_from_world, 20, 50, false, {1.5, 0, 0}));
   ASSERT_TRUE(far) << far.reason();
   EXPECT_FALSE(far->by_maps) << "they contradict the common path";
   EXPECT_EQ(far->why_not, "objects and walls would put it elsewhere");

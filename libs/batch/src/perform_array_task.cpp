@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kLookAtChild = std::chrono::milliseconds(20);
+constexpr int kInterrupted = 4;  // exit code
 constexpr auto kLookAtFolder = std::chrono::seconds(2);
 
 // Nobody waits for this task any more: the batch gave it up, and perhaps started it elsewhere.
@@ -33,10 +34,19 @@ std::string whyNot(const TaskArray& array, const fs::path& folder, std::size_t i
   return "";
 }
 
+// A task that was told to end, and that the queue begins anew all the same: it was requeued.
+void forgetInterruption(const fs::path& folder, std::size_t index) {
+  const auto end = readTaskEnd(folder, index);
+  std::error_code none;
+  if (end && end->exit_code == kInterrupted && end->reason.empty())
+    fs::remove(fileOfEnd(folder, index), none);
+}
+
 }  // namespace
 
 int performArrayTask(const fs::path& folder, std::size_t index, const std::function<bool()>& interrupted) {
   const TaskArray array = readTaskArray(folder);
+  forgetInterruption(folder, index);
   if (index >= array.tasks.size() || isGivenUp(folder, index))
     throw InputError(folder.string() + ": has no task " + std::to_string(index) + " to be done");
   noteStart(folder, index);

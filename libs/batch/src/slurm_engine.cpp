@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Indices of an array are below Slurm's MaxArraySize, which is 1001 where nobody has changed it.
-constexpr std::size_t kLargestArray = 1000;
 constexpr auto kGather = std::chrono::milliseconds(300);
 constexpr double kAnswerLimit_s = 30;
 

@@ -14,6 +14,9 @@
 
 namespace roomgraph {
 
+/// Indices of an array are below Slurm's MaxArraySize, which is 1001 where nobody has changed it.
+inline constexpr std::size_t kLargestArray = 1000;
+
 class SlurmEngine : public Engine {
  public:
   SlurmEngine(const JobFile& jobs, SlurmPlaces places, std::function<bool()> leaves_jobs);
@@ -60,7 +63,7 @@ class SlurmEngine : public Engine {
   void refused(Array& array, const std::string& answer);
   void pollQueue();
   void takeIn(const SlurmQueue& queue, Clock::time_point asked);
-  void look(Array& array, std::size_t index, const SlurmQueue& queue);
+  void look(Array& array, std::size_t index, const SlurmQueue& queue, bool known_job);
   void over(Array& array, std::size_t index, const TaskEnd& end);
   void scancel(std::vector<std::string> jobs);
   std::string jobOfName(const std::string& name);

@@ -15,7 +15,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr double kSilence_s = 120;  // of a command of Slurm, before it is ended
 constexpr double kAccountingLimit_s = 10, kCancelLimit_s = 60;
 constexpr double kPollAtTheEnd_s = 1;  // when somebody waits for jobs to be cancelled
-constexpr std::size_t kLargestArray = 1000, kCancelledAtOnce = 200;
+constexpr std::size_t kCancelledAtOnce = 200;
 
 // "17" or "17;cluster" among whatever else sbatch said.
 std::string jobIn(const std::string& answer) {
@@ -110,14 +110,16 @@ void SlurmEngine::takeIn(const SlurmQueue& queue, Clock::time_point asked) {
     std::error_code none;
     fs::directory_iterator(array.folder,
                            none);  // so that a network file system shows what nodes have written
+    const auto first = queue.lower_bound({array.job, 0});
+    const bool known_job = first != queue.end() && first->first.first == array.job;
     for (std::size_t i = 0; i < array.elements.size(); ++i)
-      if (!array.elements[i].over) look(array, i, queue);
+      if (!array.elements[i].over) look(array, i, queue, known_job);
   }
 }
 
 // Files of a shared folder may come later than the word of the queue: what left the queue without a word is
 // waited for, but for a job that was cancelled before it began.
-void SlurmEngine::look(Array& array, std::size_t index, const SlurmQueue& queue) {
+void SlurmEngine::look(Array& array, std::size_t index, const SlurmQueue& queue, bool known_job) {
   Element& element = array.elements[index];
   const auto queued = queue.find({array.job, index});
   if (queued != queue.end()) element.state = queued->second.state;
@@ -125,7 +127,9 @@ void SlurmEngine::look(Array& array, std::size_t index, const SlurmQueue& queue)
     element.left_at.reset();
     return;
   }
-  if (queued == queue.end() && isActive(element.state)) element.state.clear();
+  // A task that is cancelled while it waits leaves no trace in a queue that knows the rest of its array.
+  if (queued == queue.end() && isActive(element.state))
+    element.state = known_job && !hasBegun(array.folder, index) ? "CANCELLED" : "";
   if (auto end = readTaskEnd(array.folder, index)) {
     const QueueEnd known = endOfState(element.state);
     if (end->exit_code != 0 && end->reason.empty() && known.by_queue) *end = {known.exit_code, known.reason};
@@ -138,6 +142,7 @@ void SlurmEngine::look(Array& array, std::size_t index, const SlurmQueue& queue)
   if (element.state.empty()) element.state = stateInAccounting(array.job, index);
   QueueEnd end = endOfState(element.state);
   const std::string said = lastWordsIn(array.folder / (std::to_string(index) + ".out"));
+  if (!end.by_queue && queued != queue.end()) end.reason += " (" + queued->second.reason + ")";
   if (!end.by_queue && !said.empty()) end.reason += ": " + said;
   // From here on a node that is alive all the same, or comes back, ends this task by itself.
   writeTaskEnd(array.folder, index, {end.exit_code, end.reason});

@@ -56,13 +56,16 @@ TaskArray readTaskArray(const fs::path& folder) {
   }
 }
 
+fs::path fileOfEnd(const fs::path& folder, std::size_t index) {
+  return fileOf(folder, index, ".exit");
+}
+
 void writeTaskEnd(const fs::path& folder, std::size_t index, const TaskEnd& end) {
-  writeFileAtomically(fileOf(folder, index, ".exit"),
-                      std::to_string(end.exit_code) + "\n" + end.reason + "\n");
+  writeFileAtomically(fileOfEnd(folder, index), std::to_string(end.exit_code) + "\n" + end.reason + "\n");
 }
 
 std::optional<TaskEnd> readTaskEnd(const fs::path& folder, std::size_t index) {
-  std::ifstream in(fileOf(folder, index, ".exit"));
+  std::ifstream in(fileOfEnd(folder, index));
   TaskEnd end;
   if (!(in >> end.exit_code)) return std::nullopt;
   std::getline(in, end.reason);

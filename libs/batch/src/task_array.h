@@ -38,6 +38,7 @@ struct TaskEnd {
 
 /// ARRAY/INDEX.exit: there once, whoever wrote it, and then the task is over.
 void writeTaskEnd(const std::filesystem::path& folder, std::size_t index, const TaskEnd& end);
+std::filesystem::path fileOfEnd(const std::filesystem::path& folder, std::size_t index);
 std::optional<TaskEnd> readTaskEnd(const std::filesystem::path& folder, std::size_t index);
 
 /// ARRAY/INDEX.begun: a line for each time that a node began with it.
