@@ -13,6 +13,7 @@
 #include "interrupts.h"
 #include "roomgraph/batch/batch.h"
 #include "roomgraph/batch/run_task.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 
@@ -113,7 +114,8 @@ void batch(const BatchOptions& options) {
     throw Interrupted("interrupted: " + std::to_string(outcome.left) +
                       " runs left; the same command again goes on");
   if (outcome.failed > 0)
-    throw RunError(std::to_string(outcome.failed) + " of " + std::to_string(plan.runs.size()) +
+    throw RunError(std::to_string(outcome.failed) + " of " +
+                   std::to_string(outcome.done + outcome.skipped + outcome.failed) +
                    " runs failed, the first: " + outcome.problems.front());
 }
 
@@ -149,15 +151,15 @@ double lengthOf(const std::string& rawlog) {
   return 0;
 }
 
-// Finds out how long a recording is, for pieces of it: not for people.
-void addLengthCommand(CLI::App& app) {
+// Reads all of a recording, for a batch: not for people.
+void addMeasureCommand(CLI::App& app) {
   auto rawlog = std::make_shared<std::string>(), file = std::make_shared<std::string>();
-  auto* command = app.add_subcommand("batch-length", "Measure a recording")->group("");
+  auto* command = app.add_subcommand("batch-measure", "Measure a recording")->group("");
   command->add_option("RAWLOG", *rawlog, "recording")->required();
-  command->add_option("FILE", *file, "where its length is written")->required();
+  command->add_option("FILE", *file, "where its length and checksum are written")->required();
   command->callback([rawlog, file] {
     catchInterrupts();
-    writeLength(*file, *rawlog, lengthOf(*rawlog));
+    writeMeasure(*file, *rawlog, {lengthOf(*rawlog), sha256OfFile(*rawlog)});
   });
 }
 
@@ -236,7 +238,7 @@ void addBatchCommand(CLI::App& app) {
   });
   addTaskCommand(app);
   addElementCommand(app);
-  addLengthCommand(app);
+  addMeasureCommand(app);
 }
 
 }  // namespace roomgraph

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spans of pieces, and lengths that are remembered.
+// Spans of pieces, and measures that are remembered.
 #include <gmock/gmock.h>
 
 #include "roomgraph/batch/plan.h"
@@ -36,15 +36,16 @@ TEST(Pieces, WhatIsHardlyLongerStaysWhole) {
   EXPECT_THAT(piecesOf(1e6, {0, 20}), SizeIs(0));
 }
 
-TEST(Pieces, ALengthIsThatOfTheFileAsItIs) {
+TEST(Pieces, AMeasureIsThatOfTheFileAsItIs) {
   const TemporaryFolder folder;
   const auto rawlog = folder.write("a.rawlog", "twelve bytes");
-  const auto file = folder.file("a.length");
-  EXPECT_FALSE(readLength(file, rawlog).has_value());
-  writeLength(file, rawlog, 3600.25);
-  EXPECT_NEAR(readLength(file, rawlog).value(), 3600.25, 1e-5);
+  const auto file = folder.file("a.measure");
+  EXPECT_FALSE(readMeasure(file, rawlog).has_value());
+  writeMeasure(file, rawlog, {3600.25, "abc"});
+  EXPECT_NEAR(readMeasure(file, rawlog)->seconds, 3600.25, 1e-5);
+  EXPECT_EQ(readMeasure(file, rawlog)->sha256, "abc");
   folder.write("a.rawlog", "other bytes, and more of them");
-  EXPECT_FALSE(readLength(file, rawlog).has_value());
+  EXPECT_FALSE(readMeasure(file, rawlog).has_value());
 }
 
 TEST(Pieces, TooMuchInCommonIsRefused) {

@@ -180,6 +180,16 @@ TEST_F(SlurmBatch, AClosedTerminalLeavesThem) {
   expectAllComplete(2);
 }
 
+TEST_F(SlurmBatch, PiecesGoSideBySide) {
+  makeRecording("a", 60);
+  auto split = words(slurmJobs(kOne));
+  split.insert(split.end(), {"--split", "3 s", "--overlap", "1 s"});
+  const auto ended = batch(split);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(submitted(ended.err), 4u) << "one that measures, two pieces, one that joins them";
+  expectAllComplete(3);
+}
+
 TEST_F(SlurmBatch, WrongSettingsEndTheBatch) {
   makeRecording("a");
   options = ", partition: nosuch";

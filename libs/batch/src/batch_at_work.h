@@ -40,7 +40,8 @@ class BatchAtWork {
   Step tryInput(std::size_t input);
   Step startInput(EngineTask task);
   EngineTask simulationOf(std::size_t input) const;
-  EngineTask lengthTaskOf(std::size_t input) const;
+  EngineTask measurementOf(std::size_t input) const;
+  bool isMeasured(std::size_t input);
   bool waitsForPieces(std::size_t run);
   void split(std::size_t run);
   void launch(std::size_t run, PreparedRun prepared);

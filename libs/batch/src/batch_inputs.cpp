@@ -3,6 +3,8 @@
 #include "batch_at_work.h"
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
+#include "tool_call.h"
 
 namespace roomgraph {
 namespace {
@@ -12,6 +14,18 @@ namespace fs = std::filesystem;
 // A simulated recording is written as it comes; its renderer is what takes memory.
 constexpr double kSimulation_mb = 400;
 constexpr double kReading_mb = 200;
+constexpr std::uintmax_t kReadHere_bytes = 100'000'000;  // a tenth of a second: less than a queue takes
+
+// What a program said last.
+std::string wordsIn(const fs::path& log) {
+  constexpr std::string_view kName = "roomgraph: ";
+  try {
+    const std::string last = lastLineOf(readTextFile(log));
+    return last.starts_with(kName) ? last.substr(kName.size()) : last;
+  } catch (const InputError&) {
+    return "";
+  }
+}
 
 }  // namespace
 
@@ -24,20 +38,31 @@ EngineTask BatchAtWork::simulationOf(std::size_t input) const {
   return task;
 }
 
-EngineTask BatchAtWork::lengthTaskOf(std::size_t input) const {
-  const fs::path file = preparer_.lengthFileOf(input);
+EngineTask BatchAtWork::measurementOf(std::size_t input) const {
+  const fs::path file = preparer_.measureFileOf(input);
   return {input,
-          {program_.file.string(), "batch-length", preparer_.recordingOf(input).string(), file.string()},
+          {program_.file.string(), "batch-measure", preparer_.recordingOf(input).string(), file.string()},
           file.string() + ".log",
           kReading_mb};
 }
 
-// Simulated inputs are made; of those that are to be split the length is found out.
+// What is to be cut has to be measured; and where others work, reading every large recording is theirs, too.
+bool BatchAtWork::isMeasured(std::size_t input) {
+  const fs::path rawlog = preparer_.recordingOf(input);
+  std::error_code none;
+  const bool read_here = !engine_.isElsewhere() || fs::file_size(rawlog, none) < kReadHere_bytes;
+  if (plan_.jobs.split.length_s <= 0 && (read_here || hashes_.knows(rawlog))) return true;
+  const auto measure = preparer_.measureOf(input);
+  if (measure && !hashes_.knows(rawlog)) hashes_.remember(rawlog, measure->sha256);
+  return measure.has_value();
+}
+
+// Simulated inputs are made; recordings are measured.
 BatchAtWork::Step BatchAtWork::tryInput(std::size_t input) {
   if (ready_inputs_.contains(input)) return Step::kOver;
   if (inputs_underway_.contains(input)) return Step::kWaits;
   if (!preparer_.isReady(input)) return startInput(simulationOf(input));
-  if (plan_.jobs.split.length_s > 0 && !preparer_.lengthOf(input)) return startInput(lengthTaskOf(input));
+  if (!isMeasured(input)) return startInput(measurementOf(input));
   ready_inputs_.insert(input);
   return Step::kOver;
 }
@@ -62,8 +87,8 @@ BatchAtWork::Step BatchAtWork::startInput(EngineTask task) {
 
 void BatchAtWork::split(std::size_t run) {
   split_.insert(run);
-  const auto length = preparer_.lengthOf(plan_.runs[run].input);
-  const auto spans = length ? piecesOf(*length, plan_.jobs.split) : std::vector<PieceSpan>();
+  const auto measure = preparer_.measureOf(plan_.runs[run].input);
+  const auto spans = measure ? piecesOf(measure->seconds, plan_.jobs.split) : std::vector<PieceSpan>();
   for (const auto& span : spans) {
     PlannedRun piece = plan_.runs[run];
     char number[24];
@@ -89,13 +114,15 @@ void BatchAtWork::takeInInput(std::size_t input, const EndedTask& ended) {
   const bool simulated = !preparer_.isReady(input);
   if (ended.exit_code != 0) {
     if (outcome_.interrupted) return;
-    failed_inputs_[input] =
-        "its input " + name + " could not be " + (simulated ? "simulated" : "measured") + " (" +
-        (ended.reason.empty() ? "exit code " + std::to_string(ended.exit_code) : ended.reason) + "): see " +
-        (simulated ? preparer_.folderOfInput(input).string() : preparer_.lengthFileOf(input).string()) +
-        ".log";
+    const fs::path log = simulated ? simulationOf(input).log : measurementOf(input).log;
+    std::string why = ended.reason.empty() ? wordsIn(log) : ended.reason;
+    if (why.empty()) why = "exit code " + std::to_string(ended.exit_code);
+    failed_inputs_[input] = "its input " + name + " could not be " + (simulated ? "simulated" : "read") +
+                            ": " + why + " (" + log.string() + ")";
     return;
   }
+  if (!simulated && !isMeasured(input))
+    failed_inputs_[input] = "its input " + name + " has changed while it was read";
   if (simulated) preparer_.markReady(input, true);
   if (simulated) display_.event("simulated " + name);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spans of pieces; lengths of recordings, remembered.
+// Spans of pieces; measures of recordings, remembered.
 #include <cmath>
 #include <fstream>
 
@@ -26,16 +26,20 @@ std::vector<PieceSpan> piecesOf(double seconds, const BatchSplit& split) {
   return out;
 }
 
-void writeLength(const std::filesystem::path& file, const std::filesystem::path& rawlog, double seconds) {
-  writeFileAtomically(file, stampOf(rawlog) + "\n" + std::to_string(seconds) + "\n");
+void writeMeasure(const std::filesystem::path& file, const std::filesystem::path& rawlog,
+                  const RecordingMeasure& measure) {
+  writeFileAtomically(
+      file, stampOf(rawlog) + "\n" + std::to_string(measure.seconds) + "\n" + measure.sha256 + "\n");
 }
 
-std::optional<double> readLength(const std::filesystem::path& file, const std::filesystem::path& rawlog) {
+std::optional<RecordingMeasure> readMeasure(const std::filesystem::path& file,
+                                            const std::filesystem::path& rawlog) {
   std::ifstream in(file);
   std::string stamp;
-  double seconds = 0;
-  if (!std::getline(in, stamp) || stamp != stampOf(rawlog) || !(in >> seconds)) return std::nullopt;
-  return seconds;
+  RecordingMeasure measure;
+  if (!std::getline(in, stamp) || stamp != stampOf(rawlog) || !(in >> measure.seconds >> measure.sha256))
+    return std::nullopt;
+  return measure;
 }
 
 }  // namespace roomgraph

@@ -26,10 +26,8 @@ void makeFolder(const fs::path& folder) {
   if (error) throw RunError(folder.string() + ": cannot be made: " + error.message());
 }
 
-// On a network file system, files that others made are seen when their folder is opened anew.
 std::optional<RunResult> resultIn(const fs::path& folder) {
-  std::error_code none;
-  fs::directory_iterator(folder, none);
+  lookInto(folder);
   try {
     return readRunResult(folder / "result.json");
   } catch (const InputError&) {  // no whole run is there

@@ -10,6 +10,12 @@
 
 namespace roomgraph {
 
+/// On a network file system, files that others made are seen when their folder is opened anew.
+inline void lookInto(const std::filesystem::path& folder) {
+  std::error_code none;
+  std::filesystem::directory_iterator(folder, none);
+}
+
 /// A run that can be started.
 struct PreparedRun {
   RunTask task;
@@ -33,12 +39,13 @@ class RunPreparer {
   /// To be called when it has been made, or is about to be.
   void markReady(std::size_t input, bool ready) const;
 
-  /// Where the length of a recording is remembered, and what it says.
-  std::filesystem::path lengthFileOf(std::size_t input) const {
-    return folder_ / "inputs" / (plan_.inputs[input].input.name + ".length");
+  /// Where the measure of a recording is remembered, and what it says.
+  std::filesystem::path measureFileOf(std::size_t input) const {
+    return folder_ / "inputs" / (plan_.inputs[input].input.name + ".measure");
   }
-  std::optional<double> lengthOf(std::size_t input) const {
-    return readLength(lengthFileOf(input), recordingOf(input));
+  std::optional<RecordingMeasure> measureOf(std::size_t input) const {
+    lookInto(folder_ / "inputs");
+    return readMeasure(measureFileOf(input), recordingOf(input));
   }
 
   /// Of a run that is joined from pieces: once they are complete. Throws Error: what cannot be run.

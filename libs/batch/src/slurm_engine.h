@@ -28,6 +28,7 @@ class SlurmEngine : public Engine {
   void start(const EngineTask& task) override;
   std::vector<EndedTask> ended() override;
   std::string interrupt() override;
+  bool isElsewhere() const override { return true; }
   bool remembers(const std::vector<std::string>& command) const override;
   void takeUp(std::size_t id, const std::vector<std::string>& command) override;
   void cancel(std::size_t id) override;

@@ -2,6 +2,7 @@
 // What becomes of the jobs of a Slurm engine: answers of sbatch and squeue, and files that nodes leave.
 #include <algorithm>
 
+#include "preparation.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "slurm_engine.h"

@@ -45,6 +45,8 @@ class Engine {
   /// Tells all that run to end in good order. Returns what it did, in words.
   virtual std::string interrupt() = 0;
 
+  /// Whether tasks are carried out by other machines than this one.
+  virtual bool isElsewhere() const { return false; }
   /// Whether an earlier engine in this folder started this command, and nobody has been told how it ended.
   virtual bool remembers(const std::vector<std::string>& /*command*/) const { return false; }
   /// Goes on with what it remembers, as if it had been started now under this id.

@@ -52,10 +52,18 @@ BatchPlan planBatch(const JobFile& jobs, const std::filesystem::path& folder);
 /// hardly longer than one.
 std::vector<PieceSpan> piecesOf(double seconds, const BatchSplit& split);
 
-/// The length of a recording in a file of its own, which is valid while the recording has the same size and
-/// time. Nothing: it is not known. Throws RunError.
-void writeLength(const std::filesystem::path& file, const std::filesystem::path& rawlog, double seconds);
-std::optional<double> readLength(const std::filesystem::path& file, const std::filesystem::path& rawlog);
+/// What a look at all of a recording tells.
+struct RecordingMeasure {
+  double seconds = 0;  ///< from its first record to its last
+  std::string sha256;  ///< of its file
+};
+
+/// A measure in a file of its own, which is valid while the recording has the same size and time. Nothing: it
+/// is not known. Throws RunError.
+void writeMeasure(const std::filesystem::path& file, const std::filesystem::path& rawlog,
+                  const RecordingMeasure& measure);
+std::optional<RecordingMeasure> readMeasure(const std::filesystem::path& file,
+                                            const std::filesystem::path& rawlog);
 
 /// The truth beside a recording: the simulator's files when it is the only recording in its folder, and files
 /// that bear its name (NAME.rawlog.GT.txt, NAME.relations).
