@@ -49,6 +49,10 @@ class SlurmBatch : public SmallBatch {
     said("scancel --user=$(id -u); scontrol update NodeName=node0 State=RESUME");
     EXPECT_TRUE(waitUntil([] { return active().empty(); })) << said("squeue");
   }
+  /// All different: those alike share their detections, and wait for the first one.
+  void makeRecordings(const std::vector<std::string>& names, int steps) const {
+    for (const auto& name : names) makeRecording(name, steps++);
+  }
   std::string slurmJobs(const std::string& variants, const std::string& more = "") const {
     return jobs(variants, "keep: summary\n" + more + "slurm: {poll: 0.3 s, patience: 1 s, memory: 200 MB" +
                               options + "}\n");

@@ -33,9 +33,9 @@ TEST_F(SlurmBatch, TwentyRunsGiveWhatThisMachineGives) {
 }
 
 TEST_F(SlurmBatch, AKilledBatchFindsItsJobs) {
-  for (const char* name : {"a", "b", "c"}) makeRecording(name);
+  makeRecordings({"a", "b", "c", "d", "e", "f"}, 6);
   said("scontrol update NodeName=node0 State=DRAIN Reason=test");
-  Program first = started(words(slurmJobs(kTwo)));
+  Program first = started(words(slurmJobs(kOne)));
   ASSERT_TRUE(waitUntil([] { return active().size() == 6; }));
   kill(first.pid(), SIGKILL);
   first.wait();
@@ -44,7 +44,7 @@ TEST_F(SlurmBatch, AKilledBatchFindsItsJobs) {
   ASSERT_TRUE(std::filesystem::remove(folder.file("out/slurm/000001/job")));
   Program second = started(words("jobs.yaml"));
   ASSERT_TRUE(waitUntil([this] {
-    return contentOf(folder.file("stderr.txt")).find("found     c--no_lidar") != std::string::npos;
+    return contentOf(folder.file("stderr.txt")).find("found     f--default") != std::string::npos;
   }));
   said("scontrol update NodeName=node0 State=RESUME");
   const auto ended = second.wait();
@@ -85,7 +85,7 @@ TEST_F(SlurmBatch, WhatHasChangedMeanwhileIsDoneAnew) {
 }
 
 TEST_F(SlurmBatch, CancelledJobsHaveFailed) {
-  for (const char* name : {"a", "b", "c", "d"}) makeRecording(name, 60);
+  makeRecordings({"a", "b", "c", "d"}, 60);
   options = ", cpus: 2";
   Program program = started(words(slurmJobs(kOne, "limits: {threads: 1, retries: 0}\n")));
   ASSERT_TRUE(waitUntil([] { return countOf("RUNNING") == 2 && countOf("PENDING") == 2; }));
@@ -151,7 +151,7 @@ TEST_F(SlurmBatch, ARequeuedJobIsSeenTwice) {
 }
 
 TEST_F(SlurmBatch, CtrlCCancelsTheJobs) {
-  for (const char* name : {"a", "b", "c"}) makeRecording(name, 60);
+  makeRecordings({"a", "b", "c"}, 60);
   options = ", cpus: 4";
   Program program = started(words(slurmJobs(kOne)));
   ASSERT_TRUE(waitUntil([] { return countOf("RUNNING") == 1; }));
@@ -166,7 +166,8 @@ TEST_F(SlurmBatch, CtrlCCancelsTheJobs) {
 }
 
 TEST_F(SlurmBatch, AClosedTerminalLeavesThem) {
-  for (const char* name : {"a", "b"}) makeRecording(name, 20);
+  makeRecordings({"a", "b"}, 20);
+  said("scontrol update NodeName=node0 State=DRAIN Reason=test");
   Program program = started(words(slurmJobs(kOne)));
   ASSERT_TRUE(waitUntil([] { return active().size() == 2; }));
   kill(program.pid(), SIGHUP);
@@ -174,6 +175,7 @@ TEST_F(SlurmBatch, AClosedTerminalLeavesThem) {
   EXPECT_EQ(left.exit_code, 4);
   EXPECT_THAT(left.err, HasSubstr("2 tasks go on in the queue"));
   EXPECT_THAT(active(), SizeIs(2));
+  said("scontrol update NodeName=node0 State=RESUME");
   const auto ended = batch(words("jobs.yaml"));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(submitted(ended.err), 0u);
@@ -195,7 +197,8 @@ TEST_F(SlurmBatch, WrongSettingsEndTheBatch) {
   options = ", partition: nosuch";
   const auto refused = batch(words(slurmJobs(kOne)));
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_THAT(linesOf(refused.err).back(), AllOf(HasSubstr("sbatch refuses: "), HasSubstr("nosuch")));
+  EXPECT_THAT(linesOf(refused.err).back(),
+              AllOf(HasSubstr("sbatch refuses: "), HasSubstr("nvalid partition")));
   options = ", account: lab";
   expectOneLine(batch(words(slurmJobs(kOne))), 2, HasSubstr("slurm"));
   options = ", options: [account=lab]";
