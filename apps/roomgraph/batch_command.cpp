@@ -13,14 +13,16 @@
 #include "interrupts.h"
 #include "roomgraph/batch/batch.h"
 #include "roomgraph/batch/run_task.h"
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/rawlog_reader.h"
 
 namespace roomgraph {
 namespace {
 
 struct BatchOptions {
   std::vector<std::string> inputs, overrides;
-  std::string output, config, memory, time, keep, engine = "local";
+  std::string output, config, memory, time, keep, split, overlap, engine = "local";
   std::optional<int> jobs, threads, retries;
   bool dry_run = false, quiet = false;
 };
@@ -54,8 +56,13 @@ JobFile jobsOfOptions(const BatchOptions& options) {
   jobs.limits.jobs = options.jobs.value_or(jobs.limits.jobs);
   jobs.limits.threads = options.threads.value_or(jobs.limits.threads);
   jobs.limits.retries = options.retries.value_or(jobs.limits.retries);
+  if (options.engine == "slurm" && !options.threads && jobs.slurm.cpus > 0)
+    jobs.limits.threads = jobs.slurm.cpus;
   readOption(options.memory, "--memory", megabytesOf, jobs.limits.memory_mb);
   readOption(options.time, "--time", secondsOf, jobs.limits.time_s);
+  readOption(options.split, "--split", secondsOf, jobs.split.length_s);
+  readOption(options.overlap, "--overlap", secondsOf, jobs.split.overlap_s);
+  requireSensibleSplit(jobs.split);
   if (!options.keep.empty()) jobs.keep = keepFromText(options.keep);
   return jobs;
 }
@@ -70,6 +77,15 @@ void tellOutcome(const BatchOutcome& outcome, const std::filesystem::path& folde
             << folder.string() << "'\n";
 }
 
+std::unique_ptr<Engine> engineOf(const BatchOptions& options, const JobFile& jobs,
+                                 const SlurmPlaces& places) {
+  if (options.engine == "slurm") return makeSlurmEngine(jobs, places, [] { return !interruptedByHand(); });
+  if (hasSlurmTasks(places.folder))
+    throw ConfigError((places.folder / "slurm").string() +
+                      ": jobs of this batch are in a queue; '--engine slurm' goes on with them");
+  return makeLocalEngine(jobs.limits);
+}
+
 void batch(const BatchOptions& options) {
   if (options.inputs.empty())
     throw ConfigError("batch needs a job file or recordings, or one of its commands (--help)");
@@ -78,20 +94,28 @@ void batch(const BatchOptions& options) {
   const BatchPlan plan = planBatch(jobsOfOptions(options), folder);
   ProgramInspector inspector;
   for (const auto& variant : plan.variants) inspector.check(variant);
+  const BatchProgram program = thisProgram();
+  const SlurmPlaces places{folder, program.file, program.parts};
   if (options.dry_run) {
-    std::cout << describePlan(plan, folder, thisProgram(), inspector);
+    const PlanInWords words = describePlan(plan, folder, program, inspector);
+    std::cout << words.text;
+    if (options.engine == "slurm" && words.needed > 0)
+      std::cout << "Script of an array of them:\n"
+                << slurmScriptOf(plan.jobs, places, words.needed, words.memory_mb);
     return;
   }
   catchInterrupts();
-  const auto engine = makeLocalEngine(plan.jobs.limits);
+  const BatchLock lock(folder);
+  const auto engine = engineOf(options, plan.jobs, places);
   const BatchView view{options.quiet ? nullptr : &std::cerr, isatty(STDERR_FILENO) == 1};
-  const BatchOutcome outcome = runBatch(plan, folder, thisProgram(), inspector, *engine, view, interrupted);
+  const BatchOutcome outcome = runBatch(plan, folder, program, inspector, *engine, view, interrupted, lock);
   tellOutcome(outcome, options.output);
   if (outcome.interrupted)
     throw Interrupted("interrupted: " + std::to_string(outcome.left) +
                       " runs left; the same command again goes on");
   if (outcome.failed > 0)
-    throw RunError(std::to_string(outcome.failed) + " of " + std::to_string(plan.runs.size()) +
+    throw RunError(std::to_string(outcome.failed) + " of " +
+                   std::to_string(outcome.done + outcome.skipped + outcome.failed) +
                    " runs failed, the first: " + outcome.problems.front());
 }
 
@@ -109,9 +133,56 @@ void addTaskCommand(CLI::App& app) {
   });
 }
 
+// Seconds between the first and the last record; images are not decoded where there is anything else.
+double lengthOf(const std::string& rawlog) {
+  for (const bool frames : {false, true}) {
+    ReadOptions kinds;
+    kinds.frames = frames;
+    RawlogReader reader(rawlog, kinds);
+    std::optional<double> first, last;
+    while (const auto record = reader.next()) {
+      if (interrupted()) throw Interrupted("interrupted");
+      const double t = timeOf(*record);
+      first = std::min(first.value_or(t), t);
+      last = std::max(last.value_or(t), t);
+    }
+    if (first) return *last - *first;
+  }
+  return 0;
+}
+
+// Reads all of a recording, for a batch: not for people.
+void addMeasureCommand(CLI::App& app) {
+  auto rawlog = std::make_shared<std::string>(), file = std::make_shared<std::string>();
+  auto* command = app.add_subcommand("batch-measure", "Measure a recording")->group("");
+  command->add_option("RAWLOG", *rawlog, "recording")->required();
+  command->add_option("FILE", *file, "where its length and checksum are written")->required();
+  command->callback([rawlog, file] {
+    catchInterrupts();
+    writeMeasure(*file, *rawlog, {lengthOf(*rawlog), sha256OfFile(*rawlog)});
+  });
+}
+
+// On a node of a cluster: not for people.
+void addElementCommand(CLI::App& app) {
+  auto folder = std::make_shared<std::string>();
+  auto index = std::make_shared<std::size_t>(0);
+  auto* command = app.add_subcommand("batch-element", "Carry out one task of an array job")->group("");
+  command->add_option("ARRAY", *folder, "folder of the array")->required();
+  command->add_option("INDEX", *index, "of the task")->required();
+  command->callback([folder, index] {
+    catchInterrupts();
+    const int exit_code = performArrayTask(*folder, *index, interrupted);
+    if (exit_code == 4) throw Interrupted("interrupted");
+    if (exit_code != 0) throw RunError("the task failed (" + std::to_string(exit_code) + ")");
+  });
+}
+
 void addLimits(CLI::App& command, BatchOptions& options) {
-  command.add_option("--engine", options.engine, "what carries the runs out")
-      ->check(CLI::IsMember({"local"}))
+  command
+      .add_option("--engine", options.engine,
+                  "what carries the runs out: this machine, or array jobs of Slurm")
+      ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
   command.add_option("--jobs", options.jobs, "runs at once (default: cores / threads)")->check(atLeastZero());
   command.add_option("--threads", options.threads, "of each run (default 1)")->check(aboveZero());
@@ -120,6 +191,10 @@ void addLimits(CLI::App& command, BatchOptions& options) {
   command.add_option("--time", options.time, "of one run at most, like '30 min' (default: no limit)");
   command.add_option("--retries", options.retries, "of a run that failed or was killed (default 0)")
       ->check(atLeastZero());
+  command.add_option("--split", options.split,
+                     "run recordings in pieces of about this length, like '600 s', and join them");
+  command.add_option("--overlap", options.overlap,
+                     "what a piece has in common with the one before it (default 20 s)");
   command
       .add_option("--keep", options.keep, "what a run leaves: its figures, also its map and report, or all")
       ->check(CLI::IsMember({"summary", "map", "all"}));
@@ -146,6 +221,7 @@ void addBatchCommand(CLI::App& app) {
       "  roomgraph batch recordings/*.rawlog -o out/batch          # every recording once\n"
       "  roomgraph batch jobs.yaml -o out/batch --dry-run          # what would be done\n"
       "  roomgraph batch jobs.yaml -o out/batch --jobs 4 --keep map\n"
+      "  roomgraph batch jobs.yaml -o /shared/batch --engine slurm # on a cluster; 'slurm:' in the job file\n"
       "  roomgraph batch status out/batch                          # how far, and the figures of each "
       "variant\n"
       "  roomgraph batch compare out/batch --baseline default\n"
@@ -161,6 +237,8 @@ void addBatchCommand(CLI::App& app) {
     if (command->get_subcommands().empty()) batch(*options);
   });
   addTaskCommand(app);
+  addElementCommand(app);
+  addMeasureCommand(app);
 }
 
 }  // namespace roomgraph

@@ -10,8 +10,8 @@ namespace {
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t raised = 0;
 
-void raise(int) {
-  raised = 1;
+void raise(int number) {
+  raised = number;
   // A terminal that closes says so twice, the shell and the kernel: that is no wish to end at once.
   std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGINT, SIG_DFL);
@@ -28,6 +28,10 @@ void catchInterrupts() {
 
 bool interrupted() {
   return raised != 0;
+}
+
+bool interruptedByHand() {
+  return raised == SIGINT;
 }
 
 }  // namespace roomgraph

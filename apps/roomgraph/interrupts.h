@@ -8,5 +8,7 @@ namespace roomgraph {
 /// done so far can be written; a second Ctrl-C or SIGTERM ends the program at once.
 void catchInterrupts();
 bool interrupted();
+/// Whether it was Ctrl-C: somebody sits there and wants it to end, not only this program.
+bool interruptedByHand();
 
 }  // namespace roomgraph

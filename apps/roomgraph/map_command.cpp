@@ -213,6 +213,7 @@ void addMapCommand(CLI::App& app) {
   addMapCrop(*command);
   addMapDiff(*command);
   addMapMerge(*command);
+  addMapJoin(*command);
 }
 
 }  // namespace roomgraph

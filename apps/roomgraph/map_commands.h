@@ -17,8 +17,9 @@ std::string programName();
 /// one.
 ObjectDatabase databaseOf(const CSemanticMap& map, const std::string& file, const std::string& asked_for);
 
-/// Add `map diff` and `map merge`.
+/// Add `map diff`, `map join` and `map merge`.
 void addMapDiff(CLI::App& parent);
+void addMapJoin(CLI::App& parent);
 void addMapMerge(CLI::App& parent);
 
 }  // namespace roomgraph

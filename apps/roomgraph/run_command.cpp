@@ -25,7 +25,6 @@
 #include "roomgraph/pipeline/read_options.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
-#include "roomgraph/rendering/snapshot.h"
 #include "run_checkpoint.h"
 #include "run_options.h"
 #include "run_places.h"
@@ -147,22 +146,6 @@ void requireRecords(const RunOptions& options, const Options& run, const ReplayS
                      ": no usable record of a camera (RGB-D) or a lidar (2D scans); "
                      "'roomgraph info' tells what is inside");
   if (result.world_from_robot.empty()) throw RunError(options.input + ": no pose could be found");
-}
-
-// A run without a picture is a run all the same; a full disk is another matter.
-bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png) {
-  try {
-    renderSnapshot(map, database, {.title = map.origin}, png);
-    return true;
-  } catch (const NoRenderer& error) {
-    std::cerr << "roomgraph: warning: no snapshot.png: " << error.what()
-              << " (--no-snapshot: not asked for)\n";
-  } catch (const RunError&) {
-    throw;
-  } catch (const std::exception& error) {
-    std::cerr << "roomgraph: warning: no snapshot.png: " << firstLine(error) << "\n";
-  }
-  return false;
 }
 
 std::string whatWasReplayed(const ReplayState& replayed, RunCheckpoint* checkpoint,

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <map>
 
+#include "roomgraph/core/error_text.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/rendering/snapshot.h"
 
 namespace roomgraph {
 namespace {
@@ -62,6 +66,21 @@ std::string describeRun(const SlamResult& result, const ReplayState& replayed, c
   for (const auto& [reason, count] : counts.reasons) text += format("  %d x ", count) + reason + "\n";
   for (const auto& [reason, count] : read.skipped) text += format("  skipped %d x ", count) + reason + "\n";
   return text;
+}
+
+bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png) {
+  try {
+    renderSnapshot(map, database, {.title = map.origin}, png);
+    return true;
+  } catch (const NoRenderer& error) {
+    std::cerr << "roomgraph: warning: no snapshot.png: " << error.what()
+              << " (--no-snapshot: not asked for)\n";
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::cerr << "roomgraph: warning: no snapshot.png: " << firstLine(error) << "\n";
+  }
+  return false;
 }
 
 }  // namespace roomgraph

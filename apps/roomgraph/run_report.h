@@ -20,4 +20,8 @@ std::string describeObjects(const std::vector<Landmark>& landmarks);
 std::string describeRun(const SlamResult& result, const ReplayState& replayed, const ReadStatistics& read,
                         double elapsed_s);
 
+/// Draws snapshot.png; a run without a picture is a run all the same: then false, with a warning. Throws
+/// RunError: a full disk.
+bool drawSnapshot(const CSemanticMap& map, const ObjectDatabase& database, const std::filesystem::path& png);
+
 }  // namespace roomgraph

@@ -22,9 +22,11 @@ TEST(BatchDisplays, ShowBarsAndClocks) {
 
 TEST(BatchDisplays, ReckonTheTimeLeftFromWhatWasDone) {
   // 3 done and two halves in 40 s: 10 s each. 10 - 2 from before - 4 = 4 left.
-  EXPECT_EQ(totalsLine({3, 0, 2, 10}, {{"a", 0.5, 1}, {"b", 0.5, 1}}, 40),
+  EXPECT_EQ(totalsLine({3, 0, 2, 10, 2, 0}, {{"a", 0.5, 1}, {"b", 0.5, 1}}, 40),
             "5 of 10 runs complete (2 from before); 2 running; 0:40, about 0:40 left");
   EXPECT_EQ(totalsLine({3, 1, 0, 4}, {}, 40), "3 of 4 runs complete, 1 failed; 0 running; 0:40");
+  EXPECT_EQ(totalsLine({0, 0, 0, 900, 40, 860}, {}, 40),
+            "0 of 900 runs complete; 40 running; 860 queued; 0:40");
 }
 
 TEST(BatchDisplays, WithoutATerminalEventsAreLinesAndNothingElse) {

@@ -39,8 +39,22 @@ TEST_F(JobFiles, SayWhatIsToRun) {
       "  - name: default\n"
       "  - {name: fast, config: fast.ini, set: [lidar.enabled=false, a.b=1], pose: \"K=0,0,1,0,0,0\"}\n"
       "limits: {jobs: 3, threads: 2, memory: 8 GB, time: 30 min, retries: 1}\n"
+      "split: 10 min\noverlap: 30 s\n"
+      "slurm: {partition: long, time: 4 h, memory: 8 GB, cpus: 2, options: [--account=lab, --nice], setup: "
+      "module "
+      "load x, poll: 5 s, patience: 2 min}\n"
       "keep: map\n"
       "evaluation: {trajectory: --interpolate --max-difference 0.1, map: none}\n");
+  EXPECT_EQ(jobs.split.length_s, 600);
+  EXPECT_EQ(jobs.split.overlap_s, 30);
+  EXPECT_EQ(jobs.slurm.partition, "long");
+  EXPECT_EQ(jobs.slurm.time_s, 4 * 3600);
+  EXPECT_EQ(jobs.slurm.memory_mb, 8000);
+  EXPECT_EQ(jobs.slurm.cpus, 2);
+  EXPECT_THAT(jobs.slurm.options, ElementsAre("--account=lab", "--nice"));
+  EXPECT_THAT(jobs.slurm.setup, ElementsAre("module load x"));
+  EXPECT_EQ(jobs.slurm.poll_s, 5);
+  EXPECT_EQ(jobs.slurm.patience_s, 120);
   ASSERT_EQ(jobs.inputs.size(), 5u);
   EXPECT_THAT(jobs.inputs[0].patterns, ElementsAre(folder.file("lab/*.rawlog").string()));
   EXPECT_TRUE(jobs.inputs[0].search_truth);
@@ -80,6 +94,10 @@ TEST_F(JobFiles, NameFileLineKeyAndCause) {
               HasSubstr("jobs.yaml:2: limits.jobs: is to be a whole number"));
   EXPECT_THAT(problem("inputs: [a]\nlimits: {jobs: 1, jobs: 2}\n"),
               HasSubstr("key 'jobs' stands here twice"));
+  EXPECT_THAT(
+      problem("inputs: [a]\nslurm:\n  options: [account=lab]\n"),
+      HasSubstr("jobs.yaml:3: slurm.options: 'account=lab' is no option; write it like --account=lab"));
+  EXPECT_THAT(problem("inputs: [a]\nslurm: {partitoin: x}\n"), HasSubstr("slurm: unknown key 'partitoin'"));
   EXPECT_THAT(problem("inputs: [a\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(problem("inputs: [a]\nkeep: most\n"),
               HasSubstr("jobs.yaml:2: keep: keep: 'most' is none of summary, map, all"));

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -35,22 +36,23 @@ BatchLock::~BatchLock() {
 
 BatchOutcome runBatch(const BatchPlan& plan, const fs::path& folder, const BatchProgram& program,
                       RunInspector& inspector, Engine& engine, const BatchView& view,
-                      const std::function<bool()>& interrupted) {
-  const BatchLock lock(folder);
+                      const std::function<bool()>& interrupted, const BatchLock&) {
   Catalogue catalogue = Catalogue::forWriting(folder / "catalogue.sqlite");
   catalogue.importFolder(folder / "runs");  // what a batch that was killed left behind
   return BatchAtWork(plan, folder, program, inspector, engine, view, catalogue).work(interrupted);
 }
 
-std::string describePlan(const BatchPlan& plan, const fs::path& folder, const BatchProgram& program,
+PlanInWords describePlan(const BatchPlan& plan, const fs::path& folder, const BatchProgram& program,
                          RunInspector& inspector) {
   std::optional<Catalogue> catalogue;
   if (fs::exists(folder / "catalogue.sqlite"))
     catalogue.emplace(Catalogue::forReading(folder / "catalogue.sqlite"));
   FileHashes hashes(catalogue ? &*catalogue : nullptr, nullptr);
   const RunPreparer preparer(plan, folder, program, inspector, hashes);
-  std::string text;
-  std::size_t needed = 0;
+  const MemoryForecast forecast(catalogue ? catalogue->pastCosts() : std::vector<PastCost>());
+  PlanInWords out;
+  std::string& text = out.text;
+  std::size_t& needed = out.needed;
   for (std::size_t i = 0; i < plan.inputs.size(); ++i)
     if (!preparer.isReady(i)) text += "simulate  " + plan.inputs[i].input.name + "\n";
   for (std::size_t run = 0; run < plan.runs.size(); ++run) {
@@ -69,14 +71,17 @@ std::string describePlan(const BatchPlan& plan, const fs::path& folder, const Ba
       for (const auto& step : prepared.task.evaluations) text += " " + step.report;
       text += prepared.task.evaluations.empty() ? " nothing, for want of truth\n" : "\n";
       needed += prepared.needed;
+      const RunInput& input = prepared.task.planned.input;
+      if (prepared.needed)
+        out.memory_mb = std::max(out.memory_mb, forecast.expected(input.sha256, input.bytes));
     } catch (const InputError& error) {
       text += "fail      " + name + ": " + error.what() + "\n";
     }
   }
-  return text + std::to_string(needed) + " of " + std::to_string(plan.runs.size()) +
-         " runs to do: " + std::to_string(plan.inputs.size()) + " inputs, " +
-         std::to_string(plan.variants.size()) + " variants, " + std::to_string(jobsOf(plan.jobs.limits)) +
-         " at once\n";
+  text += std::to_string(needed) + " of " + std::to_string(plan.runs.size()) +
+          " runs to do: " + std::to_string(plan.inputs.size()) + " inputs, " +
+          std::to_string(plan.variants.size()) + " variants\n";
+  return out;
 }
 
 }  // namespace roomgraph

@@ -2,7 +2,7 @@
 // Order of a batch: inputs first, each run when its input and its detections are there.
 #include "batch_at_work.h"
 
-#include <csignal>
+#include <algorithm>
 #include <thread>
 
 #include "roomgraph/core/errors.h"
@@ -15,26 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kLookAround = std::chrono::milliseconds(20);
-// A simulated recording is written as it comes; its renderer is what takes memory.
-constexpr double kSimulation_mb = 400;
-
-std::string oneDecimal(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
-// The input, the configuration and a run that takes too long will be no better next time.
-bool mayGoBetter(const RunResult& result) {
-  return result.status == "failed" && (result.exit_code == 1 || result.exit_code > 128) &&
-         !result.reason.starts_with("over its time limit");
-}
-
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw RunError(folder.string() + ": cannot be made: " + error.message());
-}
 
 }  // namespace
 
@@ -46,61 +26,17 @@ BatchAtWork::BatchAtWork(const BatchPlan& plan, const fs::path& folder, const Ba
       engine_(engine),
       catalogue_(catalogue),
       hashes_(&catalogue, &catalogue),
-      preparer_(plan, folder, program, inspector, hashes_),
+      preparer_(plan_, folder, program, inspector, hashes_),
       forecast_(catalogue.pastCosts()),
       display_(view) {
   for (std::size_t run = 0; run < plan.runs.size(); ++run) waiting_.push_back(run);
+  // What is under way already comes first: it may be computing detections that others wait for.
+  std::stable_partition(waiting_.begin(), waiting_.end(),
+                        [this](std::size_t run) { return engine_.remembers(commandOf(run)); });
 }
 
-void BatchAtWork::problem(const std::string& name, const std::string& reason) {
-  outcome_.problems.push_back(name + ": " + reason);
-  display_.event("failed    " + name + ": " + reason);
-}
-
-void BatchAtWork::record(const RunResult& result, const fs::path& folder) {
-  catalogue_.import(result, stampOf(folder / "result.json"));
-}
-
-// What never ran has a result too: the catalogue knows it and why.
-void BatchAtWork::failWithoutRun(std::size_t run, int exit_code, const std::string& reason) {
-  RunResult result = preparer_.planned(run);
-  result.status = "failed";
-  result.reason = reason;
-  result.exit_code = exit_code;
-  result.started = timeStamp();
-  result.keep = toText(plan_.jobs.keep);
-  result.failures = failures_[run];
-  result.failures.push_back({result.started, exit_code, reason, 0});
-  const fs::path folder = preparer_.folderOf(run);
-  makeFolder(folder);
-  writeRunResult(result, folder / "result.json");
-  record(result, folder);
-  ++outcome_.failed;
-  problem(result.name, reason);
-}
-
-BatchAtWork::Step BatchAtWork::tryInput(std::size_t input) {
-  if (ready_inputs_.contains(input)) return Step::kOver;
-  if (inputs_underway_.contains(input)) return Step::kWaits;
-  if (preparer_.isReady(input)) {
-    ready_inputs_.insert(input);
-    return Step::kOver;
-  }
-  if (!engine_.accepts(kSimulation_mb)) return Step::kFull;
-  preparer_.markReady(input, false);
-  const fs::path folder = preparer_.folderOfInput(input);
-  makeFolder(folder);
-  EngineTask task{
-      taskOfInput(input), {program_.file.string(), "simulate"}, folder.string() + ".log", kSimulation_mb};
-  const auto& words = plan_.inputs[input].simulate;
-  task.command.insert(task.command.end(), words.begin(), words.end());
-  task.command.insert(task.command.end(), {"-o", folder.string(), "--quiet"});
-  std::error_code none;
-  fs::remove(task.log, none);
-  engine_.start(task);
-  inputs_underway_[input] = display_.elapsed();
-  display_.event("simulate  " + plan_.inputs[input].input.name);
-  return Step::kWaits;
+std::vector<std::string> BatchAtWork::commandOf(std::size_t run) const {
+  return {program_.file.string(), "batch-task", (preparer_.folderOf(run) / "task.json").string()};
 }
 
 BatchAtWork::Step BatchAtWork::tryRun(std::size_t run) {
@@ -110,6 +46,13 @@ BatchAtWork::Step BatchAtWork::tryRun(std::size_t run) {
     return Step::kOver;
   }
   if (const Step step = tryInput(input); step != Step::kOver) return step;
+  if (plan_.jobs.split.length_s > 0 && !plan_.runs[run].span && !split_.contains(run)) split(run);
+  if (waitsForPieces(run)) return Step::kWaits;
+  for (const auto piece : plan_.runs[run].pieces)
+    if (const std::string& reason = over_.at(piece); !reason.empty()) {
+      failWithoutRun(run, 1, "its piece " + plan_.runs[piece].name + " failed: " + reason);
+      return Step::kOver;
+    }
   try {
     if (!prepared_.contains(run)) prepared_[run] = preparer_.prepare(run);
   } catch (const Error& error) {
@@ -119,17 +62,48 @@ BatchAtWork::Step BatchAtWork::tryRun(std::size_t run) {
   PreparedRun& prepared = prepared_[run];
   if (!prepared.needed) {
     ++outcome_.skipped;
+    over_[run] = "";
     return Step::kOver;
+  }
+  if (engine_.remembers(commandOf(run))) {
+    takeUp(run);
+    return Step::kStarted;
   }
   const bool share = !prepared.detections.empty() && prepared.task.run_again;
   if (share && recorders_.contains(prepared.detections.string())) return Step::kWaits;
-  const auto& recording = prepared.task.planned.input;
-  const double memory =
-      forecast_.expected(recording.sha256, recording.bytes) * std::max(1.0, more_memory_[run]);
-  if (!engine_.accepts(memory)) return Step::kFull;
+  if (!engine_.accepts(memoryOf(run, prepared.task.planned.input))) return Step::kFull;
   launch(run, std::move(prepared));
   prepared_.erase(run);
   return Step::kStarted;
+}
+
+double BatchAtWork::memoryOf(std::size_t run, const RunInput& recording) {
+  return forecast_.expected(recording.sha256, recording.bytes) * std::max(1.0, more_memory_[run]);
+}
+
+// A run that a batch before this one started, and that the engine still knows. When it would be started
+// otherwise now, it is ended and waited for: two are not to write into one folder.
+void BatchAtWork::takeUp(std::size_t run) {
+  PreparedRun now = std::move(prepared_.at(run));
+  prepared_.erase(run);
+  Underway under{now, display_.elapsed(), true};
+  try {
+    RunTask before = readRunTask(now.task.folder / "task.json");
+    const RunResult &was = before.planned, &is = now.task.planned;
+    under.outdated = was.key != is.key || was.evaluation_key != is.evaluation_key ||
+                     before.keep != now.task.keep || before.run_again != now.task.run_again;
+    const bool records =
+        std::find(before.run.begin(), before.run.end(), "--save-detections") != before.run.end();
+    if (!under.outdated && records) recorders_[now.detections.string()] = run;
+    failures_[run] = was.failures;
+    under.run.task = std::move(before);
+  } catch (const InputError&) {  // it has ended meanwhile
+  }
+  engine_.takeUp(taskOfRun(run), commandOf(run));
+  if (under.outdated) engine_.cancel(taskOfRun(run));
+  display_.event((under.outdated ? "cancel    " : "found     ") + under.run.task.planned.name +
+                 (under.outdated ? " (it was started before something changed)" : " (started before)"));
+  underway_[run] = std::move(under);
 }
 
 void BatchAtWork::launch(std::size_t run, PreparedRun prepared) {
@@ -145,17 +119,11 @@ void BatchAtWork::launch(std::size_t run, PreparedRun prepared) {
   auto& earlier = failures_[run];
   prepared.task.planned.failures.insert(prepared.task.planned.failures.end(), earlier.begin(), earlier.end());
   makeFolder(prepared.task.folder);
-  const fs::path file = prepared.task.folder / "task.json";
   std::error_code none;
   fs::remove(prepared.task.folder / "result.json", none);
-  writeRunTask(prepared.task, file);
-  const auto& recording = prepared.task.planned.input;
-  const double memory =
-      forecast_.expected(recording.sha256, recording.bytes) * std::max(1.0, more_memory_[run]);
-  engine_.start({run,
-                 {program_.file.string(), "batch-task", file.string()},
-                 prepared.task.folder / "task.log",
-                 memory});
+  writeRunTask(prepared.task, prepared.task.folder / "task.json");
+  engine_.start({taskOfRun(run), commandOf(run), prepared.task.folder / "task.log",
+                 memoryOf(run, prepared.task.planned.input), std::max(1.0, more_memory_[run])});
   display_.event(std::string(prepared.task.run_again ? "start     " : "evaluate  ") +
                  prepared.task.planned.name + " (" + prepared.why + ")");
   underway_[run] = {std::move(prepared), display_.elapsed()};
@@ -171,97 +139,42 @@ void BatchAtWork::startAll() {
   }
 }
 
-void BatchAtWork::takeInInput(std::size_t input, int exit_code) {
-  inputs_underway_.erase(input);
-  const std::string& name = plan_.inputs[input].input.name;
-  if (exit_code == 0) {
-    preparer_.markReady(input, true);
-    ready_inputs_.insert(input);
-    display_.event("simulated " + name);
-  } else if (!outcome_.interrupted) {
-    failed_inputs_[input] = "its input " + name + " could not be simulated (exit code " +
-                            std::to_string(exit_code) + "): see " + preparer_.folderOfInput(input).string() +
-                            ".log";
-  }
-}
-
-bool BatchAtWork::tryAgain(std::size_t run, const RunResult& result) {
-  const auto attempts = failures_[run].size();
-  if (outcome_.interrupted || !mayGoBetter(result) ||
-      attempts > static_cast<std::size_t>(plan_.jobs.limits.retries))
-    return false;
-  if (result.exit_code == 128 + SIGKILL) more_memory_[run] = 2 * std::max(1.0, more_memory_[run]);
-  waiting_.push_back(run);
-  display_.event("again     " + result.name + ": " + result.reason);
-  return true;
-}
-
-void BatchAtWork::takeInRun(std::size_t run, int exit_code) {
-  Underway under = std::move(underway_.at(run));
-  underway_.erase(run);
-  std::erase_if(recorders_, [run](const auto& recorder) { return recorder.second == run; });
-  const fs::path& folder = under.run.task.folder;
-  std::error_code none;
-  auto result = resultIn(folder);
-  if (!result) {  // the process that carries the task out was killed itself
-    result = under.run.task.planned;
-    result->status = outcome_.interrupted ? "interrupted" : "failed";
-    result->exit_code = exit_code;
-    result->reason = exit_code > 128 ? "ended by signal " + std::to_string(exit_code - 128)
-                                     : "no result; see " + (folder / "task.log").string();
-    result->wall_s = display_.elapsed() - under.started_s;
-    if (!outcome_.interrupted)
-      result->failures.push_back({timeStamp(), exit_code, result->reason, result->wall_s});
-    writeRunResult(*result, folder / "result.json");
-  } else {
-    fs::remove(folder / "task.log", none);
-  }
-  failures_[run] = result->failures;
-  record(*result, folder);
-  if (result->complete()) {
-    ++outcome_.done;
-    outcome_.run_s += display_.elapsed() - under.started_s;
-    forecast_.add({result->input.sha256, result->input.bytes, result->peak_memory_mb, result->wall_s});
-    display_.event("complete  " + result->name + ": " + oneDecimal(result->wall_s) + " s, " +
-                   oneDecimal(result->peak_memory_mb) + " MB" +
-                   (result->reason.empty() ? "" : "; warning: " + result->reason));
-    if (!result->reason.empty()) outcome_.problems.push_back(result->name + ": " + result->reason);
-  } else if (result->status == "interrupted") {
-    ++outcome_.left;
-  } else if (!tryAgain(run, *result)) {
-    ++outcome_.failed;
-    problem(result->name, result->reason);
-  }
-}
-
-void BatchAtWork::takeIn(const EndedTask& ended) {
-  if (ended.id >= plan_.runs.size())
-    takeInInput(ended.id - plan_.runs.size(), ended.exit_code);
-  else
-    takeInRun(ended.id, ended.exit_code);
-}
-
 void BatchAtWork::draw() {
+  if (!display_.isDue()) return;
+  constexpr std::size_t kShown =
+      20;  // of hundreds on a cluster nobody reads more, and each costs a look at a file
   std::vector<ShownTask> running;
+  ShownTotals totals{outcome_.done, outcome_.failed, outcome_.skipped, plan_.runs.size()};
+  const auto show = [&](std::size_t id, double started_s, const auto& nameAndShare) {
+    if (engine_.isQueued(id)) {
+      ++totals.queued;
+      return;
+    }
+    ++totals.running;
+    if (running.size() >= kShown) return;
+    const auto [name, share] = nameAndShare();
+    running.push_back({name, share, display_.elapsed() - started_s});
+  };
   for (const auto& [input, started] : inputs_underway_)
-    running.push_back({plan_.inputs[input].input.name + " (simulated)", -1, display_.elapsed() - started});
+    show(input, started,
+         [&, i = input] { return std::pair(plan_.inputs[i].input.name + " (simulated)", -1.0); });
   for (const auto& [run, under] : underway_)
-    running.push_back({under.run.task.planned.name,
-                       readProgress(under.run.task.folder / "progress").value_or(0),
-                       display_.elapsed() - under.started_s});
-  display_.draw({outcome_.done, outcome_.failed, outcome_.skipped, plan_.runs.size()}, running);
+    show(taskOfRun(run), under.started_s, [&task = under.run.task] {
+      return std::pair(task.planned.name, readProgress(task.folder / "progress").value_or(0));
+    });
+  display_.draw(totals, running);
 }
 
 BatchOutcome BatchAtWork::work(const std::function<bool()>& interrupted) {
   while (!waiting_.empty() || !underway_.empty() || !inputs_underway_.empty()) {
     if (!outcome_.interrupted && interrupted()) {
       outcome_.interrupted = true;
-      display_.event("interrupted: what runs is told to end; once more kills it");
-      engine_.interrupt();
+      display_.event(engine_.interrupt());
     }
     if (!outcome_.interrupted) startAll();
     if (outcome_.interrupted && underway_.empty() && inputs_underway_.empty()) break;
     for (const auto& ended : engine_.ended()) takeIn(ended);
+    for (const auto& line : engine_.news()) display_.event(line);
     draw();
     std::this_thread::sleep_for(kLookAround);
   }

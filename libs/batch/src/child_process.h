@@ -22,7 +22,8 @@ struct ChildEnd {
 class ChildProcess {
  public:
   /// `command[0]` is the program's path; no shell. What it prints is appended to `log`. `own_group`: signals
-  /// of the terminal do not reach it. Throws RunError: cannot be started.
+  /// of the terminal do not reach it; otherwise SIGTERM does not end it: a queue sends that to all processes
+  /// of a job, and only the parent is to tell its child, once, by SIGINT. Throws RunError: cannot be started.
   ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& log, bool own_group);
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept : pid_(other.pid_) { other.pid_ = 0; }

@@ -50,7 +50,8 @@ std::string totalsLine(const ShownTotals& totals, const std::vector<ShownTask>& 
       std::to_string(totals.done + totals.skipped) + " of " + std::to_string(totals.all) + " runs complete";
   if (totals.skipped > 0) line += " (" + std::to_string(totals.skipped) + " from before)";
   if (totals.failed > 0) line += ", " + std::to_string(totals.failed) + " failed";
-  line += "; " + std::to_string(running.size()) + " running; " + clockText(elapsed_s);
+  line += "; " + std::to_string(totals.running) + " running; " +
+          (totals.queued > 0 ? std::to_string(totals.queued) + " queued; " : "") + clockText(elapsed_s);
   if (worked > 0.02 && left > 0) line += ", about " + clockText(elapsed_s * left / worked) + " left";
   return line;
 }
@@ -71,10 +72,14 @@ void BatchDisplay::event(const std::string& line) {
   last_ = {};
 }
 
+bool BatchDisplay::isDue() const {
+  return view_.out && view_.terminal &&
+         std::chrono::steady_clock::now() - last_ >= std::chrono::milliseconds(200);
+}
+
 void BatchDisplay::draw(const ShownTotals& totals, const std::vector<ShownTask>& running) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!view_.out || !view_.terminal || now - last_ < std::chrono::milliseconds(200)) return;
-  last_ = now;
+  if (!isDue()) return;
+  last_ = std::chrono::steady_clock::now();
   std::size_t name_width = 8;
   for (const auto& task : running) name_width = std::max(name_width, task.name.size());
   const std::size_t width = terminalWidth() - 1, room = width > 50 ? width - 50 : 8;

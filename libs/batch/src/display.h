@@ -20,6 +20,7 @@ struct ShownTask {
 /// Counts of the runs of a batch.
 struct ShownTotals {
   std::size_t done = 0, failed = 0, skipped = 0, all = 0;
+  std::size_t running = 0, queued = 0;  ///< queued: in a queue, not begun
 };
 
 /// "1:02:03" or "2:03".
@@ -40,7 +41,8 @@ class BatchDisplay {
 
   /// Stays above the display.
   void event(const std::string& line);
-  /// Drawn five times a second at most; nothing without a terminal.
+  /// Whether draw() would draw now: five times a second at most, and on a terminal only.
+  bool isDue() const;
   void draw(const ShownTotals& totals, const std::vector<ShownTask>& running);
   double elapsed() const;
 

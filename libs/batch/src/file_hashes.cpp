@@ -9,17 +9,24 @@
 
 namespace roomgraph {
 
-std::string FileHashes::of(const std::filesystem::path& file) {
+bool FileHashes::knows(const std::filesystem::path& file) {
   const std::string stamp = stampOf(file);
   auto& known = known_[file.string()];
-  if (!stamp.empty() && known.first == stamp) return known.second;
-  auto hash = catalogue_ ? catalogue_->checksum(file, stamp) : std::nullopt;
-  if (!hash || stamp.empty()) {
-    hash = sha256OfFile(file);
-    if (memory_) memory_->rememberChecksum(file, stamp, *hash);
-  }
-  known = {stamp, *hash};
-  return *hash;
+  if (stamp.empty() || known.first == stamp) return !stamp.empty();
+  const auto hash = catalogue_ ? catalogue_->checksum(file, stamp) : std::nullopt;
+  if (hash) known = {stamp, *hash};
+  return hash.has_value();
+}
+
+void FileHashes::remember(const std::filesystem::path& file, const std::string& sha256) {
+  const std::string stamp = stampOf(file);
+  known_[file.string()] = {stamp, sha256};
+  if (memory_ && !stamp.empty()) memory_->rememberChecksum(file, stamp, sha256);
+}
+
+std::string FileHashes::of(const std::filesystem::path& file) {
+  if (!knows(file)) remember(file, sha256OfFile(file));
+  return known_[file.string()].second;
 }
 
 std::string FileHashes::of(const std::vector<std::filesystem::path>& files) {

@@ -19,6 +19,10 @@ class FileHashes {
   FileHashes(const Catalogue* known, Catalogue* memory) : catalogue_(known), memory_(memory) {}
   /// Throws InputError: cannot be read.
   std::string of(const std::filesystem::path& file);
+  /// Whether it is known without reading the file.
+  bool knows(const std::filesystem::path& file);
+  /// What somebody else has reckoned.
+  void remember(const std::filesystem::path& file, const std::string& sha256);
   /// Of several files together.
   std::string of(const std::vector<std::filesystem::path>& files);
   /// Of a recording; names and sizes of its external images count too.

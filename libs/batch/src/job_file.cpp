@@ -2,6 +2,7 @@
 // The keys of a job file.
 #include "roomgraph/batch/job_file.h"
 
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -128,6 +129,25 @@ BatchLimits limitsOf(const YamlPlace& yaml) {
   return out;
 }
 
+SlurmSettings slurmOf(const YamlPlace& yaml) {
+  SlurmSettings out;
+  for (const auto& [key, value] :
+       yaml.entries({"partition", "time", "memory", "cpus", "options", "setup", "poll", "patience"})) {
+    if (key == "partition") out.partition = value.text();
+    if (key == "time") out.time_s = value.as(secondsOf);
+    if (key == "memory") out.memory_mb = value.as(megabytesOf);
+    if (key == "cpus") out.cpus = value.wholeNumber();
+    if (key == "options") out.options = value.texts();
+    if (key == "setup") out.setup = value.texts();
+    if (key == "poll") out.poll_s = value.as(secondsOf);
+    if (key == "patience") out.patience_s = value.as(secondsOf);
+    for (const auto& option : out.options)
+      if (!option.starts_with("-") || option.find('\n') != std::string::npos)
+        value.fail("'" + option + "' is no option; write it like --account=lab");
+  }
+  return out;
+}
+
 std::vector<std::string> wordsOf(const YamlPlace& yaml) {
   std::vector<std::string> out;
   for (const auto& text : yaml.texts()) {
@@ -143,11 +163,15 @@ JobFile readJobFile(const fs::path& file) {
   const YamlPlace yaml = readYaml(file.string());
   const fs::path folder = fs::absolute(file).parent_path();
   JobFile out;
-  for (const auto& [key, value] : yaml.entries({"inputs", "variants", "limits", "keep", "evaluation"})) {
+  for (const auto& [key, value] :
+       yaml.entries({"inputs", "variants", "limits", "split", "overlap", "slurm", "keep", "evaluation"})) {
     if (key == "inputs")
       for (const auto& item : value.items()) out.inputs.push_back(inputOf(item, folder));
     if (key == "variants") out.variants = variantsOf(value, folder);
     if (key == "limits") out.limits = limitsOf(value);
+    if (key == "split") out.split.length_s = value.as(secondsOf);
+    if (key == "overlap") out.split.overlap_s = value.as(secondsOf);
+    if (key == "slurm") out.slurm = slurmOf(value);
     if (key == "keep") out.keep = value.as(keepFromText);
     if (key == "evaluation")
       for (const auto& [kind, words] :
@@ -156,6 +180,13 @@ JobFile readJobFile(const fs::path& file) {
   }
   if (out.inputs.empty()) yaml.fail("has no inputs");
   return out;
+}
+
+void requireSensibleSplit(const BatchSplit& split) {
+  if (split.length_s > 0 && split.length_s < 3 * split.overlap_s)
+    throw ConfigError("pieces of " + std::to_string(std::lround(split.length_s)) + " s that overlap by " +
+                      std::to_string(std::lround(split.overlap_s)) +
+                      " s: they have to be three times as long, at least (--split, --overlap)");
 }
 
 JobFile jobsOfRecordings(const std::vector<std::string>& patterns) {

@@ -48,7 +48,7 @@ class LocalEngine : public Engine {
     std::vector<RunningChild> still;
     for (auto& child : running_) {
       if (const auto end = child.process.ended())
-        out.push_back({child.id, end->exit_code});
+        out.push_back({child.id, end->exit_code, "", false, {}});
       else
         still.push_back(std::move(child));
     }
@@ -56,8 +56,9 @@ class LocalEngine : public Engine {
     return out;
   }
 
-  void interrupt() override {
+  std::string interrupt() override {
     for (const auto& child : running_) child.process.signal(SIGINT);
+    return "interrupted: what runs is told to end; once more kills it";
   }
 
  private:

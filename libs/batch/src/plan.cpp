@@ -122,7 +122,7 @@ BatchPlan planBatch(const JobFile& jobs, const fs::path& folder) {
   nameRecordings(plan.inputs);
   for (std::size_t i = 0; i < plan.inputs.size(); ++i)
     for (std::size_t v = 0; v < plan.variants.size(); ++v)
-      plan.runs.push_back({plan.inputs[i].input.name + "--" + plan.variants[v].name, i, v});
+      plan.runs.push_back({plan.inputs[i].input.name + "--" + plan.variants[v].name, i, v, {}, {}});
   return plan;
 }
 

@@ -2,6 +2,9 @@
 // Keys compared with those of the last result; words of the command.
 #include "preparation.h"
 
+#include <algorithm>
+
+#include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/text_file.h"
@@ -17,7 +20,14 @@ constexpr const char* kReadyFile = "input.key";
 
 }  // namespace
 
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw RunError(folder.string() + ": cannot be made: " + error.message());
+}
+
 std::optional<RunResult> resultIn(const fs::path& folder) {
+  lookInto(folder);
   try {
     return readRunResult(folder / "result.json");
   } catch (const InputError&) {  // no whole run is there
@@ -66,9 +76,14 @@ void RunPreparer::markReady(std::size_t input, bool ready) const {
 
 RunResult RunPreparer::planned(std::size_t run) const {
   RunResult out;
-  out.name = plan_.runs[run].name;
-  out.variant = plan_.variants[plan_.runs[run].variant].name;
-  out.input = plan_.inputs[plan_.runs[run].input].input;
+  const PlannedRun& place = plan_.runs[run];
+  out.name = place.name;
+  out.variant = plan_.variants[place.variant].name;
+  out.input = plan_.inputs[place.input].input;
+  if (place.span) {  // in tables, pieces are not to be taken for whole recordings
+    out.variant += ".piece";
+    out.input.name += place.name.substr(place.name.rfind('.'));
+  }
   out.version = program_.version;
   out.revision = program_.revision;
   out.program = program_hash_;
@@ -97,8 +112,42 @@ std::vector<std::string> RunPreparer::runWords(std::size_t run, const fs::path& 
   if (!variant.config.empty()) words.insert(words.end(), {"--config", variant.config.string()});
   for (const auto& setting : variant.overrides) words.insert(words.end(), {"--set", setting});
   for (const auto& pose : variant.poses) words.insert(words.end(), {"--pose", pose});
+  if (const auto& span = plan_.runs[run].span)
+    words.insert(words.end(),
+                 {"--from", std::to_string(span->from_s), "--until", std::to_string(span->until_s)});
   if (plan_.jobs.keep == Keep::kSummary) words.insert(words.end(), {"--no-snapshot", "--no-report"});
   return words;
+}
+
+std::vector<std::string> RunPreparer::joinWords(const PlannedRun& run, const fs::path& folder) const {
+  std::vector<std::string> words{"map", "join"};
+  for (const auto piece : run.pieces) words.push_back(folderOf(piece).string());
+  words.insert(words.end(), {"-o", folder.string()});
+  if (plan_.jobs.keep == Keep::kSummary) words.emplace_back("--no-snapshot");
+  return words;
+}
+
+// A piece keeps what it is joined by, and is judged by its path only: what it did not see is not missing.
+// What is joined changes with its pieces, and has no files for the evaluation of boxes.
+void RunPreparer::fillIn(const PlannedRun& run, const RunNeeds& needs, PreparedRun& out) const {
+  RunResult& result = out.task.planned;
+  const std::string shared = detectionKey(result.input.sha256, needs, program_hash_, hashes_);
+  if (!shared.empty() && run.pieces.empty())
+    out.detections = folder_ / "detections" / (shared.substr(0, 24) + ".rawlog");
+  if (run.span) {
+    const std::string span = std::to_string(run.span->from_s) + " " + std::to_string(run.span->until_s);
+    result.key = sha256Of(result.key + " " + span);
+    if (!shared.empty())
+      out.detections = folder_ / "detections" / (sha256Of(shared + " " + span).substr(0, 24) + ".rawlog");
+    out.task.keep = std::max(out.task.keep, Keep::kMap);
+    std::erase_if(out.task.evaluations,
+                  [](const auto& step) { return step.report != "trajectory" && step.report != "relations"; });
+  }
+  if (run.pieces.empty()) return;
+  std::string keys = "joined " + program_hash_;
+  for (const auto piece : run.pieces) keys += " " + readRunResult(folderOf(piece) / "result.json").key;
+  result.key = sha256Of(keys);
+  out.task.run = joinWords(run, out.task.folder);
 }
 
 PreparedRun RunPreparer::prepare(std::size_t run) const {
@@ -114,15 +163,15 @@ PreparedRun RunPreparer::prepare(std::size_t run) const {
   const RunNeeds needs = inspector_.needsOf(variant, rawlog);
   result.parameters = needs.parameters;
   result.key = runKey(result.input.sha256, needs, variant, program_hash_, hashes_);
-  const TruthFiles truth = input.search_truth ? truthBeside(rawlog) : input.truth;
+  TruthFiles truth = input.search_truth ? truthBeside(rawlog) : input.truth;
+  if (!place.pieces.empty()) truth.erase("boxes");  // they are compared with files that only a run leaves
   result.evaluation_key = evaluationKey(truth, plan_.jobs, program_hash_, hashes_);
   out.task.folder = folderOf(run);
   out.task.run = runWords(run, rawlog);
   out.task.evaluations = evaluationSteps(truth, out.task.folder, plan_.jobs);
   out.task.time_limit_s = plan_.jobs.limits.time_s;
   out.task.keep = plan_.jobs.keep;
-  const std::string shared = detectionKey(result.input.sha256, needs, program_hash_, hashes_);
-  if (!shared.empty()) out.detections = folder_ / "detections" / (shared.substr(0, 24) + ".rawlog");
+  fillIn(place, needs, out);
   decide(out);
   return out;
 }

@@ -10,6 +10,12 @@
 
 namespace roomgraph {
 
+/// On a network file system, files that others made are seen when their folder is opened anew.
+inline void lookInto(const std::filesystem::path& folder) {
+  std::error_code none;
+  std::filesystem::directory_iterator(folder, none);
+}
+
 /// A run that can be started.
 struct PreparedRun {
   RunTask task;
@@ -33,7 +39,16 @@ class RunPreparer {
   /// To be called when it has been made, or is about to be.
   void markReady(std::size_t input, bool ready) const;
 
-  /// Throws Error: what cannot be run.
+  /// Where the measure of a recording is remembered, and what it says.
+  std::filesystem::path measureFileOf(std::size_t input) const {
+    return folder_ / "inputs" / (plan_.inputs[input].input.name + ".measure");
+  }
+  std::optional<RecordingMeasure> measureOf(std::size_t input) const {
+    lookInto(folder_ / "inputs");
+    return readMeasure(measureFileOf(input), recordingOf(input));
+  }
+
+  /// Of a run that is joined from pieces: once they are complete. Throws Error: what cannot be run.
   PreparedRun prepare(std::size_t run) const;
   /// Throws RunError: the program is not the one any more with which the batch began.
   void requireSameProgram() const;
@@ -50,6 +65,8 @@ class RunPreparer {
  private:
   void decide(PreparedRun& run) const;
   std::vector<std::string> runWords(std::size_t run, const std::filesystem::path& rawlog) const;
+  std::vector<std::string> joinWords(const PlannedRun& run, const std::filesystem::path& folder) const;
+  void fillIn(const PlannedRun& run, const RunNeeds& needs, PreparedRun& out) const;
 
   const BatchPlan& plan_;
   std::filesystem::path folder_;
@@ -61,5 +78,8 @@ class RunPreparer {
 
 /// The result in a run's folder; nothing: there is none that can be read.
 std::optional<RunResult> resultIn(const std::filesystem::path& folder);
+
+/// Throws RunError.
+void makeFolder(const std::filesystem::path& folder);
 
 }  // namespace roomgraph

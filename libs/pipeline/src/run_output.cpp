@@ -6,7 +6,6 @@
 
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "graph_file.h"
 #include "roomgraph/mapping/map_files.h"
@@ -239,18 +238,22 @@ void RunOutput::write(const std::string& name, const std::string& text) const {
   writeFileAtomically(files_.pending(name), text);
 }
 
+// What grows with the recording is not made in memory first.
+void RunOutput::stream(const std::string& name, const std::function<void(std::ostream&)>& text) const {
+  OutputFile file(files_.pending(name));
+  text(file);
+  file.finish();
+}
+
 void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, const ReadStatistics& read,
                             const ReplayState& replayed, const RunOrigin& origin) {
   for (OutputFile* file : {&live_, &detections_, &associations_}) file->finish();
-  std::ostringstream robot, camera, associations, timings;
-  writeTum(robot, result.world_from_robot);
-  writeTum(camera, result.world_from_camera);
-  for (const auto& frame : slam.objects().frames())
-    associations << textOf(associationsJson(frame.t, frame.decisions)) << '\n';
-  writeTimings(timings, slam.times());
-  write("trajectory.tum", robot.str());
-  write("trajectory_camera.tum", camera.str());
-  write("associations.jsonl", associations.str());
+  stream("trajectory.tum", [&](std::ostream& out) { writeTum(out, result.world_from_robot); });
+  stream("trajectory_camera.tum", [&](std::ostream& out) { writeTum(out, result.world_from_camera); });
+  stream("associations.jsonl", [&](std::ostream& out) {
+    for (const auto& frame : slam.objects().frames())
+      out << textOf(associationsJson(frame.t, frame.decisions)) << '\n';
+  });
   const LandmarksOrigin where = originOf(result, origin);
   std::vector<Landmark> candidates;
   for (const auto& candidate : result.candidates) candidates.push_back(candidate.landmark);
@@ -262,7 +265,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   saveGraph(slam, result.map.planar, files_.pending("graph.g2o"));
   write("config.ini", slam.setup().effective_config);
   write("objects.ini", slam.setup().objects);
-  write("timings.csv", timings.str());
+  stream("timings.csv", [&](std::ostream& out) { writeTimings(out, slam.times()); });
   write("views.jsonl", views_.text(slam.objects().frames()));
   write("lost.jsonl", lost_.text());
   write("summary.json", textOf(summaryJson(slam, result, read, replayed, origin), 2) + "\n");

@@ -54,18 +54,6 @@ struct BatchOutcome {
   std::vector<std::string> problems;  ///< one line each
 };
 
-/// Carries the plan out in `folder`: inputs are simulated, runs done that are not complete or not the same
-/// any more, detections shared, results put into FOLDER/catalogue.sqlite. One batch at a time in a folder.
-/// Throws RunError: the folder cannot be written, or another batch is at work in it; ConfigError: a variant
-/// is wrong.
-BatchOutcome runBatch(const BatchPlan& plan, const std::filesystem::path& folder, const BatchProgram& program,
-                      RunInspector& inspector, Engine& engine, const BatchView& view,
-                      const std::function<bool()>& interrupted);
-
-/// What runBatch() would do, in lines; simulates and runs nothing.
-std::string describePlan(const BatchPlan& plan, const std::filesystem::path& folder,
-                         const BatchProgram& program, RunInspector& inspector);
-
 /// Lock of a batch folder, held while it exists. Throws RunError: another process has it, or no folder can be
 /// made.
 class BatchLock {
@@ -78,5 +66,24 @@ class BatchLock {
  private:
   int descriptor_ = -1;
 };
+
+/// Carries the plan out in `folder`: inputs are simulated, runs done that are not complete or not the same
+/// any more, detections shared, results put into FOLDER/catalogue.sqlite. `lock`: of the folder.
+/// Throws RunError: the folder cannot be written, or the engine starts nothing; ConfigError: a variant is
+/// wrong.
+BatchOutcome runBatch(const BatchPlan& plan, const std::filesystem::path& folder, const BatchProgram& program,
+                      RunInspector& inspector, Engine& engine, const BatchView& view,
+                      const std::function<bool()>& interrupted, const BatchLock& lock);
+
+/// What runBatch() would do.
+struct PlanInWords {
+  std::string text;        ///< lines
+  std::size_t needed = 0;  ///< runs to do
+  double memory_mb = 0;    ///< that one of them is expected to need, at most
+};
+
+/// Simulates and runs nothing.
+PlanInWords describePlan(const BatchPlan& plan, const std::filesystem::path& folder,
+                         const BatchProgram& program, RunInspector& inspector);
 
 }  // namespace roomgraph

@@ -44,6 +44,24 @@ struct BatchLimits {
   int retries = 0;       ///< of a run that failed for no fault of its input or configuration
 };
 
+/// Long recordings in pieces that overlap, run side by side and are joined.
+struct BatchSplit {
+  double length_s = 0;    ///< of a piece, about; 0: recordings are run whole
+  double overlap_s = 20;  ///< of a piece with the one before it
+};
+
+/// How array jobs are asked for (`--engine slurm`).
+struct SlurmSettings {
+  std::string partition;             ///< empty: the default one
+  double time_s = 0;                 ///< of a job; 0: after the limit of a run
+  double memory_mb = 0;              ///< of a job; 0: what its run is expected to need
+  int cpus = 0;                      ///< of a job; 0: the threads of a run
+  std::vector<std::string> options;  ///< of sbatch, like "--account=lab"
+  std::vector<std::string> setup;    ///< lines of shell before the program starts
+  double poll_s = 10;                ///< between two looks at the queue
+  double patience_s = 60;            ///< for files of a job that has left the queue, on a slow shared folder
+};
+
 /// What a run leaves: figures; also its map and report; everything.
 enum class Keep { kSummary, kMap, kAll };
 Keep keepFromText(const std::string& text);  ///< Throws ConfigError that lists the names.
@@ -53,6 +71,8 @@ struct JobFile {
   std::vector<InputEntry> inputs;
   std::vector<BatchVariant> variants{BatchVariant{}};
   BatchLimits limits;
+  BatchSplit split;
+  SlurmSettings slurm;
   Keep keep = Keep::kAll;
   /// Further words for `evaluate KIND`; "none": that evaluation is left out.
   std::map<std::string, std::vector<std::string>> evaluation;
@@ -60,6 +80,9 @@ struct JobFile {
 
 /// trajectory (of the robot), camera_trajectory, objects, boxes, map, relations.
 extern const std::vector<std::string> kTruthKinds;
+
+/// Throws ConfigError: pieces that are not at least three times as long as what they have in common.
+void requireSensibleSplit(const BatchSplit& split);
 
 /// Reads a job file (docs/batch.md); relative names in it are in its folder, those of --set excepted. Throws
 /// InputError (not readable) or ConfigError: file, line, key, cause.

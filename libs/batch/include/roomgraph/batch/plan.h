@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,15 +23,23 @@ struct PlannedInput {
   TruthFiles truth;  ///< named in the job file
 };
 
+/// Seconds after the first record of a recording.
+struct PieceSpan {
+  double from_s = 0;
+  double until_s = 0;  ///< 0: the end
+};
+
 struct PlannedRun {
   std::string name;  ///< INPUT--VARIANT: its folder
   std::size_t input = 0, variant = 0;
+  std::optional<PieceSpan> span;    ///< of a piece; its name ends in ".p01"
+  std::vector<std::size_t> pieces;  ///< the runs that it is joined from, once they are known
 };
 
 struct BatchPlan {
   std::vector<PlannedInput> inputs;
   std::vector<BatchVariant> variants;
-  std::vector<PlannedRun> runs;  ///< input by input
+  std::vector<PlannedRun> runs;  ///< input by input; pieces come behind all others
   JobFile jobs;
 };
 
@@ -38,6 +47,23 @@ struct BatchPlan {
 /// inputs will be in FOLDER/inputs/NAME. Throws InputError: a pattern without any file, a truth that is not
 /// there; ConfigError: an input that stands in two entries.
 BatchPlan planBatch(const JobFile& jobs, const std::filesystem::path& folder);
+
+/// Pieces of equal length, about as long as `split` says, of a recording of so many seconds; none when it is
+/// hardly longer than one.
+std::vector<PieceSpan> piecesOf(double seconds, const BatchSplit& split);
+
+/// What a look at all of a recording tells.
+struct RecordingMeasure {
+  double seconds = 0;  ///< from its first record to its last
+  std::string sha256;  ///< of its file
+};
+
+/// A measure in a file of its own, which is valid while the recording has the same size and time. Nothing: it
+/// is not known. Throws RunError.
+void writeMeasure(const std::filesystem::path& file, const std::filesystem::path& rawlog,
+                  const RecordingMeasure& measure);
+std::optional<RecordingMeasure> readMeasure(const std::filesystem::path& file,
+                                            const std::filesystem::path& rawlog);
 
 /// The truth beside a recording: the simulator's files when it is the only recording in its folder, and files
 /// that bear its name (NAME.rawlog.GT.txt, NAME.relations).

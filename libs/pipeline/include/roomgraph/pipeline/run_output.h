@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ class RunOutput : public Sink {
 
  private:
   void write(const std::string& name, const std::string& text) const;
+  void stream(const std::string& name, const std::function<void(std::ostream&)>& text) const;
 
   OutputFolder files_;
   BestViews views_;
