@@ -112,7 +112,7 @@ TEST_F(TaskOfAScript, AnInterruptionIsNoFailure) {
 
 TEST_F(TaskOfAScript, GoesOnFromACheckpointThatFits) {
   const std::string resumed = "run x.rawlog --resume " + folder.path().string() + "\n";
-  const std::string notes = std::string(kSummary) + "[ $1 = run ] && echo $* >> words.txt\n";
+  const std::string notes = std::string("[ $1 = run ] && echo $* >> words.txt\n") + kSummary;
   perform(notes);
   EXPECT_EQ(folder.read("words.txt"), "run x.rawlog\n") << "there is no checkpoint";
   std::filesystem::create_directory(folder.file("roomgraph_checkpoint"));
