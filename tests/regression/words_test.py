@@ -81,7 +81,7 @@ class Shells(unittest.TestCase):
 
     def test_commands(self):
         self.assertEqual(self.all_shells("ma"), {"map", "manual"})
-        self.assertEqual(self.all_shells("map", ""), {"info", "export", "crop", "diff", "merge"})
+        self.assertEqual(self.all_shells("map", ""), {"info", "export", "crop", "diff", "join", "merge"})
 
     def test_every_command_and_option_of_help_is_offered(self):
         paths = [(), *commands_below()]

@@ -165,3 +165,6 @@ def window(address, width=1440, height=900, dark=False):
             yield browser
         finally:
             browser.close()
+            # On a busy machine the browser may not have heard of it; nothing else has this name in its words.
+            with contextlib.suppress(FileNotFoundError):
+                subprocess.run(["pkill", "-KILL", "-f", profile], check=False)
