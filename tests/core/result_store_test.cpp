@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "temporary_folder.h"
 
@@ -131,6 +132,17 @@ TEST_F(ResultStoreTest, ADamagedEndIsTold) {
   EXPECT_EQ(store.found().results, 2);
   EXPECT_GT(store.found().damaged, 8u);
   EXPECT_EQ(run(&store, 3), std::make_pair(sumOfRoots(3), 1));
+}
+
+TEST(Results, NumbersThroughBytesAreTheSameBits) {
+  const std::vector<double> numbers{0.1, -0.0, 1e-310, std::numeric_limits<double>::infinity(), 1 / 3.0};
+  const std::vector<double> back = numbersFrom(bytesOfNumbers(numbers));
+  ASSERT_EQ(back.size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_EQ(back[i], numbers[i]);
+    EXPECT_EQ(std::signbit(back[i]), std::signbit(numbers[i]));
+  }
+  EXPECT_TRUE(numbersFrom(bytesOfNumbers(std::vector<double>())).empty());
 }
 
 }  // namespace

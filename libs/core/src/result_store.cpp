@@ -2,6 +2,8 @@
 // Results as journal records: name, time, bytes.
 #include "roomgraph/core/result_store.h"
 
+#include <cstring>
+
 namespace roomgraph {
 namespace {
 
@@ -22,6 +24,16 @@ JournalledResults::Found lookInto(const std::filesystem::path& file, std::string
 }
 
 }  // namespace
+
+std::string bytesOfNumbers(const std::vector<double>& numbers) {
+  return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+}
+
+std::vector<double> numbersFrom(const std::string& bytes) {
+  std::vector<double> numbers(bytes.size() / sizeof(double));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+  return numbers;
+}
 
 JournalledResults::JournalledResults(const std::filesystem::path& file, std::string_view key, double sync_s)
     : found_(lookInto(file, key)), journal_(file, key), sync_s_(sync_s) {}

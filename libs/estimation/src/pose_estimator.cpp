@@ -3,7 +3,6 @@
 #include "roomgraph/estimation/pose_estimator.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "roomgraph/core/result_store.h"
 
@@ -153,11 +152,10 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
   const auto encode = [&](const SolveReport& report) {
     std::vector<double> numbers = graph_.values();
     numbers.insert(numbers.end(), {report.usable ? 1.0 : 0.0, static_cast<double>(report.iterations)});
-    return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+    return bytesOfNumbers(numbers);
   };
   const auto decode = [&](const std::string& bytes) {
-    std::vector<double> numbers(bytes.size() / sizeof(double));
-    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+    std::vector<double> numbers = numbersFrom(bytes);
     SolveReport report{.usable = numbers.end()[-2] != 0, .iterations = static_cast<int>(numbers.back())};
     numbers.resize(numbers.size() - 2);
     graph_.setValues(numbers);
@@ -165,6 +163,7 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
   };
   return recalled(results_, "whole graph", poses_.nodes().back().t, solve, encode, decode);
 }
+
 std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <set>
 
@@ -196,15 +195,7 @@ void adjustLocally(LocalMap& map, int index, const TrackingParameters& parameter
   if (window.size() < 2) return;
   LocalProblem problem(map, std::move(window), parameters);
   problem.write(recalled(
-      results, "local adjustment", map.keyframe(index).t, [&] { return problem.solve(); },
-      [](const std::vector<double>& numbers) {
-        return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-      },
-      [](const std::string& bytes) {
-        std::vector<double> numbers(bytes.size() / sizeof(double));
-        std::memcpy(numbers.data(), bytes.data(), bytes.size());
-        return numbers;
-      }));
+      results, "local adjustment", map.keyframe(index).t, [&] { return problem.solve(); }, bytesOfNumbers, numbersFrom));
 }
 
 }  // namespace roomgraph::tracking

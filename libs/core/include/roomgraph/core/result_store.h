@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "roomgraph/core/journal.h"
 
@@ -37,6 +38,10 @@ auto recalled(ResultStore* store, std::string_view name, double t, const Compute
   store->keep(name, t, encode(result));
   return result;
 }
+
+/// Numbers as the bytes of a result on this machine, and back.
+std::string bytesOfNumbers(const std::vector<double>& numbers);
+std::vector<double> numbersFrom(const std::string& bytes);
 
 /// A ResultStore in a journal.
 class JournalledResults : public ResultStore {
