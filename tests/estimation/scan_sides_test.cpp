@@ -136,6 +136,17 @@ TEST_F(ScanSides, LegsStandInsideAChair) {
   EXPECT_LT((settled(thought).position - truth.position).norm(), 0.05);
 }
 
+TEST_F(ScanSides, AWallBesideAChairIsNoLeg) {
+  const Landmark chair = object("swivel_chair", 2, 0, 0);
+  segments_ = {{{2.36, -3}, {2.36, 3}}};  // .05 m behind it
+  look(0, 0, 0);
+  EXPECT_TRUE(sides(chair).empty());
+  segments_.push_back({{2.05, -0.02}, {2.05, 0.02}});
+  look(0, 0, 0);
+  EXPECT_FALSE(sides(chair).empty()) << "its column";
+  for (const auto& side : sides(chair)) EXPECT_NEAR(side.point_in_robot.x(), 2.05, 0.01);
+}
+
 TEST_F(ScanSides, NothingAboveWhatIsSolid) {
   const Landmark sofa = object("sofa", 2, 0, M_PI);
   addOutline(sofa);

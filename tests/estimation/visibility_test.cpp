@@ -32,41 +32,45 @@ Landmark objectAhead(ShapeKind kind = ShapeKind::kCuboid) {
   return landmark;
 }
 
+RayEvidence raysAt(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot, double solid_share) {
+  return rayEvidence(landmark.shape, landmark.worldFromObject(), scan, world_from_robot, solid_share);
+}
+
 TEST(RayEvidence, CountsBeamsThatEndInsideOrGoThroughTheMiddle) {
   const Landmark sofa = objectAhead();
-  const RayEvidence inside = rayEvidence(sofa, beams(3.0), Pose3::Identity(), kSofa);
+  const RayEvidence inside = raysAt(sofa, beams(3.0), Pose3::Identity(), kSofa);
   // Ends at 3 m within .4 m to the side: asin(.4 / 3) = 7.7 degrees.
   EXPECT_EQ(inside.inside, 15);
   EXPECT_EQ(inside.through, 0);
-  const RayEvidence behind = rayEvidence(sofa, beams(6.0), Pose3::Identity(), kSofa);
+  const RayEvidence behind = raysAt(sofa, beams(6.0), Pose3::Identity(), kSofa);
   EXPECT_EQ(behind.inside, 0);
   // Pass within .2 m of the middle: asin(.2 / 3) = 3.8 degrees.
   EXPECT_EQ(behind.through, 7);
-  const RayEvidence before = rayEvidence(sofa, beams(1.0), Pose3::Identity(), kSofa);
+  const RayEvidence before = raysAt(sofa, beams(1.0), Pose3::Identity(), kSofa);
   EXPECT_EQ(before.inside + before.through, 0) << "something hides it";
 }
 
 TEST(RayEvidence, MovesWithTheRobot) {
   const Pose3 world_from_robot = poseFromYpr(3, -3, 0, M_PI / 2, 0, 0);
-  EXPECT_EQ(rayEvidence(objectAhead(), beams(3.0), world_from_robot, kSofa).inside, 15);
+  EXPECT_EQ(raysAt(objectAhead(), beams(3.0), world_from_robot, kSofa).inside, 15);
   const Pose3 away = poseFromYpr(3, -3, 0, -M_PI / 2, 0, 0);
-  EXPECT_EQ(rayEvidence(objectAhead(), beams(6.0), away, kSofa).through, 0)
+  EXPECT_EQ(raysAt(objectAhead(), beams(6.0), away, kSofa).through, 0)
       << "looks the other way";
 }
 
 TEST(RayEvidence, NothingGoesAgainstWhatIsNotSolid) {
   for (const auto kind : {ShapeKind::kCylinder, ShapeKind::kCuboid, ShapeKind::kPlanar}) {
-    EXPECT_EQ(rayEvidence(objectAhead(kind), beams(6.0), Pose3::Identity(), kOpen).through, 0);
-    EXPECT_EQ(rayEvidence(objectAhead(kind), beams(6.0), Pose3::Identity(), kSofa).through, 7) << "whatever its shape";
+    EXPECT_EQ(raysAt(objectAhead(kind), beams(6.0), Pose3::Identity(), kOpen).through, 0);
+    EXPECT_EQ(raysAt(objectAhead(kind), beams(6.0), Pose3::Identity(), kSofa).through, 7) << "whatever its shape";
   }
-  EXPECT_EQ(rayEvidence(objectAhead(), beams(3.0), Pose3::Identity(), kOpen).inside, 15);
-  EXPECT_EQ(rayEvidence(objectAhead(), beams(6.0, 0.5), Pose3::Identity(), kSofa).through, 0)
+  EXPECT_EQ(raysAt(objectAhead(), beams(3.0), Pose3::Identity(), kOpen).inside, 15);
+  EXPECT_EQ(raysAt(objectAhead(), beams(6.0, 0.5), Pose3::Identity(), kSofa).through, 0)
       << "over the seat";
-  EXPECT_EQ(rayEvidence(objectAhead(), beams(3.0, 1.2), Pose3::Identity(), kSofa).inside, 0)
+  EXPECT_EQ(raysAt(objectAhead(), beams(3.0, 1.2), Pose3::Identity(), kSofa).inside, 0)
       << "over all of it";
   Landmark lamp = objectAhead();
   lamp.position.z() = 1.5;
-  EXPECT_EQ(rayEvidence(lamp, beams(3.0), Pose3::Identity(), kSofa).inside, 0) << "below all of it";
+  EXPECT_EQ(raysAt(lamp, beams(3.0), Pose3::Identity(), kSofa).inside, 0) << "below all of it";
 }
 
 }  // namespace

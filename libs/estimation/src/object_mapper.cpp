@@ -99,12 +99,11 @@ void ObjectMapper::doubtByScan(std::vector<ObjectMeasurement>& measurements, con
     Proposal& proposal = measurement.proposal;
     const ObjectModel* model = database.find(proposal.model);
     if (!model || model->solid_share <= 0) continue;
-    const Pose3 place = world_from_camera * proposal.camera_from_object;
-    Landmark there;
-    there.position = place.translation();
-    there.yaw = planarPart(place).yaw;
-    there.shape = proposal.shape;
-    const RayEvidence rays = rayEvidence(there, *latest_scan_, world_from_scanner, model->solid_share);
+    const Pose3 seen = world_from_camera * proposal.camera_from_object;
+    const Eigen::Vector3d place = seen.translation();
+    const Pose3 upright = poseFromYpr(place.x(), place.y(), place.z(), planarPart(seen).yaw, 0, 0);
+    const RayEvidence rays =
+        rayEvidence(proposal.shape, upright, *latest_scan_, world_from_scanner, model->solid_share);
     if (rays.through == 0) continue;
     const double stopped = static_cast<double>(rays.inside) / (rays.inside + rays.through);
     proposal.score *= std::max(kLeastDoubted, stopped);
@@ -170,7 +169,8 @@ void ObjectMapper::observe(const Scan& scan, const Pose3& world_from_robot, cons
   last_rays_from_ = world_from_robot;
   for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks())) {
     const ObjectModel* model = database.find(landmark.model);
-    const RayEvidence rays = rayEvidence(landmark, scan, world_from_robot, model ? model->solid_share : 0);
+    const RayEvidence rays = rayEvidence(landmark.shape, landmark.worldFromObject(), scan, world_from_robot,
+                                         model ? model->solid_share : 0);
     if (rays.inside > 0) {
       landmarks_.supported(landmark.id, rays.inside);
     } else if (rays.through > 0) {

@@ -14,10 +14,11 @@ namespace roomgraph {
 namespace {
 
 constexpr double kReach_m = 5;  // of a lidar that looks at a landmark
-constexpr double kNearSide_m =
-    0.12;  // of a return to the side it may lie on: legs of who sits there stand farther off
+// Of a return to the side that it may lie on: legs of somebody who sits there stand farther off.
+constexpr double kNearSide_m = 0.12;
 constexpr double kNearWall_m = 0.1;    // likewise, of a wall: walls are well known
 constexpr double kNearLegs_m = 0.15;   // outside a cylinder
+constexpr double kSameThing_m = 0.1;   // between neighbouring returns on one surface
 constexpr double kLeastFacing = 0.25;  // cosine between the side's normal and the direction to the lidar
 constexpr double kCorner_m = 0.05;     // at the ends of a side returns may be on the next one
 constexpr double kWallBeside_m = 0.6;  // of the wall on both sides of a door
@@ -84,6 +85,16 @@ bool showsTheSide(const Side& side, const std::vector<Return>& returns) {
       });
   return along(side, last->in_landmark) - along(side, first->in_landmark) >
          kLeastShown * 2 * side.half_length_m;
+}
+
+using Returns = std::vector<Return>::const_iterator;
+
+// Behind the last return of the surface that the first one lies on, in the order of the beams.
+Returns endOfSurface(Returns first, Returns end) {
+  const auto gap = std::adjacent_find(first, end, [](const Return& a, const Return& b) {
+    return (a.in_landmark - b.in_landmark).norm() > kSameThing_m;
+  });
+  return gap == end ? end : gap + 1;
 }
 
 // Evenly in their order, that of the beams or of time.
@@ -173,10 +184,16 @@ class SideFinder {
     for (const Return& r : thinned(on_side, kMostReturns)) keep(scan, r, side.outward);
   }
 
+  // Of what goes on beyond the reach of legs, a wall or a desk, nothing is a leg.
   void addInside(const PosedScan& scan, const std::vector<Return>& near) {
     const double most = landmark_.shape.horizontalExtent() / 2 + kNearLegs_m;
-    for (const Return& r : near)
-      if (r.in_landmark.norm() < most) keep(scan, r, Eigen::Vector2d::UnitX());
+    for (auto first = near.begin(); first != near.end();) {
+      const auto end = endOfSurface(first, near.end());
+      const bool legs =
+          std::all_of(first, end, [most](const Return& r) { return r.in_landmark.norm() < most; });
+      for (; first != end; ++first)
+        if (legs) keep(scan, *first, Eigen::Vector2d::UnitX());
+    }
   }
 
   void keep(const PosedScan& scan, const Return& r, const Eigen::Vector2d& outward) {

@@ -55,16 +55,14 @@ bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& wor
                              [&box](const Detection& d) { return iou(d.box, *box) > kSamePlace; });
 }
 
-RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot,
-                        double solid_share) {
+RayEvidence rayEvidence(const ObjectShape& shape, const Pose3& world_from_object, const Scan& scan,
+                        const Pose3& world_from_robot, double solid_share) {
   RayEvidence out;
-  const Pose3 object_from_lidar =
-      landmark.worldFromObject().inverse() * world_from_robot * scan.robot_from_lidar;
+  const Pose3 object_from_lidar = world_from_object.inverse() * world_from_robot * scan.robot_from_lidar;
   const Eigen::Vector3d origin = object_from_lidar.translation();
-  const double reach = std::hypot(landmark.shape.width, landmark.shape.depth) / 2,
-               away = origin.head<2>().norm();
-  if (origin.z() < 0 || origin.z() > landmark.shape.height || away > scan.max_range_m || away < reach) return out;
-  const bool solid = origin.z() < solid_share * landmark.shape.height;
+  const double reach = std::hypot(shape.width, shape.depth) / 2, away = origin.head<2>().norm();
+  if (origin.z() < 0 || origin.z() > shape.height || away > scan.max_range_m || away < reach) return out;
+  const bool solid = origin.z() < solid_share * shape.height;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (!scan.valid[i]) continue;
     const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad,
@@ -74,11 +72,11 @@ RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3&
     const double nearest = -origin.head<2>().dot(beam.head<2>());  // of the beam to the object's middle
     if (nearest < 0 || range < away - reach) continue;
     const Eigen::Vector3d end = origin + range * beam;
-    if (distanceOutside(landmark.shape, end)[0] <= 0) {
+    if (distanceOutside(shape, end)[0] <= 0) {
       ++out.inside;
     } else if (solid && range > away + reach) {
       const double beside = (origin + nearest * beam).head<2>().norm();
-      out.through += beside < kMiddle * std::min(landmark.shape.width, landmark.shape.depth) / 2;
+      out.through += beside < kMiddle * std::min(shape.width, shape.depth) / 2;
     }
   }
   return out;

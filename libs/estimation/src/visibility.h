@@ -26,15 +26,16 @@ std::optional<Box2> boxInGoodView(const Landmark& landmark, const Pose3& camera_
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
 
-/// Beams of a scan that are evidence for or against a landmark.
+/// Beams of a scan that are evidence for or against an object.
 struct RayEvidence {
   int inside = 0;   ///< ended in its footprint
   int through = 0;  ///< passed through the middle of it and ended behind
 };
 
-/// `solid_share`: share of the landmark's height through which no beam passes (ObjectModel::solid_share). Beams above
-/// it pass over the seat of a sofa, between the legs of a chair or through an open door: they count only when they end
-/// inside.
-RayEvidence rayEvidence(const Landmark& landmark, const Scan& scan, const Pose3& world_from_robot, double solid_share);
+/// Of an object of this shape at this place. `solid_share`: share of its height through which no beam passes
+/// (ObjectModel::solid_share). Beams above it pass over the seat of a sofa, between the legs of a chair or through an
+/// open door: they count only when they end inside.
+RayEvidence rayEvidence(const ObjectShape& shape, const Pose3& world_from_object, const Scan& scan,
+                        const Pose3& world_from_robot, double solid_share);
 
 }  // namespace roomgraph
