@@ -57,7 +57,7 @@ std::vector<BoxSource> sourcesOf(DetectionSchedule schedule, int frames, const s
   std::vector<BoxSource> sources;
   for (int i = 0; i < frames; ++i) {
     const bool fails = std::find(failing.begin(), failing.end(), i) != failing.end();
-    sources.push_back(sourceOf(schedule.due() && !fails ? schedule.detected(chairAndPerson(), still(i))
+    sources.push_back(sourceOf(schedule.due(still(i).t) && !fails ? schedule.detected(chairAndPerson(), still(i))
                                                         : schedule.missed(still(i), {})));
   }
   return sources;
@@ -67,6 +67,23 @@ TEST(DetectionSchedule, EveryFrameOrEveryNth) {
   EXPECT_THAT(sourcesOf(schedule(1), 3), ElementsAre(kDetected, kDetected, kDetected));
   EXPECT_THAT(sourcesOf(schedule(3), 7),
               ElementsAre(kDetected, kCarried, kCarried, kDetected, kCarried, kCarried, kDetected));
+}
+
+TEST(DetectionSchedule, SoManyFramesASecondWhateverTheCamerasRate) {
+  // Frames come at 10 Hz.
+  const auto detectedAt = [](double rate_hz, int frames) {
+    DetectionStageOptions options;
+    options.rate_hz = rate_hz;
+    const auto sources = sourcesOf(DetectionSchedule(options, classes()), frames);
+    std::vector<int> out;
+    for (int i = 0; i < frames; ++i)
+      if (sources[static_cast<std::size_t>(i)] == kDetected) out.push_back(i);
+    return out;
+  };
+  EXPECT_THAT(detectedAt(4, 21), ElementsAre(0, 3, 5, 8, 10, 13, 15, 18, 20)) << "4 Hz in the mean";
+  EXPECT_EQ(detectedAt(10, 20).size(), 20u) << "the camera's own rate";
+  EXPECT_EQ(detectedAt(30, 20).size(), 20u) << "more than there are";
+  EXPECT_THAT(detectedAt(1, 21), ElementsAre(0, 10, 20));
 }
 
 TEST(DetectionSchedule, AfterAFailureTheDetectorIsAskedAgainAtOnce) {
@@ -122,9 +139,9 @@ TEST(DetectionSchedule, AnImageThatCannotBeTrackedEndsTheBoxes) {
   blind.gray.release();
   EXPECT_EQ(sourceOf(boxes.missed(blind, {})), kNone);
   EXPECT_EQ(sourceOf(boxes.missed(still(2), {})), kNone) << "there is nothing to carry any more";
-  EXPECT_FALSE(boxes.due());
+  EXPECT_FALSE(boxes.due(still(3).t));
   boxes.missed(still(3), {});
-  EXPECT_TRUE(boxes.due());
+  EXPECT_TRUE(boxes.due(still(4).t));
 }
 
 }  // namespace

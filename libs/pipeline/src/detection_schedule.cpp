@@ -4,8 +4,19 @@
 
 namespace roomgraph {
 
+bool DetectionSchedule::due(double t) const {
+  constexpr double kJitter_s = 0.002;  // of stamps: a camera at the wanted rate is not halved by it
+  if (!age_) return true;
+  return *age_ + 1 >= options_.every_nth_frame && (options_.rate_hz == 0 || t > period_end_s_ - kJitter_s);
+}
+
 FrameDetections DetectionSchedule::detected(std::vector<Detection> boxes, const Frame& frame) {
   age_ = 0;
+  // From the end of the last period, so that the mean rate is the wanted one; anew after a pause.
+  if (options_.rate_hz > 0) {
+    const double period = 1 / options_.rate_hz;
+    period_end_s_ = (frame.t - period_end_s_ < period ? period_end_s_ : frame.t) + period;
+  }
   carried_from_.reset();
   if (options_.track_boxes && options_.max_carried_frames > 0) {
     tracker_.start(boxes, frame);

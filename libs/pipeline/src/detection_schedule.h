@@ -11,7 +11,7 @@
 
 namespace roomgraph {
 
-/// Decides on which frames the detector runs (`every_nth_frame`) and carries its boxes over the frames after it
+/// Decides on which frames the detector runs (`every_nth_frame`, `rate_hz`) and carries its boxes over the frames after it
 /// (`track_boxes`, `max_carried_frames`). Of every frame either detected() or missed() is told, in order of time.
 class DetectionSchedule {
  public:
@@ -19,9 +19,9 @@ class DetectionSchedule {
   DetectionSchedule(const DetectionStageOptions& options, const ObjectDatabase& database)
       : options_(options), tracker_(database) {}
 
-  /// Whether the detector is to run on the next frame: `every_nth_frame` frames after the last one on which it
-  /// ran. A detector that fails is asked again on the next frame.
-  bool due() const { return !age_ || *age_ + 1 >= options_.every_nth_frame; }
+  /// Whether the detector is to run on the frame of time `t`, s: `every_nth_frame` frames after the last one on
+  /// which it ran, and when a period of `rate_hz` is over. A detector that fails is asked again on the next frame.
+  bool due(double t) const;
 
   /// The detector ran on this frame; its boxes replace all carried ones.
   FrameDetections detected(std::vector<Detection> boxes, const Frame& frame);
@@ -35,6 +35,7 @@ class DetectionSchedule {
  private:
   DetectionStageOptions options_;
   BoxTracker tracker_;
+  double period_end_s_ = 0;  ///< before it, no frame is due
   std::optional<int> age_;  ///< frames since the detector ran; nothing: it never ran
   std::optional<double> carried_from_;
 };

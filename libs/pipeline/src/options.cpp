@@ -67,6 +67,12 @@ void DetectionStageOptions::declareParameters(ParameterVisitor& v) {
         {.doc = "The detector runs on every n-th frame; recorded boxes are taken as often.",
          .min = 1,
          .max = 1000});
+  v.add("rate_hz", rate_hz,
+        {.doc = "The detector runs on at most so many frames a second, evenly spread, whatever the camera's rate; "
+                "0: on every frame that every_nth_frame chooses.",
+         .unit = "Hz",
+         .min = 0,
+         .max = 1000});
   v.add(
       "track_boxes", track_boxes,
       {.doc =

@@ -160,7 +160,7 @@ FrameDetections SemanticSlam::detect(const Frame& frame) {
   const auto& detector = setup_->stages.detector;
   if (!detector || detector->idle()) return {};
   const auto timing = times_.measure("detection");
-  if (detection_schedule_->due()) {
+  if (detection_schedule_->due(frame.t)) {
     const auto found = detector->detect(frame);
     if (found) return detection_schedule_->detected(*found, frame);
     ++counts_.reasons["detection: " + found.reason()];

@@ -58,6 +58,7 @@ struct DetectionStageOptions : Configurable {
   bool enabled = true;
   std::string detector = "auto";
   int every_nth_frame = 1;
+  double rate_hz = 0;
   bool track_boxes = true;
   int max_carried_frames = 5;
   void declareParameters(ParameterVisitor& v) override;
