@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/observations/rgbd_channels.h"
+#include "roomgraph/simulation/flat.h"
 #include "temporary_folder.h"
 #include "training_world.h"
 
@@ -109,6 +111,30 @@ TEST(TrainingSetTest, StopsWhenInterrupted) {
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.flats, 1);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "set.json"));
+}
+
+TEST(TrainingWorldTest, PeopleAndChairsAreAddedInTheRooms) {
+  std::size_t sitting = 0, standing = 0, chairs = 0;
+  for (std::uint64_t flat = 1; flat <= 5; ++flat) {
+    const World plain = randomFlat({flat, 0, false, {}});
+    World varied = plain;
+    Random random(flat);
+    varyWorld(varied, {}, random);
+    const auto isIndoors = [&](const Eigen::Vector2d& at) {
+      return std::ranges::any_of(varied.rooms, [&](const Room& room) {
+        return (at.array() > room.min_m.array()).all() && (at.array() < room.max_m.array()).all();
+      });
+    };
+    for (std::size_t i = plain.people.size(); i < varied.people.size(); ++i) {
+      for (const auto& at : varied.people[i].path_m) EXPECT_TRUE(isIndoors(at)) << "flat " << flat << " person " << i;
+      ++(varied.people[i].sits ? sitting : standing);
+    }
+    for (std::size_t i = plain.furniture.size(); i < varied.furniture.size(); ++i, ++chairs)
+      EXPECT_TRUE(isIndoors(varied.furniture[i].at_m.head<2>())) << "flat " << flat << " chair " << i;
+  }
+  EXPECT_GT(sitting, 5u);
+  EXPECT_GT(standing, 5u);
+  EXPECT_GT(chairs, 5u);
 }
 
 TEST(TrainingWorldTest, SpoiledDepthLosesAndNeverInvents) {

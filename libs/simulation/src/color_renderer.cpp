@@ -4,10 +4,12 @@
 
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 
 #include <algorithm>
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "roomgraph/core/errors.h"
 #include "texture.h"
@@ -19,6 +21,7 @@ using mrpt::opengl::CSetOfTexturedTriangles;
 constexpr float kNear_m =
     0.2f;  ///< the depth buffer has few bits: near things would cost thin ones their place in front
 constexpr float kFar_m = 60;
+constexpr std::size_t kTextures = 190;  ///< MRPT 2.5 has 192 at a time
 constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
 
 mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
@@ -30,6 +33,18 @@ mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
     vertex.uv = {triangle.uv[i].x(), triangle.uv[i].y()};
   }
   return out;
+}
+
+std::size_t materialsOf(const Mesh& mesh) {
+  std::set<int> materials;
+  for (const auto& triangle : mesh.triangles) materials.insert(triangle.material);
+  return materials.size();
+}
+
+mrpt::img::TColor meanColor(const cv::Mat& bgr) {
+  const cv::Scalar mean = cv::mean(bgr);
+  const auto byte = [&](int channel) { return cv::saturate_cast<std::uint8_t>(mean[channel]); };
+  return {byte(2), byte(1), byte(0)};
 }
 
 mrpt::img::TCamera finePinhole(const PinholeCamera& camera) {
@@ -47,13 +62,15 @@ mrpt::img::TCamera finePinhole(const PinholeCamera& camera) {
 struct ColorRenderer::Content {
   Content(const Scene& scene, const PinholeCamera& camera);
   CSetOfTexturedTriangles::Ptr add(int material);
+  void addMoving(std::size_t part);
+  void addMovingPlain(std::size_t part);
   void place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera, double nearest_m);
 
   const Scene& scene;
   PinholeCamera camera;
   std::vector<cv::Mat> textures;
   std::unique_ptr<mrpt::opengl::COpenGLScene> graph = std::make_unique<mrpt::opengl::COpenGLScene>();
-  std::vector<std::pair<std::size_t, CSetOfTexturedTriangles::Ptr>> moving;  ///< part, drawable
+  std::vector<std::pair<std::size_t, mrpt::opengl::CRenderizable::Ptr>> moving;  ///< part, drawable
   std::unique_ptr<mrpt::opengl::CFBORender> renderer;
 };
 
@@ -65,20 +82,55 @@ CSetOfTexturedTriangles::Ptr ColorRenderer::Content::add(int material) {
   return out;
 }
 
+void ColorRenderer::Content::addMoving(std::size_t part) {
+  std::map<int, CSetOfTexturedTriangles::Ptr> drawables;
+  for (const auto& triangle : scene.parts()[part].mesh.triangles) {
+    auto& drawable = drawables[triangle.material];
+    if (!drawable) drawable = add(triangle.material);
+    drawable->insertTriangle(toMrpt(triangle));
+  }
+  for (const auto& [material, drawable] : drawables) moving.emplace_back(part, drawable);
+}
+
+// In the mean colours of its materials.
+void ColorRenderer::Content::addMovingPlain(std::size_t part) {
+  auto drawable = mrpt::opengl::CSetOfTriangles::Create();
+  std::map<int, mrpt::img::TColor> colors;
+  for (const auto& triangle : scene.parts()[part].mesh.triangles) {
+    const auto [color, is_new] = colors.try_emplace(triangle.material);
+    if (is_new) color->second = meanColor(textures[static_cast<std::size_t>(triangle.material)]);
+    mrpt::opengl::TTriangle plain = toMrpt(triangle);
+    plain.setColor(color->second);
+    drawable->insertTriangle(plain);
+  }
+  graph->insert(drawable);
+  moving.emplace_back(part, drawable);
+}
+
 ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
     : scene(source), camera(model) {
   for (const auto& material : scene.materials()) textures.push_back(textureOf(material));
   std::map<int, CSetOfTexturedTriangles::Ptr> fixed;
-  for (std::size_t i = 0; i < scene.parts().size(); ++i) {
-    const auto& part = scene.parts()[i];
-    std::map<int, CSetOfTexturedTriangles::Ptr> own;
-    auto& drawables = part.person < 0 ? fixed : own;
+  for (const auto& part : scene.parts()) {
+    if (part.person >= 0) continue;
     for (const auto& triangle : part.mesh.triangles) {
-      auto& drawable = drawables[triangle.material];
+      auto& drawable = fixed[triangle.material];
       if (!drawable) drawable = add(triangle.material);
       drawable->insertTriangle(toMrpt(triangle));
     }
-    for (const auto& [material, drawable] : own) moving.emplace_back(i, drawable);
+  }
+  // A crowd has more textures than there may be: its last ones are of one colour each.
+  std::size_t textured = fixed.size();
+  for (std::size_t i = 0; i < scene.parts().size(); ++i) {
+    const auto& part = scene.parts()[i];
+    if (part.person < 0) continue;
+    const std::size_t needed = materialsOf(part.mesh);
+    if (textured + needed > kTextures) {
+      addMovingPlain(i);
+    } else {
+      addMoving(i);
+      textured += needed;
+    }
   }
   auto& light = graph->getViewport()->lightParameters();
   light.ambient = {0.7f, 0.7f, 0.7f, 1.f};

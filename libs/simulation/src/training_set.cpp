@@ -2,6 +2,7 @@
 // Rendering, labelling and writing of training views.
 #include "roomgraph/simulation/training_set.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
@@ -46,11 +47,19 @@ Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double sc
   return out;
 }
 
+/// Is anything in view of what is looked for, rather than only what misleads?
+bool seesWanted(const std::vector<ObjectView>& views, const Scene& scene) {
+  return std::ranges::any_of(views, [&](const ObjectView& view) {
+    return scene.objects()[static_cast<std::size_t>(view.object)].class_name != "other" && view.visible > 0.2;
+  });
+}
+
 /// One flat, seen again and again.
 class FlatViews {
  public:
   FlatViews(std::uint64_t flat, const TrainingSetOptions& options);
-  /// Nothing when the camera stands in something, or sees nothing (in nine of ten such cases).
+  /// Nothing when the camera stands in something; mostly nothing when it sees nothing, or nothing of what is
+  /// looked for.
   std::optional<TrainingView> view(int index);
 
  private:
@@ -93,6 +102,7 @@ std::optional<TrainingView> FlatViews::view(int index) {
   double nearest = 0;
   cv::minMaxLoc(exact.depth, &nearest, nullptr, nullptr, nullptr, exact.depth > 0);
   if (nearest < kNearest_m || (exact.views.empty() && random.chance(0.9))) return {};
+  if (!seesWanted(exact.views, scene_) && random.chance(0.7)) return {};
   CameraSpec spec = fine_;
   spec.noise_gain *= random.uniform(0.7, 1.4);
   cv::Mat depth_mm =

@@ -3,6 +3,8 @@
 #include "training_world.h"
 
 #include <algorithm>
+#include <map>
+#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -55,9 +57,90 @@ void losePatches(cv::Mat& depth, Random& random) {
   }
 }
 
+/// Is a disc around a place free of furniture that stands on the floor (taken as discs)?
+bool isFree(const World& world, const Eigen::Vector2d& at, double radius_m) {
+  return std::ranges::none_of(world.furniture, [&](const Furniture& item) {
+    const double reach = item.size_m ? 0.5 * std::min(item.size_m->x(), item.size_m->y()) : 0.3;
+    return item.at_m.z() < 0.3 && (item.at_m.head<2>() - at).norm() < reach + radius_m;
+  });
+}
+
+Eigen::Vector2d drawPlace(const Room& room, double margin_m, Random& random) {
+  return {random.uniform(room.min_m.x() + margin_m, room.max_m.x() - margin_m),
+          random.uniform(room.min_m.y() + margin_m, room.max_m.y() - margin_m)};
+}
+
+Person drawPerson(Random& random) {
+  static const std::vector<Color> skins{{0.85, 0.65, 0.52}, {0.62, 0.44, 0.33}, {0.42, 0.29, 0.21}, {0.93, 0.76, 0.65}},
+      hairs{{0.2, 0.13, 0.08}, {0.08, 0.07, 0.07}, {0.55, 0.4, 0.2}, {0.6, 0.6, 0.58}};
+  Person out;
+  out.height_m = random.uniform(1.5, 1.95);
+  out.skin = pick(random, skins);
+  out.hair = pick(random, hairs);
+  return out;
+}
+
+/// Somebody on one of four seats; knees may be below a desk, as where people work.
+void seatMore(World& world, Random& random) {
+  static const std::map<std::string, double> heights{
+      {"swivel_chair", 0.46}, {"sofa", 0.43}, {"wooden_chair", 0.46}, {"visitor_chair", 0.46}, {"armchair", 0.43}};
+  for (const Furniture& seat : world.furniture) {
+    const auto height = heights.find(seat.model);
+    if (height == heights.end() || !random.chance(0.25)) continue;
+    const bool deep = seat.model == "sofa" || seat.model == "armchair";
+    const double along = seat.model == "sofa" ? random.uniform(-0.4, 0.4) : 0;
+    const Pose2 at = Pose2{seat.at_m.x(), seat.at_m.y(), seat.yaw_rad} * Pose2{deep ? 0.06 : -0.02, along, 0};
+    Person person = drawPerson(random);
+    person.sits = true;
+    person.path_m = {{at.x, at.y}};
+    person.yaw_rad = at.yaw;
+    person.seat_height_m = height->second;
+    world.people.push_back(person);
+  }
+}
+
+/// Up to two more people in each room, every second one walking.
+void standMore(World& world, Random& random) {
+  for (const Room& room : world.rooms) {
+    if ((room.max_m - room.min_m).minCoeff() < 1.2) continue;
+    for (int more = drawInt(random, 0, 2); more > 0; --more) {
+      const Eigen::Vector2d at = drawPlace(room, 0.35, random), to = drawPlace(room, 0.35, random);
+      if (!isFree(world, at, 0.3)) continue;
+      Person person = drawPerson(random);
+      person.path_m = {at};
+      person.yaw_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
+      if (random.chance(0.5) && (to - at).norm() > 0.5) person.path_m.push_back(to);
+      world.people.push_back(person);
+    }
+  }
+}
+
+/// More chairs where there is room: they are what is looked for most.
+void addChairs(World& world, Random& random) {
+  static const std::vector<std::string> kinds{"swivel_chair", "swivel_chair", "wooden_chair", "visitor_chair"};
+  for (const Room& room : world.rooms) {
+    if ((room.max_m - room.min_m).minCoeff() < 1.5) continue;
+    for (int more = drawInt(random, 0, 3); more > 0; --more) {
+      const Eigen::Vector2d at = drawPlace(room, 0.5, random);
+      if (!isFree(world, at, 0.3)) continue;
+      Furniture chair;
+      chair.model = pick(random, kinds);
+      chair.at_m = {at.x(), at.y(), 0};
+      chair.yaw_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
+      const bool swivel = chair.model == "swivel_chair";
+      const double width = random.uniform(0.42, 0.55) + (swivel ? 0.1 : 0);
+      chair.size_m = {width, width * random.uniform(0.9, 1.1), random.uniform(0.78, 1.0) + (swivel ? 0.08 : 0)};
+      world.furniture.push_back(chair);
+    }
+  }
+}
+
 }  // namespace
 
 void varyWorld(World& world, const MeshChoice& meshes, Random& random) {
+  addChairs(world, random);
+  seatMore(world, random);
+  standMore(world, random);
   static const std::vector<std::string> walls{"plain", "paint", "plaster", "fabric", "wood", "tiles"},
       floors{"paint", "carpet", "parquet", "tiles", "wood", "leather"};
   for (auto& room : world.rooms) {
