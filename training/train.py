@@ -75,6 +75,18 @@ def loss_of(output, boxes, grid, classes):
     return kinds, 2 * (1 - generalised).sum() / count
 
 
+def copy_weights(model, stored):
+    """Weights of an earlier network; classes that are new since then keep their first values."""
+    own = model.state_dict()
+    for name, value in stored.items():
+        if own[name].shape == value.shape:
+            own[name].copy_(value)
+            continue
+        known = len(value) - 4  # rows of the last layer: classes, then the box's four sides
+        own[name][:known].copy_(value[:known])
+        own[name][-4:].copy_(value[-4:])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--views", nargs="+", required=True, help="folders of `roomgraph training-set`")
@@ -91,9 +103,11 @@ def main():
     torch.set_num_threads(arguments.threads)
     torch.manual_seed(arguments.seed)
     arguments.out.mkdir(parents=True, exist_ok=True)
+    # bfloat16 is four times as fast where the processor computes in it.
+    half = "avx512_bf16" in Path("/proc/cpuinfo").read_text()
     views, check = data.Views(arguments.views), data.Views([arguments.check])
     classes = len(data.CLASSES)
-    model, mean = RoomDetector(classes), RoomDetector(classes)
+    model, mean = (RoomDetector(classes).to(memory_format=torch.channels_last) for _ in range(2))
     grid = cells(views.height // arguments.shrink, views.width // arguments.shrink)
     optimizer = torch.optim.AdamW(model.parameters(), lr=arguments.rate, weight_decay=0.02)
     state = {"seconds": 0.0, "steps": 0}
@@ -107,7 +121,7 @@ def main():
         print(f"goes on from {state['steps']} steps")
     else:
         if arguments.start:
-            model.load_state_dict(torch.load(arguments.start)["mean"])
+            copy_weights(model, torch.load(arguments.start)["mean"])
         mean.load_state_dict(model.state_dict())
     parameters = sum(p.numel() for p in model.parameters())
     print(f"{len(views)} views, {len(check)} to check, {parameters} weights", flush=True)
@@ -122,7 +136,9 @@ def main():
         for group in optimizer.param_groups:
             group["lr"] = rate
         model.train()
-        kinds, places = loss_of(model(pictures), boxes, grid, classes)
+        with torch.autocast("cpu", dtype=torch.bfloat16, enabled=half):
+            output = model(pictures.contiguous(memory_format=torch.channels_last))
+        kinds, places = loss_of(output.float(), boxes, grid, classes)
         optimizer.zero_grad()
         (kinds + places).backward()
         torch.nn.utils.clip_grad_norm_(model.parameters(), 10)

@@ -13,7 +13,9 @@ namespace roomgraph {
 namespace {
 
 struct Rendered {
-  World world = test::exampleWorld();
+  explicit Rendered(const World& of = test::exampleWorld()) : world(of) {}
+
+  World world;
   Scene scene{world};
   ColorRenderer renderer{scene, world.camera->model};
   std::vector<Pose3> parts = scene.partPoses(1);
@@ -57,6 +59,38 @@ TEST(ColorRenderer, ColourAndDepthAreRegisteredWithinAPixel) {
     EXPECT_GT(gray.at<uchar>(v, last + 2), 100) << v;
   }
   EXPECT_GT(rows, 10);
+}
+
+struct Look {
+  cv::Scalar bgr;  ///< mean
+  int px;
+};
+
+/// Of the object that stands last in a world.
+Look lookOfLast(const World& world) {
+  Rendered r(world);
+  const cv::Mat of = r.exact.object == static_cast<int>(r.scene.objects().size()) - 1;
+  return {cv::mean(r.renderer.render(r.parts, r.pose, 1), of), cv::countNonZero(of)};
+}
+
+TEST(ColorRenderer, ACrowdWithMoreTexturesThanThereMayBeKeepsItsColours) {
+  Person red;
+  red.path_m = {{3, 2.2}};
+  red.shirt = red.trousers = {0.8, 0.1, 0.1};
+  World alone = test::exampleWorld(), crowd = alone;
+  alone.people = {red};
+  Person other;
+  for (int i = 0; i < 20; ++i) {
+    other.path_m = {{3.5 + 0.4 * (i % 5), 0.6 + 0.8 * (i / 5)}};
+    crowd.people.push_back(other);
+  }
+  crowd.people.push_back(red);
+  const Look textured = lookOfLast(alone), plain = lookOfLast(crowd);
+  ASSERT_GT(textured.px, 2000);
+  ASSERT_EQ(textured.px, plain.px);
+  EXPECT_GT(plain.bgr[2], 2 * plain.bgr[1]) << "red";
+  for (int channel = 0; channel < 3; ++channel)
+    EXPECT_NEAR(plain.bgr[channel], textured.bgr[channel], 12) << channel;
 }
 
 TEST(AmbientLight, CornersAreDarkerThanFreeSurfaces) {
