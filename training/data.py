@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from torch.nn import functional as F
 
 CLASSES = ["swivel chair", "other seat", "sofa", "door", "person", "table", "bed", "cabinet", "plant", "monitor", "coat stand", "box", "wooden chair"]
 KINDS = {"swivel_chair": 0, "armchair": 1, "stool": 1, "bench": 1, "sofa": 2, "door": 3, "person": 4,
@@ -12,6 +13,8 @@ KINDS = {"swivel_chair": 0, "armchair": 1, "stool": 1, "bench": 1, "sofa": 2, "d
          "monitor": 9, "coat stand": 10, "printer": 11, "box": 11, "bin": 11, "wooden chair": 12,
          "visitor chair": 12}
 COLOR, DEPTH = slice(0, 3), slice(3, 6)
+NEAR_M = 0.4  # depth whose inverse is the channel's largest value
+FAR_SHARE = 0.4  # of the batches' pictures
 MIN_VISIBLE, MIN_HEIGHT_PX = 0.2, 8  # what is seen less of is neither asked for nor wrong
 
 
@@ -47,6 +50,37 @@ class Views:
     def batch(self, numbers):
         pictures = np.stack([self.arrays[a][row] for a, row in (self.index[i] for i in numbers)])
         return torch.from_numpy(pictures).float().div_(255), [torch.from_numpy(self.boxes[i].copy()) for i in numbers]
+
+
+def far_away(pictures, boxes, random):
+    """Four pictures at half their size in one: everything seen from twice as far (mosaic, Bochkovskiy et al. 2020, with the depth to match).
+
+    The channel of depth holds its inverse's root (rgbdChannels()); what is then beyond the sensor's range has none.
+    """
+    _, _, height, width = pictures.shape
+    half = torch.empty((4, pictures.shape[1], height // 2, width // 2))
+    half[:, COLOR] = F.avg_pool2d(pictures[:, COLOR], 2)
+    half[:, DEPTH] = pictures[:, DEPTH, ::2, ::2]
+    inverse = half[:, DEPTH.start].mul_(0.5 ** 0.5)
+    half[:, DEPTH] *= (inverse > (NEAR_M / float(random.uniform(3, 8))) ** 0.5).unsqueeze(1)
+    out, rows = torch.empty(pictures.shape[1:]), []
+    for i in range(4):
+        v, u = i // 2 * (height // 2), i % 2 * (width // 2)
+        out[:, v:v + height // 2, u:u + width // 2] = half[i]
+        own = boxes[i].clone()
+        own[:, 1:5] = own[:, 1:5] / 2 + torch.tensor([u, v, u, v])
+        own[own[:, 4] - own[:, 2] < MIN_HEIGHT_PX, 5] = 0
+        rows.append(own)
+    return out, torch.cat(rows)
+
+
+def drawn(views, count, random):
+    """A batch of `count` pictures, FAR_SHARE of them of four views each."""
+    pictures, boxes = views.batch(random.integers(0, len(views), count))
+    for i in range(count):
+        if random.random() < FAR_SHARE:
+            pictures[i], boxes[i] = far_away(*views.batch(random.integers(0, len(views), 4)), random)
+    return pictures, boxes
 
 
 def shrunk(pictures, boxes, factor):

@@ -87,12 +87,18 @@ def copy_weights(model, stored):
         own[name][-4:].copy_(value[-4:])
 
 
+def share_of(state, arguments):
+    """Of the training that is done."""
+    return state["steps"] / arguments.steps if arguments.steps else state["seconds"] / (60 * arguments.minutes)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--views", nargs="+", required=True, help="folders of `roomgraph training-set`")
     parser.add_argument("--check", required=True, help="folder of views that are not trained on")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint.pt, log.jsonl")
     parser.add_argument("--minutes", type=float, default=60, help="of training; the learning rate ends at 0 then")
+    parser.add_argument("--steps", type=int, default=0, help="end after so many steps instead, which is the same on every machine")
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=2e-3, help="largest learning rate (AdamW)")
     parser.add_argument("--seed", type=int, default=1)
@@ -127,11 +133,11 @@ def main():
     print(f"{len(views)} views, {len(check)} to check, {parameters} weights", flush=True)
     pairs = list(zip(mean.state_dict().values(), model.state_dict().values()))
     last, shown, sums = time.time(), time.time(), np.zeros(3)
-    while state["seconds"] < 60 * arguments.minutes:
+    share = share_of(state, arguments)
+    while share < 1:
         random = np.random.default_rng([arguments.seed, state["steps"]])
-        pictures, boxes = data.augmented(*views.batch(random.integers(0, len(views), arguments.batch)), random)
+        pictures, boxes = data.augmented(*data.drawn(views, arguments.batch, random), random)
         pictures, boxes = data.shrunk(pictures, boxes, arguments.shrink)
-        share = state["seconds"] / (60 * arguments.minutes)
         rate = arguments.rate * min(1, (state["steps"] + 1) / 200) * (0.5 * (1 + np.cos(np.pi * share)) + 0.002)
         for group in optimizer.param_groups:
             group["lr"] = rate
@@ -150,10 +156,10 @@ def main():
         state["steps"] += 1
         sums += (kinds.item(), places.item(), 1)
         state["seconds"] += time.time() - last
-        last = time.time()
-        if last - shown > 60 or state["seconds"] >= 60 * arguments.minutes:
+        last, share = time.time(), share_of(state, arguments)
+        if last - shown > 60 or share >= 1:
             figures = {"steps": state["steps"], "minutes": state["seconds"] / 60, "kinds": sums[0] / sums[2], "places": sums[1] / sums[2]}
-            if state["steps"] // 1000 != state.get("checked", 0) or state["seconds"] >= 60 * arguments.minutes:
+            if state["steps"] // 1000 != state.get("checked", 0) or share >= 1:
                 state["checked"] = state["steps"] // 1000
                 figures.update(evaluate.average_precisions(mean, check, shrink=arguments.shrink))
             with open(arguments.out / "log.jsonl", "a") as log:
