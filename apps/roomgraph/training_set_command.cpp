@@ -77,7 +77,7 @@ void addTrainingSetCommand(CLI::App& app) {
       "Examples:\n"
       "  roomgraph training-set -o /data/train --flats 10000-10499\n"
       "  roomgraph training-set -o /data/check --flats 1-20 --views 20\n"
-      "See training/README.md. Ctrl-C ends the set after the flat at hand; it is complete, and the exit code "
+      "See training/README.md. Ctrl-C ends the set after the view at hand; it is complete, and the exit code "
       "is 4.");
   command->callback([arguments] { makeTrainingSet(*arguments); });
 }

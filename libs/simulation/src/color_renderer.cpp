@@ -22,7 +22,7 @@ constexpr float kNear_m =
     0.2f;  ///< the depth buffer has few bits: near things would cost thin ones their place in front
 constexpr float kFar_m = 60;
 constexpr std::size_t kTextures = 190;  ///< MRPT 2.5 has 192 at a time
-constexpr int kFine = 2;  ///< pictures are rendered at this multiple of their size and averaged
+constexpr int kFine = 2;                ///< pictures are rendered at this multiple of their size and averaged
 
 mrpt::opengl::TTriangle toMrpt(const MeshTriangle& triangle) {
   mrpt::opengl::TTriangle out;

@@ -77,8 +77,8 @@ std::vector<Vector> evenAndSmooth(const std::vector<Vector>& curve, int metric, 
   return even;
 }
 
-/// Length between two of the curve's points at steps of kStep_m. Where the curve turns back, smoothing has moved them nearly into
-/// one place: there, their true distance, or the robot would turn faster than it may.
+/// Length between two of the curve's points at steps of kStep_m. Where the curve turns back, smoothing has
+/// moved them nearly into one place: there, their true distance, or the robot would turn faster than it may.
 double span(const std::vector<Vector>& curve, std::size_t from, std::size_t to) {
   double length = 0;
   for (std::size_t i = from; i < to; ++i) length += (curve[i + 1] - curve[i]).norm();
@@ -97,22 +97,20 @@ std::vector<double> speeds(const std::vector<double>& lengths, const std::vector
   return v;
 }
 
-/// Poses at equal steps of time; between two of the curve's points the acceleration is constant.
-std::vector<Pose3> timed(const std::vector<Pose3>& poses, const std::vector<double>& lengths,
-                         const std::vector<double>& v, double step_s) {
-  std::vector<Pose3> out;
+/// Places on the curve at equal steps of time; between two of its points the acceleration is constant.
+std::vector<SensorPath::Instant> timed(const std::vector<double>& lengths, const std::vector<double>& v,
+                                       double step_s) {
+  std::vector<SensorPath::Instant> out;
   double start = 0, next = 0;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double duration = 2 * lengths[i] / (v[i] + v[i + 1]);
     const double a = (v[i + 1] - v[i]) / duration;
     for (; next < start + duration; next += step_s) {
       const double t = next - start;
-      out.push_back(
-          interpolate(poses[i], poses[i + 1], std::clamp((v[i] + a * t / 2) * t / lengths[i], 0.0, 1.0)));
+      out.push_back({i, std::clamp((v[i] + a * t / 2) * t / lengths[i], 0.0, 1.0)});
     }
     start += duration;
   }
-  out.push_back(poses.back());
   return out;
 }
 
@@ -127,12 +125,11 @@ SensorPath::SensorPath(const RobotPathSpec& spec) {
     const Vector along = curve[std::min(i + 1, curve.size() - 1)] - curve[i == 0 ? 0 : i - 1];
     yaw.push_back(std::atan2(along.y(), along.x()));
   }
-  std::vector<Pose3> poses;
   std::vector<double> lengths, limits;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, curve.size() - 1);
     const double curvature = std::abs(wrapAngle(yaw[b] - yaw[a])) / span(curve, a, b);
-    poses.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i], 0, 0));
+    curve_.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i], 0, 0));
     limits.push_back(std::min(spec.max_speed_m_s, spec.max_turn_rad_s / std::max(1e-6, curvature)));
     if (i == b) break;
     // Where the curve turns back on itself the robot halts and turns on the spot, an angle for a length.
@@ -142,11 +139,11 @@ SensorPath::SensorPath(const RobotPathSpec& spec) {
     for (int k = 1; k <= steps; ++k) {
       lengths.push_back(kTurnStep_rad * spec.max_speed_m_s / spec.max_turn_rad_s);
       limits.push_back(k < steps ? spec.max_speed_m_s : kHalt_m_s);
-      poses.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i] + turn * k / steps, 0, 0));
+      curve_.push_back(poseFromYpr(curve[i].x(), curve[i].y(), 0, yaw[i] + turn * k / steps, 0, 0));
     }
     lengths.push_back(std::max(1e-6, (curve[b] - curve[i]).norm()));
   }
-  states_ = timed(poses, lengths, speeds(lengths, limits, spec.acceleration_m_s2), step_s_);
+  instants_ = timed(lengths, speeds(lengths, limits, spec.acceleration_m_s2), kStep_s);
 }
 
 SensorPath::SensorPath(const HandheldSpec& spec) {
@@ -159,31 +156,35 @@ SensorPath::SensorPath(const HandheldSpec& spec) {
     points.push_back(point);
   }
   const auto curve = evenAndSmooth(spline(points, spec.closed, 3), 3, 0.2);
-  std::vector<Pose3> poses;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Eigen::Vector3d at = curve[i].head<3>(), view = curve[i].tail<3>() - at;
     const double s = kStep_m * static_cast<double>(i);
     // A hand never holds still: slow sway in roll and pitch.
     const double pitch = -std::atan2(view.z(), view.head<2>().norm()) + 0.015 * std::sin(5.1 * s);
-    poses.push_back(poseFromYpr(at.x(), at.y(), at.z() + 0.012 * std::sin(7.3 * s),
-                                std::atan2(view.y(), view.x()), pitch, 0.02 * std::sin(3.7 * s)));
+    curve_.push_back(poseFromYpr(at.x(), at.y(), at.z() + 0.012 * std::sin(7.3 * s),
+                                 std::atan2(view.y(), view.x()), pitch, 0.02 * std::sin(3.7 * s)));
   }
   std::vector<double> lengths, limits;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    const Pose3 step = poses[i].inverse() * poses[i + 1];
+  for (std::size_t i = 0; i + 1 < curve_.size(); ++i) {
+    const Pose3 step = curve_[i].inverse() * curve_[i + 1];
     lengths.push_back(std::max(1e-6, step.translation().norm()));
     limits.push_back(
         std::min(spec.speed_m_s, kTurn_rad_s * lengths.back() / std::max(1e-9, rotationAngle(step))));
   }
   limits.push_back(0);
-  states_ = timed(poses, lengths, speeds(lengths, limits, kAcceleration), step_s_);
+  instants_ = timed(lengths, speeds(lengths, limits, kAcceleration), kStep_s);
+}
+
+Pose3 SensorPath::stateAt(std::size_t instant) const {
+  if (instant >= instants_.size()) return curve_.back();
+  const auto [segment, ratio] = instants_[instant];
+  return interpolate(curve_[segment], curve_[segment + 1], ratio);
 }
 
 Pose3 SensorPath::at(double seconds) const {
-  const double index = std::clamp(seconds / step_s_, 0.0, static_cast<double>(states_.size() - 1));
-  const auto low = std::min(static_cast<std::size_t>(index), states_.size() - 1);
-  const auto high = std::min(low + 1, states_.size() - 1);
-  return interpolate(states_[low], states_[high], index - static_cast<double>(low));
+  const double index = std::clamp(seconds / kStep_s, 0.0, static_cast<double>(instants_.size()));
+  const auto low = static_cast<std::size_t>(index);
+  return interpolate(stateAt(low), stateAt(low + 1), index - static_cast<double>(low));
 }
 
 }  // namespace roomgraph

@@ -17,14 +17,24 @@ class SensorPath {
   explicit SensorPath(const RobotPathSpec& spec);
   explicit SensorPath(const HandheldSpec& spec);
 
-  double duration() const { return states_.empty() ? 0 : step_s_ * static_cast<double>(states_.size() - 1); }
+  double duration() const { return kStep_s * static_cast<double>(instants_.size()); }
   /// Robot base for a robot; body frame of the camera (x forward, z up) for a hand-held one. Stays at the
   /// ends.
   Pose3 at(double seconds) const;
 
+  /// Between two poses of a curve: which, and how far from the first of them, 0 to 1.
+  struct Instant {
+    std::size_t segment;
+    double ratio;
+  };
+
  private:
-  double step_s_ = 0.005;  ///< states are interpolated between these instants
-  std::vector<Pose3> states_;
+  static constexpr double kStep_s = 0.005;  ///< poses are interpolated between those of these instants
+
+  Pose3 stateAt(std::size_t instant) const;
+
+  std::vector<Pose3> curve_;
+  std::vector<Instant> instants_;  ///< kStep_s apart; after them the curve's end
 };
 
 }  // namespace roomgraph

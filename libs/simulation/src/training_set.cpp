@@ -171,7 +171,8 @@ TrainingSetResult writeTrainingSet(const TrainingSetOptions& options, const std:
   TrainingSetResult result;
   for (std::uint64_t flat = options.first_flat; flat <= options.last_flat && !result.interrupted; ++flat) {
     FlatViews views(flat, options);
-    for (int i = 0; i < options.views; ++i) {
+    for (int i = 0; i < options.views && !result.interrupted; ++i) {
+      result.interrupted = options.interrupted && options.interrupted();
       const auto view = views.view(i);
       if (!view) continue;
       for (const cv::Mat& channel : view->channels)
@@ -186,7 +187,6 @@ TrainingSetResult writeTrainingSet(const TrainingSetOptions& options, const std:
     ++result.flats;
     if (options.progress)
       options.progress(result.flats, static_cast<double>(options.last_flat - options.first_flat + 1));
-    result.interrupted = options.interrupted && options.interrupted();
   }
   pixels.finish();
   labels.finish();

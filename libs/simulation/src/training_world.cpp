@@ -71,7 +71,8 @@ Eigen::Vector2d drawPlace(const Room& room, double margin_m, Random& random) {
 }
 
 Person drawPerson(Random& random) {
-  static const std::vector<Color> skins{{0.85, 0.65, 0.52}, {0.62, 0.44, 0.33}, {0.42, 0.29, 0.21}, {0.93, 0.76, 0.65}},
+  static const std::vector<Color> skins{
+      {0.85, 0.65, 0.52}, {0.62, 0.44, 0.33}, {0.42, 0.29, 0.21}, {0.93, 0.76, 0.65}},
       hairs{{0.2, 0.13, 0.08}, {0.08, 0.07, 0.07}, {0.55, 0.4, 0.2}, {0.6, 0.6, 0.58}};
   Person out;
   out.height_m = random.uniform(1.5, 1.95);
@@ -82,8 +83,11 @@ Person drawPerson(Random& random) {
 
 /// Somebody on one of four seats; knees may be below a desk, as where people work.
 void seatMore(World& world, Random& random) {
-  static const std::map<std::string, double> heights{
-      {"swivel_chair", 0.46}, {"sofa", 0.43}, {"wooden_chair", 0.46}, {"visitor_chair", 0.46}, {"armchair", 0.43}};
+  static const std::map<std::string, double> heights{{"swivel_chair", 0.46},
+                                                     {"sofa", 0.43},
+                                                     {"wooden_chair", 0.46},
+                                                     {"visitor_chair", 0.46},
+                                                     {"armchair", 0.43}};
   for (const Furniture& seat : world.furniture) {
     const auto height = heights.find(seat.model);
     if (height == heights.end() || !random.chance(0.25)) continue;
@@ -117,7 +121,8 @@ void standMore(World& world, Random& random) {
 
 /// More chairs where there is room: they are what is looked for most.
 void addChairs(World& world, Random& random) {
-  static const std::vector<std::string> kinds{"swivel_chair", "swivel_chair", "wooden_chair", "visitor_chair"};
+  static const std::vector<std::string> kinds{"swivel_chair", "swivel_chair", "wooden_chair",
+                                              "visitor_chair"};
   for (const Room& room : world.rooms) {
     if ((room.max_m - room.min_m).minCoeff() < 1.5) continue;
     for (int more = drawInt(random, 0, 3); more > 0; --more) {
@@ -129,7 +134,8 @@ void addChairs(World& world, Random& random) {
       chair.yaw_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
       const bool swivel = chair.model == "swivel_chair";
       const double width = random.uniform(0.42, 0.55) + (swivel ? 0.1 : 0);
-      chair.size_m = {width, width * random.uniform(0.9, 1.1), random.uniform(0.78, 1.0) + (swivel ? 0.08 : 0)};
+      chair.size_m = {width, width * random.uniform(0.9, 1.1),
+                      random.uniform(0.78, 1.0) + (swivel ? 0.08 : 0)};
       world.furniture.push_back(chair);
     }
   }
