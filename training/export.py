@@ -72,7 +72,7 @@ def main():
     parser.add_argument("--check", nargs="+", required=True, help="folders of views to calibrate with")
     parser.add_argument("--out", type=Path, required=True)
     arguments = parser.parse_args()
-    torch.set_num_threads(1)
+    torch.set_num_threads(1)  # it takes a minute; two threads beside other work take far longer
     model = RoomDetector(len(data.CLASSES))
     weights = torch.load(arguments.checkpoint)["mean"]
     model.load_state_dict(weights)
