@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/observations/rgbd_channels.h"
 #include "roomgraph/simulation/flat.h"
+#include "sitting.h"
 #include "temporary_folder.h"
 #include "training_world.h"
 
@@ -104,12 +106,12 @@ TEST(TrainingSetTest, ChoiceOfMeshesNamesWhatIsWrong) {
 TEST(TrainingSetTest, StopsWhenInterrupted) {
   const test::TemporaryFolder folder;
   auto options = twoViews();
-  options.views = 1;
   options.last_flat = 9;
   options.interrupted = [] { return true; };
   const auto result = writeTrainingSet(options, folder.path());
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.flats, 1);
+  EXPECT_LE(result.views, 1) << "at once, rather than after the flat";
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "set.json"));
 }
 
@@ -135,6 +137,25 @@ TEST(TrainingWorldTest, PeopleAndChairsAreAddedInTheRooms) {
   EXPECT_GT(sitting, 5u);
   EXPECT_GT(standing, 5u);
   EXPECT_GT(chairs, 5u);
+}
+
+TEST(Sitting, OnWhatIsASeatAndWhereItsFrontIs) {
+  Furniture sofa;
+  sofa.model = "sofa";
+  sofa.at_m = {2, 1, 0};
+  sofa.yaw_rad = std::numbers::pi / 2;
+  const Pose2 at = placeOnSeat(sofa, 0.3);
+  EXPECT_NEAR(at.x, 1.7, 1e-9) << "to the left of who looks along y";
+  EXPECT_NEAR(at.y, 1.06, 1e-9) << "before the middle, as the back takes room";
+  EXPECT_NEAR(at.yaw, sofa.yaw_rad, 1e-9);
+  Furniture stool;
+  stool.model = "stool";
+  stool.size_m = {0.4, 0.4, 0.55};
+  EXPECT_EQ(seatHeight(stool), 0.55);
+  EXPECT_LT(*seatHeight(sofa), 0.5);
+  Furniture shelf;
+  shelf.model = "shelf";
+  EXPECT_FALSE(seatHeight(shelf));
 }
 
 TEST(TrainingWorldTest, SpoiledDepthLosesAndNeverInvents) {

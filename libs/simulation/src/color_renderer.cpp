@@ -62,6 +62,8 @@ mrpt::img::TCamera finePinhole(const PinholeCamera& camera) {
 struct ColorRenderer::Content {
   Content(const Scene& scene, const PinholeCamera& camera);
   CSetOfTexturedTriangles::Ptr add(int material);
+  using Drawables = std::map<int, CSetOfTexturedTriangles::Ptr>;  ///< by material
+  void addTo(Drawables& drawables, const Mesh& mesh);
   void addMoving(std::size_t part);
   void addMovingPlain(std::size_t part);
   void place(const std::vector<Pose3>& world_from_part, const Pose3& world_from_camera, double nearest_m);
@@ -82,13 +84,17 @@ CSetOfTexturedTriangles::Ptr ColorRenderer::Content::add(int material) {
   return out;
 }
 
-void ColorRenderer::Content::addMoving(std::size_t part) {
-  std::map<int, CSetOfTexturedTriangles::Ptr> drawables;
-  for (const auto& triangle : scene.parts()[part].mesh.triangles) {
+void ColorRenderer::Content::addTo(Drawables& drawables, const Mesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
     auto& drawable = drawables[triangle.material];
     if (!drawable) drawable = add(triangle.material);
     drawable->insertTriangle(toMrpt(triangle));
   }
+}
+
+void ColorRenderer::Content::addMoving(std::size_t part) {
+  Drawables drawables;
+  addTo(drawables, scene.parts()[part].mesh);
   for (const auto& [material, drawable] : drawables) moving.emplace_back(part, drawable);
 }
 
@@ -110,15 +116,9 @@ void ColorRenderer::Content::addMovingPlain(std::size_t part) {
 ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
     : scene(source), camera(model) {
   for (const auto& material : scene.materials()) textures.push_back(textureOf(material));
-  std::map<int, CSetOfTexturedTriangles::Ptr> fixed;
-  for (const auto& part : scene.parts()) {
-    if (part.person >= 0) continue;
-    for (const auto& triangle : part.mesh.triangles) {
-      auto& drawable = fixed[triangle.material];
-      if (!drawable) drawable = add(triangle.material);
-      drawable->insertTriangle(toMrpt(triangle));
-    }
-  }
+  Drawables fixed;
+  for (const auto& part : scene.parts())
+    if (part.person < 0) addTo(fixed, part.mesh);
   // A crowd has more textures than there may be: its last ones are of one colour each.
   std::size_t textured = fixed.size();
   for (std::size_t i = 0; i < scene.parts().size(); ++i) {

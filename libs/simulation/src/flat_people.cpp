@@ -2,27 +2,25 @@
 // People of a random flat: who sits, who stands, who walks.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "flat_grid.h"
 #include "person_model.h"
 #include "sensor_path.h"
+#include "sitting.h"
 
 namespace roomgraph {
 namespace {
 
 Person drawPerson(Random& random) {
   using Paint = std::array<double, 3>;
-  static const std::vector<Paint> skins{{0.85, 0.65, 0.52}, {0.62, 0.44, 0.33}, {0.42, 0.29, 0.21}, {0.93, 0.76, 0.65}};
-  static const std::vector<Paint> hairs{{0.2, 0.13, 0.08}, {0.08, 0.07, 0.07}, {0.55, 0.4, 0.2}, {0.6, 0.6, 0.58}};
   const auto cloth = [&] { return Paint{random.uniform(0.08, 0.85), random.uniform(0.08, 0.8), random.uniform(0.1, 0.8)}; };
   Person out;
   out.height_m = inSteps(random.uniform(1.55, 1.92));
   out.shirt = cloth();
   out.trousers = {random.uniform(0.05, 0.4), random.uniform(0.05, 0.38), random.uniform(0.08, 0.45)};
-  out.skin = pick(random, skins);
-  out.hair = pick(random, hairs);
+  out.skin = pick(random, skinColors());
+  out.hair = pick(random, hairColors());
   return out;
 }
 
@@ -39,15 +37,12 @@ bool seatOne(FlatDraft& draft, Random& random) {
   const auto& furniture = draft.world.furniture;
   const std::size_t index = static_cast<std::size_t>(drawInt(random, 0, static_cast<int>(furniture.size()) - 1));
   const Furniture& seat = furniture[index];
-  static const std::map<std::string, double> heights{{"swivel_chair", 0.46}, {"sofa", 0.43}, {"stool", 0}, {"wooden_chair", 0.46},
-                                                     {"visitor_chair", 0.46}, {"armchair", 0.43}};
-  const auto height = heights.find(seat.model);
-  if (height == heights.end()) return false;
+  const auto height = seatHeight(seat);
+  if (!height) return false;
   const Eigen::Vector3d size = *seat.size_m;
   if (seat.model == "stool" && size.z() > 0.6) return false;
-  const bool deep = seat.model == "sofa" || seat.model == "armchair";
   const double along = seat.model == "sofa" ? random.uniform(-0.5, 0.5) * std::max(0.0, size.x() - 1.1) : 0;
-  const Pose2 at = Pose2{seat.at_m.x(), seat.at_m.y(), seat.yaw_rad} * Pose2{deep ? 0.06 : -0.02, along, 0};
+  const Pose2 at = placeOnSeat(seat, along);
   const Polygon feet = feetPolygon(at);
   for (std::size_t i = 0; i < furniture.size(); ++i) {
     const bool below = furniture[i].model == "desk" || (furniture[i].model == "table" && furniture[i].size_m->z() > 0.6);
@@ -61,7 +56,7 @@ bool seatOne(FlatDraft& draft, Random& random) {
   person.sits = true;
   person.path_m = {Eigen::Vector2d(inSteps(at.x, 0.001), inSteps(at.y, 0.001))};
   person.yaw_rad = at.yaw;
-  person.seat_height_m = inSteps(seat.model == "stool" ? size.z() : height->second);
+  person.seat_height_m = inSteps(*height);
   draft.world.people.push_back(person);
   draft.obstacles.push_back(feet);
   return true;

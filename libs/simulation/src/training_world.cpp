@@ -11,6 +11,7 @@
 #include "flat_draft.h"
 #include "roomgraph/geometry/degree.h"
 #include "roomgraph/geometry/pose.h"
+#include "sitting.h"
 
 namespace roomgraph {
 namespace {
@@ -71,34 +72,25 @@ Eigen::Vector2d drawPlace(const Room& room, double margin_m, Random& random) {
 }
 
 Person drawPerson(Random& random) {
-  static const std::vector<Color> skins{
-      {0.85, 0.65, 0.52}, {0.62, 0.44, 0.33}, {0.42, 0.29, 0.21}, {0.93, 0.76, 0.65}},
-      hairs{{0.2, 0.13, 0.08}, {0.08, 0.07, 0.07}, {0.55, 0.4, 0.2}, {0.6, 0.6, 0.58}};
   Person out;
   out.height_m = random.uniform(1.5, 1.95);
-  out.skin = pick(random, skins);
-  out.hair = pick(random, hairs);
+  out.skin = pick(random, skinColors());
+  out.hair = pick(random, hairColors());
   return out;
 }
 
 /// Somebody on one of four seats; knees may be below a desk, as where people work.
 void seatMore(World& world, Random& random) {
-  static const std::map<std::string, double> heights{{"swivel_chair", 0.46},
-                                                     {"sofa", 0.43},
-                                                     {"wooden_chair", 0.46},
-                                                     {"visitor_chair", 0.46},
-                                                     {"armchair", 0.43}};
   for (const Furniture& seat : world.furniture) {
-    const auto height = heights.find(seat.model);
-    if (height == heights.end() || !random.chance(0.25)) continue;
-    const bool deep = seat.model == "sofa" || seat.model == "armchair";
+    const auto height = seatHeight(seat);
+    if (!height || seat.model == "stool" || !random.chance(0.25)) continue;
     const double along = seat.model == "sofa" ? random.uniform(-0.4, 0.4) : 0;
-    const Pose2 at = Pose2{seat.at_m.x(), seat.at_m.y(), seat.yaw_rad} * Pose2{deep ? 0.06 : -0.02, along, 0};
+    const Pose2 at = placeOnSeat(seat, along);
     Person person = drawPerson(random);
     person.sits = true;
     person.path_m = {{at.x, at.y}};
     person.yaw_rad = at.yaw;
-    person.seat_height_m = height->second;
+    person.seat_height_m = *height;
     world.people.push_back(person);
   }
 }

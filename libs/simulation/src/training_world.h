@@ -11,7 +11,8 @@
 
 namespace roomgraph {
 
-/// Other surfaces and colours, and mesh files in place of half of the built shapes that have some.
+/// More chairs and people, other surfaces and colours, and mesh files in place of half of the built shapes
+/// that have some. Walking people may pass through furniture.
 void varyWorld(World& world, const MeshChoice& meshes, Random& random);
 
 /// Light, range and noise of a camera of the given size, with its field of view.

@@ -195,7 +195,8 @@ void adjustLocally(LocalMap& map, int index, const TrackingParameters& parameter
   if (window.size() < 2) return;
   LocalProblem problem(map, std::move(window), parameters);
   problem.write(recalled(
-      results, "local adjustment", map.keyframe(index).t, [&] { return problem.solve(); }, bytesOfNumbers, numbersFrom));
+      results, "local adjustment", map.keyframe(index).t, [&] { return problem.solve(); }, bytesOfNumbers,
+      numbersFrom));
 }
 
 }  // namespace roomgraph::tracking
