@@ -36,12 +36,13 @@ TEST_F(SlurmBatch, AKilledBatchFindsItsJobs) {
   makeRecordings({"a", "b", "c", "d", "e", "f"}, 6);
   said("scontrol update NodeName=node0 State=DRAIN Reason=test");
   Program first = started(words(slurmJobs(kOne)));
-  ASSERT_TRUE(waitUntil([] { return active().size() == 6; }));
+  const std::string noted = folder.file("out/slurm/000001/job");
+  ASSERT_TRUE(waitUntil([&] { return active().size() == 6 && std::filesystem::exists(noted); }));
   kill(first.pid(), SIGKILL);
   first.wait();
   expectOneLine(batch({"jobs.yaml", "-o", "out"}), 2, HasSubstr("jobs of this batch are in a queue"));
   // As if it had been killed before it read the answer of sbatch.
-  ASSERT_TRUE(std::filesystem::remove(folder.file("out/slurm/000001/job")));
+  ASSERT_TRUE(std::filesystem::remove(noted));
   Program second = started(words("jobs.yaml"));
   ASSERT_TRUE(waitUntil([this] {
     return contentOf(folder.file("stderr.txt")).find("found     f--default") != std::string::npos;

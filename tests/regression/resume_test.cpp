@@ -63,8 +63,9 @@ class Resume : public ::testing::Test {
     return resultsIn(folder.file("whole"));
   }
   /// Starts a run, and returns it when so many bytes of live poses are on the disk.
-  Program started(const std::vector<std::string>& arguments, std::uintmax_t live_bytes) const {
-    Program program(folder.path(), arguments);
+  Program started(const std::vector<std::string>& arguments, std::uintmax_t live_bytes,
+                  const fs::path& working_folder = {}) const {
+    Program program(folder.path(), arguments, working_folder);
     for (int i = 0; i < 6000; ++i) {
       std::error_code none_yet;
       const auto bytes = fs::file_size(out / "roomgraph_unfinished" / "live.tum", none_yet);
@@ -73,8 +74,9 @@ class Resume : public ::testing::Test {
     }
     return program;
   }
-  void killOne(const std::vector<std::string>& arguments, std::uintmax_t live_bytes = 4000) const {
-    Program program = started(arguments, live_bytes);
+  void killOne(const std::vector<std::string>& arguments, std::uintmax_t live_bytes = 4000,
+               const fs::path& working_folder = {}) const {
+    Program program = started(arguments, live_bytes, working_folder);
     ASSERT_EQ(kill(program.pid(), SIGKILL), 0);
     EXPECT_EQ(program.wait().exit_code, -1) << "it had ended before it was killed";
   }
@@ -148,10 +150,7 @@ TEST_F(Resume, TwiceAndWithOtherThreads) {
 TEST_F(Resume, FromAnotherFolderWithTheNamesOfThen) {
   record(400, {true, false, true});
   const Files whole = undisturbed();
-  Program program(folder.path(), {"run", "a.rawlog", "-o", "out", "--quiet", "--no-snapshot"}, folder.path());
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  ASSERT_EQ(kill(program.pid(), SIGKILL), 0);
-  ASSERT_EQ(program.wait().exit_code, -1);
+  killOne({"run", "a.rawlog", "-o", "out", "--quiet", "--no-snapshot"}, 4000, folder.path());
   ASSERT_TRUE(fs::exists(checkpoint / "run.json"));
   fs::create_directory(folder.file("elsewhere"));
   const CallResult result =
