@@ -143,7 +143,8 @@ def decisions(samples, probabilities, limit):
 
 
 def collect(program, number, out, settings, meshes=None):
-    truth = flats.flat(program, argparse.Namespace(rooms=0, handheld=False, meshes=meshes), number, out / "sequences")
+    furnished = ["--meshes", meshes.resolve()] if meshes else []
+    truth = seeds.simulated(program, "flat", repr(furnished).encode(), number, out / "sequences", ["--flat", number, *furnished])
     run = out / "runs" / "existence" / (f"meshes_{number}" if meshes else f"flat_{number}")
     _, problems = seeds.measure(program, truth, run, False, settings, 0)
     report = run / "candidates_score.json"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates random flats, runs and evaluates each, and compares variants of the settings flat by flat.
+"""Simulates random flats, runs and evaluates each (`roomgraph batch`), and compares variants of the settings flat by flat.
 
     bench/flats.py [--seeds 1-20] [--variants name=k=v,k=v ...] [--set k=v ...] [--rooms N] [--handheld] [--out DIR]
 
@@ -13,12 +13,14 @@ What landmarks do for the trajectory, with nothing else different (no loops; peo
     bench/flats.py --set tracking.loop_closing=false lidar.loop_closing=false object_loop_closing.enabled=false \\
       --variants no_landmarks=landmarks.enabled=false
 
-Simulated flats are kept in DIR/sequences and used again until the simulator changes. DIR/figures.json keeps each flat's figures.
+DIR/batch holds recordings, runs and the catalogue: what is complete and unchanged is used again by every later call. DIR/figures.json
+has each flat's figures.
 """
 import argparse
 import json
 import math
 import random
+import sqlite3
 import sys
 from pathlib import Path
 
@@ -46,17 +48,6 @@ FIGURES = [
     ("map", "f1", "map: F1 of occupied", ".3f", 1, "difference"),
     ("run", "seconds", "time of the run, s", ".0f", -1, "ratio"),
 ]
-
-
-def evaluations(truth, run, handheld):
-    """Those of bench/seeds.py, and the trajectory and the associations as they were known at the moment."""
-    for report, arguments in seeds.evaluations(truth, run, handheld):
-        yield report, arguments
-        live = run / "associations_live.jsonl"
-        if report == "objects" and run / "associations.jsonl" in arguments and live.exists():
-            yield "objects_live", [live if part == run / "associations.jsonl" else part for part in arguments]
-    if (run / "live.tum").exists():
-        yield "live", ["trajectory", truth / "groundtruth_robot.txt", run / "live.tum"]
 
 
 def parse_seeds(text):
@@ -107,14 +98,15 @@ def middle_and_worst(values, pattern, better):
     return f"{few}{seeds.quantile(known, 0.5):{pattern}} ({worst:{pattern}})"
 
 
-def table(numbers, results):
+def table(numbers, results, revisions=()):
     """Markdown; results: variant -> list of the flats' figures in the order of `numbers` (empty: the run failed)."""
     reporting = numbers[0] in REPORTING
     purpose = "for reporting: no setting was chosen on them" if reporting else "for choosing: not a measure of how good the settings are"
     others = [name for name in results if name != "default"]
     columns = [f"{name}: median (worst)" for name in results] + [f"{name} against default" for name in others]
     lines = [f"### {len(numbers)} random flats, {numbers[0]} to {numbers[-1]}, {purpose}", "",
-             "Against default: mean difference, or x mean ratio, flat by flat [95 % bootstrap interval]; * where that excludes no change.",
+             "Against default: mean difference, or x mean ratio, flat by flat [95 % bootstrap interval]; * where that excludes no change. "
+             f"Program {', '.join(revisions) or '-'}.",
              "", "| figure | " + " | ".join(columns) + " |", "| --- |" + " --- |" * len(columns)]
     failed = [str(sum(not figures for figures in flats)) for flats in results.values()]
     lines.append("| runs that failed | " + " | ".join(failed + ["" for _ in others]) + " |")
@@ -136,34 +128,43 @@ def arguments_of(argv):
     parser.add_argument("--rooms", type=int, default=0, help="of every flat; 0: drawn (default)")
     parser.add_argument("--handheld", action="store_true", help="a camera carried by hand, no robot")
     parser.add_argument("--meshes", type=Path, metavar="DIR", help="furnished with the catalogue models in this folder")
-    parser.add_argument("--threads", type=int, default=0, help="of each run; 0: all cores")
+    parser.add_argument("--threads", type=int, default=1, help="of each run")
+    parser.add_argument("--jobs", type=int, default=0, help="runs at once; 0: cores / threads")
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "flats")
     parser.add_argument("--program", type=Path, default=seeds.PROGRAM)
     return parser.parse_args(argv)
 
 
-def flat(program, arguments, number, folder):
-    """Folder of the recording of a flat."""
-    options = ["--rooms", arguments.rooms] if arguments.rooms else []
-    options += ["--handheld"] if arguments.handheld else []
-    options += ["--meshes", arguments.meshes.resolve()] if arguments.meshes else []
-    return seeds.simulated(program, "flat", repr(options).encode(), number, folder, ["--flat", number, *options])
+def group(arguments):
+    """What the flats of these options are called in the catalogue."""
+    return "_".join(["flats", *(["handheld"] if arguments.handheld else []), *([f"{arguments.rooms}rooms"] if arguments.rooms else []),
+                     *([arguments.meshes.resolve().name] if arguments.meshes else [])])
+
+
+def job_file(arguments, variants):
+    """What `roomgraph batch` is to do, as JSON, which is YAML."""
+    flats = {"flats": ",".join(str(number) for number in arguments.seeds)}
+    flats |= {"rooms": arguments.rooms} if arguments.rooms else {}
+    flats |= {"handheld": True} if arguments.handheld else {}
+    flats |= {"meshes": str(arguments.meshes.resolve())} if arguments.meshes else {}
+    return {"inputs": [{"simulate": flats, "group": group(arguments)}],
+            "variants": [{"name": name, "set": arguments.set + settings} for name, settings in variants.items()],
+            "limits": {"jobs": arguments.jobs, "threads": arguments.threads}}
 
 
 def main(argv=None):
     arguments = arguments_of(argv)
-    program, out = seeds.Program(arguments.program), arguments.out.resolve()
+    out = arguments.out.resolve()
     variants = {"default": [], **dict(arguments.variants)}
-    results = {name: [] for name in variants}
-    for number in arguments.seeds:
-        truth = flat(program, arguments, number, out / "sequences")
-        for name, settings in variants.items():
-            figures, problems = seeds.measure(program, truth, out / "runs" / name / f"flat_{number}", arguments.handheld,
-                                              arguments.set + settings, arguments.threads, evaluations, FIGURES)
-            results[name].append(figures)
-            print(f"flat {number}, {name}: {len(figures)} figures", *problems, sep="\n  ", file=sys.stderr, flush=True)
-        (out / "figures.json").write_text(json.dumps({"flats": arguments.seeds, **results}, indent=1) + "\n")
-    text = table(arguments.seeds, results)
+    ended = seeds.batch(arguments.program, out, job_file(arguments, variants))
+    if ended not in (0, 1):
+        return ended
+    catalogue = sqlite3.connect(out / "batch" / "catalogue.sqlite")
+    results, revisions, problems = seeds.catalogued(catalogue, group(arguments), arguments.seeds, variants, FIGURES)
+    catalogue.close()
+    print(*problems, sep="\n", file=sys.stderr)
+    (out / "figures.json").write_text(json.dumps({"flats": arguments.seeds, **results}, indent=1) + "\n")
+    text = table(arguments.seeds, results, revisions)
     (out / "table.md").write_text(text)
     print(text)
     return 0 if all(figures for flats in results.values() for figures in flats) else 1

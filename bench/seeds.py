@@ -192,12 +192,21 @@ def job_file(arguments, seeds, variants):
             "limits": {"jobs": arguments.jobs, "threads": arguments.threads}}
 
 
-def catalogued(catalogue, world, seeds, variants):
-    """The figures of a world's runs, variant by variant and seed by seed; the program's revisions; what went wrong, in lines."""
+def batch(program, out, jobs):
+    """Lets `roomgraph batch` do `jobs` (what a job file says) in OUT/batch; its exit code. No networks that somebody has installed."""
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "jobs.yaml").write_text(json.dumps(jobs, indent=1) + "\n")
+    return subprocess.run([str(part) for part in (program, "batch", out / "jobs.yaml", "-o", out / "batch")],
+                          env={**os.environ, "XDG_DATA_HOME": os.devnull}, stdout=subprocess.DEVNULL).returncode
+
+
+def catalogued(catalogue, group, seeds, variants, figures_of=FIGURES):
+    """The figures of the runs of a group of inputs (a world), variant by variant and seed by seed; the program's revisions; what went
+    wrong, in lines."""
     results, revisions, problems = {name: [{} for _ in seeds] for name in variants}, set(), []
     for run, seed, variant, status, reason, revision in catalogue.execute(
             "SELECT runs.name, seed, variant, status, reason, revision FROM runs JOIN inputs ON inputs.id = input_id "
-            "WHERE input_group = ? ORDER BY runs.name", [world]):
+            "WHERE input_group = ? ORDER BY runs.name", [group]):
         if variant not in results or seed not in seeds:
             continue  # of an earlier call
         if reason:
@@ -206,7 +215,7 @@ def catalogued(catalogue, world, seeds, variants):
             revisions.add(revision)
             figures = dict(catalogue.execute("SELECT figure, value FROM figures WHERE run = ?", [run]))
             figures["run.seconds"] = figures.pop("run.wall_s", None)
-            wanted = {f"{report}.{key}" for report, key, *_ in FIGURES}
+            wanted = {f"{report}.{key}" for report, key, *_ in figures_of}
             results[variant][seeds.index(seed)] = {name: value for name, value in figures.items() if name in wanted and value is not None}
     return results, sorted(revisions), problems
 
@@ -234,13 +243,9 @@ def arguments_of(argv):
 def main(argv=None):
     arguments = arguments_of(argv)
     out = arguments.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
     variants = {"default": [], **dict(arguments.variants)}
     seeds = list(range(arguments.first_seed, arguments.first_seed + arguments.seeds))
-    (out / "jobs.yaml").write_text(json.dumps(job_file(arguments, seeds, variants), indent=1) + "\n")
-    environment = {**os.environ, "XDG_DATA_HOME": os.devnull}  # no networks that somebody has installed
-    ended = subprocess.run([str(part) for part in (arguments.program, "batch", out / "jobs.yaml", "-o", out / "batch")], env=environment,
-                           stdout=subprocess.DEVNULL).returncode
+    ended = batch(arguments.program, out, job_file(arguments, seeds, variants))
     if ended not in (0, 1):
         return ended
     catalogue = sqlite3.connect(out / "batch" / "catalogue.sqlite")

@@ -58,11 +58,15 @@ endfunction()
 # Tests see no networks that a developer has installed.
 set(ROOMGRAPH_TEST_ENVIRONMENT "XDG_DATA_HOME=${CMAKE_BINARY_DIR}/no_data")
 
-# roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...] [AT_ONCE suites...]): one GoogleTest
-# executable, its cases listed in ctest; those of AT_ONCE, which share what takes long to make, as one for each suite. It sees the private headers of the library whose tests stand in this folder, and of INTERNALS:
-# the parts behind the public interface are tested one by one.
+# Each case in a process of its own, as a developer wants it; loading the libraries takes longer than most cases do.
+option(ROOMGRAPH_TESTS_ONE_BY_ONE "ctest lists each GoogleTest case, not each executable" OFF)
+
+# roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...] [ONE_BY_ONE] [AT_ONCE suites...]): one
+# GoogleTest executable, and one test of ctest, or one for each case where cases start whole programs (ONE_BY_ONE) or the option
+# above wants it; suites of AT_ONCE, which share what takes long to make, are one test even then. It sees the private headers of
+# the library whose tests stand in this folder, and of INTERNALS: the parts behind the public interface are tested one by one.
 function(roomgraph_add_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;INTERNALS;AT_ONCE" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE" "TIMEOUT" "SOURCES;LINK;INTERNALS;AT_ONCE" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -78,6 +82,13 @@ function(roomgraph_add_test name)
   target_link_libraries(${name} PRIVATE roomgraph_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE ROOMGRAPH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              ROOMGRAPH_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  if(NOT ARG_ONE_BY_ONE AND NOT ROOMGRAPH_TESTS_ONE_BY_ONE)
+    string(REGEX REPLACE "_test$" "" test ${name})
+    math(EXPR timeout "2 * ${ARG_TIMEOUT}")
+    add_test(NAME ${test} COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${test} PROPERTIES TIMEOUT ${timeout} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
+    return()
+  endif()
   set(filter "*")
   if(ARG_AT_ONCE)
     list(TRANSFORM ARG_AT_ONCE APPEND ".*" OUTPUT_VARIABLE left_out)

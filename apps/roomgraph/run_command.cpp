@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph run`: replay of a rawlog through SemanticSlam, with progress, map, snapshot and debug output.
-#include <tbb/global_control.h>
-
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <opencv2/core/utility.hpp>
 #include <optional>
 
 #include "commands.h"
@@ -29,6 +26,7 @@
 #include "run_options.h"
 #include "run_places.h"
 #include "run_report.h"
+#include "thread_limit.h"
 
 namespace roomgraph {
 namespace {
@@ -195,11 +193,7 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
 }
 
 void run(const RunOptions& options) {
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-    cv::setNumThreads(options.threads);
-  }
+  const ThreadLimit limit(options.threads);
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
   check(options);

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "interrupts.h"
+#include "thread_limit.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/simulation/flat.h"
@@ -19,7 +20,7 @@ namespace {
 struct SimulateArguments {
   std::filesystem::path world, folder, meshes;
   std::optional<std::uint64_t> seed, flat;
-  int rooms = 0;
+  int rooms = 0, threads = 0;
   bool handheld = false, quiet = false;
 };
 
@@ -33,6 +34,7 @@ std::pair<World, std::string> chosenWorld(const SimulateArguments& arguments) {
 void simulateWorld(const SimulateArguments& arguments) {
   if (arguments.world.empty() == !arguments.flat)
     throw ConfigError("simulate needs a world file or --flat SEED, one of them");
+  const ThreadLimit limit(arguments.threads);
   const auto [world, text] = chosenWorld(arguments);
   catchInterrupts();
   std::unique_ptr<Progress> line;
@@ -74,6 +76,8 @@ void addSimulateCommand(CLI::App& app) {
                       "folder of worlds/extract_meshes.sh: some of the flat's chairs and sofas are catalogue models")
       ->check(CLI::ExistingDirectory)
       ->needs(flat);
+  command->add_option("--threads", arguments->threads, "upper limit of threads; 0: all cores (the same bytes)")
+      ->check(atLeastZero());
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->footer(
       "Examples:\n"

@@ -26,6 +26,7 @@ class JobFiles : public ::testing::Test {
 
 TEST_F(JobFiles, SayWhatIsToRun) {
   folder.write("room.json", "{}");
+  std::filesystem::create_directory(folder.file("lab"));
   folder.write("fast.ini", "");
   const JobFile jobs = read(
       "inputs:\n"
@@ -34,7 +35,7 @@ TEST_F(JobFiles, SayWhatIsToRun) {
       "things.json}, group: real}\n"
       "  - {files: c.rawlog, truth: none}\n"
       "  - simulate: {world: room.json, seeds: 1-3}\n"
-      "  - simulate: {flats: [7, 20-21], rooms: 2, handheld: true}\n"
+      "  - simulate: {flats: [7, 20-21], rooms: 2, handheld: true, meshes: lab}\n"
       "variants:\n"
       "  - name: default\n"
       "  - {name: fast, config: fast.ini, set: [lidar.enabled=false, a.b=1], pose: \"K=0,0,1,0,0,0\"}\n"
@@ -68,6 +69,7 @@ TEST_F(JobFiles, SayWhatIsToRun) {
   EXPECT_EQ(jobs.inputs[3].simulated->world, folder.file("room.json"));
   EXPECT_THAT(jobs.inputs[4].simulated->seeds, ElementsAre(7, 20, 21));
   EXPECT_TRUE(jobs.inputs[4].simulated->handheld);
+  EXPECT_EQ(jobs.inputs[4].simulated->meshes, folder.file("lab"));
   ASSERT_EQ(jobs.variants.size(), 2u);
   EXPECT_EQ(jobs.variants[1].config, folder.file("fast.ini"));
   EXPECT_THAT(jobs.variants[1].overrides, ElementsAre("lidar.enabled=false", "a.b=1"));

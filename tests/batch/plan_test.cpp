@@ -54,7 +54,9 @@ TEST_F(Plans, HoldEveryCombinationOnce) {
       world.simulated->seeds.push_back(s);
       inputs.insert("w_s" + std::to_string(s));
     }
-    jobs.inputs.push_back(world);
+    EXPECT_THAT(plan.inputs[2].simulate, ElementsAre("--flat", "9", "--meshes", "/models/chairs"));
+  EXPECT_EQ(plan.inputs[2].input.name, "flat_chairs_9");
+  jobs.inputs.push_back(world);
     jobs.variants.clear();
     for (int v = 0; v < variants; ++v) {
       jobs.variants.push_back({.name = "v" + std::to_string(v)});
@@ -95,7 +97,9 @@ TEST_F(Plans, SimulatedInputsSayHowTheyAreMade) {
   InputEntry world, flats;
   world.simulated = SimulatedInputs{folder.file("w.json"), {4}};
   flats.simulated = SimulatedInputs{{}, {9}, 3, true};
-  jobs.inputs = {world, flats};
+  InputEntry furnished;
+  furnished.simulated = SimulatedInputs{{}, {9}, 0, false, "/models/chairs"};
+  jobs.inputs = {world, flats, furnished};
   const BatchPlan plan = planBatch(jobs, folder.file("out"));
   EXPECT_THAT(plan.inputs[0].simulate, ElementsAre(folder.file("w.json").string(), "--seed", "4"));
   EXPECT_THAT(plan.inputs[1].simulate, ElementsAre("--flat", "9", "--handheld", "--rooms", "3"));

@@ -146,17 +146,18 @@ TEST_F(Keys, EvaluationsAreThoseThatTheTruthAllows) {
     return out;
   };
   EXPECT_EQ(names({}), "");
-  EXPECT_EQ(names({{"trajectory", "t"}}), "trajectory ");
+  EXPECT_EQ(names({{"trajectory", "t"}}), "trajectory live ");
   EXPECT_EQ(names({{"camera_trajectory", "c"}, {"objects", "o"}, {"boxes", "b"}, {"map", "m"}}),
-            "trajectory objects detections map ");
+            "trajectory objects objects_live detections map ");
   const auto steps =
       evaluationSteps({{"camera_trajectory", "c"}, {"trajectory", "t"}, {"objects", "o"}}, "/run", jobs);
   EXPECT_THAT(steps[0].arguments, ::testing::ElementsAre("trajectory", "t", "/run/trajectory.tum"))
       << "the robot's counts more";
-  EXPECT_THAT(steps[1].arguments,
+  EXPECT_THAT(steps[1].arguments, ::testing::ElementsAre("trajectory", "t", "/run/live.tum"));
+  EXPECT_THAT(steps[2].arguments,
               ::testing::ElementsAre("objects", "o", "/run/landmarks.json", "--truth-trajectory", "t",
                                      "--trajectory", "/run/trajectory.tum"));
-  jobs.evaluation = {{"trajectory", {"--interpolate"}}, {"objects", {"none"}}};
+  jobs.evaluation = {{"trajectory", {"--interpolate"}}, {"objects", {"none"}}, {"live", {"none"}}};
   EXPECT_EQ(names({{"trajectory", "t"}, {"objects", "o"}}), "trajectory ");
   EXPECT_EQ(evaluationSteps({{"trajectory", "t"}}, "/run", jobs)[0].arguments.back(), "--interpolate");
 }

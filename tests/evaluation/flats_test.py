@@ -16,31 +16,34 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 import flats  # noqa: E402
 
-# ATE is a hundredth of the flat's number, with x.y=1 half of it; live it is 1 m. Precision is 0.5, live accuracy 0.25.
+# ATE is a hundredth of the flat's number, with x.y=1 half of it; live it is 1 m. Precision is 0.5, live accuracy 0.25. Flat 7 fails.
 FAKE = """#!{python}
-import json, pathlib, sys
+import json, pathlib, sqlite3, sys
 a = sys.argv[1:]
-with open({log!r}, "a") as log:
-    log.write(" ".join(a) + "\\n")
-if a[0] == "simulate":
-    out = pathlib.Path(a[a.index("-o") + 1])
-    for name in ("flat.rawlog", "groundtruth.txt", "groundtruth_robot.txt", "objects.json", "boxes.jsonl"):
-        (out / name).write_text(a[2])
-elif a[0] == "run":
-    out = pathlib.Path(a[3])
-    out.mkdir(parents=True)
-    (out / "summary.json").write_text("{{}}")
-    for name in ("detections.jsonl", "associations.jsonl", "associations_live.jsonl", "landmarks.json", "live.tum"):
-        (out / name).write_text("")
-    ate = int(pathlib.Path(a[1]).read_text()) / 100 * (0.5 if "x.y=1" in a else 1)
-    for name in ("trajectory.tum", "trajectory_camera.tum"):
-        (out / name).write_text(str(ate))
-elif a[1] == "trajectory":
-    text = pathlib.Path(a[3]).read_text()
-    pathlib.Path(a[-1]).write_text(json.dumps({{"ate_rmse_m": float(text or 1)}}))
-else:
-    live = any(part.endswith("associations_live.jsonl") for part in a)
-    pathlib.Path(a[-1]).write_text(json.dumps({{"precision": 0.5, "association_accuracy": 0.25 if live else 0.75}}))
+if a[0] != "batch":
+    sys.exit(2)
+jobs, out = json.loads(pathlib.Path(a[1]).read_text()), pathlib.Path(a[3])
+out.mkdir(parents=True, exist_ok=True)
+(out / "catalogue.sqlite").unlink(missing_ok=True)
+db = sqlite3.connect(out / "catalogue.sqlite")
+db.execute("CREATE TABLE inputs(id INTEGER PRIMARY KEY, input_group, seed)")
+db.execute("CREATE TABLE runs(name, input_id, variant, status, reason, revision)")
+db.execute("CREATE TABLE figures(run, figure, value)")
+failed = 0
+for job in jobs["inputs"]:
+    for seed in map(int, job["simulate"]["flats"].split(",")):
+        id = db.execute("INSERT INTO inputs(input_group, seed) VALUES(?, ?)", [job["group"], seed]).lastrowid
+        for variant in jobs["variants"]:
+            name = f"flat_{{seed}}--{{variant['name']}}"
+            failed += seed == 7
+            db.execute("INSERT INTO runs VALUES(?, ?, ?, ?, ?, 'rev1')", [name, id, variant["name"], "failed" if seed == 7 else "complete", ""])
+            ate = seed / 100 * (0.5 if "x.y=1" in variant["set"] else 1)
+            for figure, value in (("trajectory.ate_rmse_m", ate), ("live.ate_rmse_m", 1.0), ("objects.precision", 0.5),
+                                  ("objects.association_accuracy", 0.75), ("objects_live.association_accuracy", 0.25)):
+                if seed != 7:
+                    db.execute("INSERT INTO figures VALUES(?, ?, ?)", [name, figure, value])
+db.commit()
+sys.exit(1 if failed else 0)
 """
 
 
@@ -49,9 +52,8 @@ class Flats(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.log = self.folder / "log"
         self.program = self.folder / "roomgraph"
-        self.program.write_text(FAKE.format(python=sys.executable, log=str(self.log)))
+        self.program.write_text(FAKE.format(python=sys.executable))
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
 
     def run_flats(self, *arguments):
@@ -73,16 +75,22 @@ class Flats(unittest.TestCase):
         self.assertEqual(figures["flats"], [10, 11, 12])
         self.assertEqual((self.folder / "out/table.md").read_text().strip(), out.strip())
 
-    def test_flats_are_simulated_once_for_their_options(self):
-        self.run_flats("--seeds", "1-2", "--variants", "half=x.y=1")
-        self.run_flats("--seeds", "1-2")
-        simulated = [line for line in self.log.read_text().splitlines() if line.startswith("simulate")]
-        self.assertEqual(len(simulated), 2)
-        self.assertRegex(simulated[0], r"^simulate --flat 1 -o \S+ --seed 1 --quiet$")
-        self.run_flats("--seeds", "1", "--rooms", "3", "--handheld")
-        last = [line for line in self.log.read_text().splitlines() if line.startswith("simulate")][-1]
-        self.assertRegex(last, r"^simulate --flat 1 --rooms 3 --handheld -o ")
-        self.assertRegex(self.log.read_text(), r"evaluate trajectory \S+/groundtruth\.txt \S+/trajectory_camera\.tum")
+    def test_one_batch_does_it_all(self):
+        self.run_flats("--seeds", "1-2,5", "--set", "x.always=1", "--variants", "half=x.y=1", "--jobs", "3")
+        jobs = json.loads((self.folder / "out/jobs.yaml").read_text())
+        self.assertEqual(jobs["inputs"], [{"simulate": {"flats": "1,2,5"}, "group": "flats"}])
+        self.assertEqual(jobs["variants"], [{"name": "default", "set": ["x.always=1"]}, {"name": "half", "set": ["x.always=1", "x.y=1"]}])
+        self.assertEqual(jobs["limits"], {"jobs": 3, "threads": 1})
+        self.run_flats("--seeds", "1", "--rooms", "3", "--handheld", "--meshes", str(self.folder / "models"))
+        [job] = json.loads((self.folder / "out/jobs.yaml").read_text())["inputs"]
+        self.assertEqual(job, {"simulate": {"flats": "1", "rooms": 3, "handheld": True, "meshes": str((self.folder / "models").resolve())},
+                               "group": "flats_handheld_3rooms_models"})
+
+    def test_failed_runs_are_counted_not_hidden(self):
+        code, out = self.run_flats("--seeds", "6-8")
+        self.assertEqual(code, 1)
+        self.assertIn("| runs that failed | 1 |", out)
+        self.assertIn("| ATE, m | 2: 0.070 (0.080) |", out)
 
     def test_choosing_and_reporting_are_kept_apart(self):
         self.assertEqual(flats.parse_seeds("1-3,7,2"), [1, 2, 3, 7])

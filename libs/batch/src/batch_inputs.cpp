@@ -34,7 +34,8 @@ EngineTask BatchAtWork::simulationOf(std::size_t input) const {
   EngineTask task{input, {program_.file.string(), "simulate"}, folder.string() + ".log", kSimulation_mb};
   const auto& words = plan_.inputs[input].simulate;
   task.command.insert(task.command.end(), words.begin(), words.end());
-  task.command.insert(task.command.end(), {"-o", folder.string(), "--quiet"});
+  task.command.insert(task.command.end(), {"-o", folder.string(), "--quiet", "--threads",
+                                           std::to_string(plan_.jobs.limits.threads)});
   return task;
 }
 

@@ -28,7 +28,7 @@ std::string inFolder(const fs::path& folder, const std::string& name) {
 SimulatedInputs simulatedOf(const YamlPlace& yaml, const fs::path& folder) {
   SimulatedInputs out;
   bool flats = false;
-  for (const auto& [key, value] : yaml.entries({"world", "flats", "seeds", "rooms", "handheld"})) {
+  for (const auto& [key, value] : yaml.entries({"world", "flats", "seeds", "rooms", "handheld", "meshes"})) {
     const auto numbers = [&v = value] {
       std::string all;
       for (const auto& part : v.texts()) all += (all.empty() ? "" : ",") + part;
@@ -40,14 +40,17 @@ SimulatedInputs simulatedOf(const YamlPlace& yaml, const fs::path& folder) {
     };
     if (key == "world") out.world = inFolder(folder, value.text());
     if (key == "rooms") out.rooms = value.wholeNumber();
+    if (key == "meshes") out.meshes = inFolder(folder, value.text());
     if (key == "handheld") out.handheld = value.yesOrNo();
     if (key == "seeds" || key == "flats") out.seeds = numbers();
     flats |= key == "flats";
   }
   if (out.world.empty() != flats) yaml.fail("needs either a world with seeds, or flats");
   if (out.seeds.empty()) out.seeds = {1};
-  if (!out.world.empty() && (out.handheld || out.rooms > 0))
-    yaml.fail("rooms and handheld are of flats, not of a world");
+  if (!out.world.empty() && (out.handheld || out.rooms > 0 || !out.meshes.empty()))
+    yaml.fail("rooms, handheld and meshes are of flats, not of a world");
+  if (!out.meshes.empty() && !fs::is_directory(out.meshes))
+    yaml.fail("meshes " + out.meshes.string() + ": no such folder");
   if (!out.world.empty() && !fs::is_regular_file(out.world))
     yaml.fail("world " + out.world.string() + ": no such file");
   return out;
@@ -175,7 +178,7 @@ JobFile readJobFile(const fs::path& file) {
     if (key == "keep") out.keep = value.as(keepFromText);
     if (key == "evaluation")
       for (const auto& [kind, words] :
-           value.entries({"trajectory", "relations", "objects", "detections", "map"}))
+           value.entries({"trajectory", "live", "relations", "objects", "objects_live", "detections", "map"}))
         out.evaluation[kind] = wordsOf(words);
   }
   if (out.inputs.empty()) yaml.fail("has no inputs");

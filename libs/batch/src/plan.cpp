@@ -73,6 +73,7 @@ PlannedInput simulatedInput(const InputEntry& entry, std::int64_t seed, const fs
   std::string kind = flat ? "flat" : plainName(made.world.stem().string());
   if (made.handheld) kind += "_handheld";
   if (made.rooms > 0) kind += "_" + std::to_string(made.rooms) + "rooms";
+  if (!made.meshes.empty()) kind += "_" + plainName(made.meshes.filename().string());
   out.input.name = kind + (flat ? "_" : "_s") + std::to_string(seed);
   out.input.group = entry.group.empty() ? kind : entry.group;
   out.input.seed = seed;
@@ -81,6 +82,7 @@ PlannedInput simulatedInput(const InputEntry& entry, std::int64_t seed, const fs
                       : std::vector<std::string>{made.world.string(), "--seed", std::to_string(seed)};
   if (made.handheld) out.simulate.push_back("--handheld");
   if (made.rooms > 0) out.simulate.insert(out.simulate.end(), {"--rooms", std::to_string(made.rooms)});
+  if (!made.meshes.empty()) out.simulate.insert(out.simulate.end(), {"--meshes", made.meshes.string()});
   out.search_truth = entry.search_truth;
   return out;
 }

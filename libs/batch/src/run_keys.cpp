@@ -103,16 +103,21 @@ std::vector<EvaluationStep> evaluationSteps(const TruthFiles& truth, const std::
   };
   std::vector<EvaluationStep> all;
   if (!way.empty()) all.push_back({"trajectory", {"trajectory", way, estimate}, {way_file}});
+  if (robot) all.push_back({"live", {"trajectory", way, (folder / "live.tum").string()}, {"live.tum"}});
   if (truth.contains("relations"))
     all.push_back({"relations",
                    {"relations", path("relations"), (folder / "trajectory.tum").string()},
                    {"trajectory.tum"}});
-  if (truth.contains("objects")) {
+  const auto objects = [&](const char* associations) {
     std::vector<std::string> words{"objects", path("objects"), (folder / "landmarks.json").string()};
     if (!boxes.empty())
-      words.insert(words.end(),
-                   {"--truth-boxes", boxes, "--associations", (folder / "associations.jsonl").string()});
-    all.push_back({"objects", aligned(words), {"landmarks.json"}});
+      words.insert(words.end(), {"--truth-boxes", boxes, "--associations", (folder / associations).string()});
+    return aligned(words);
+  };
+  if (truth.contains("objects")) {
+    all.push_back({"objects", objects("associations.jsonl"), {"landmarks.json"}});
+    if (!boxes.empty())
+      all.push_back({"objects_live", objects("associations_live.jsonl"), {"associations_live.jsonl"}});
   }
   if (!boxes.empty())
     all.push_back(

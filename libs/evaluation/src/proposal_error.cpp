@@ -24,14 +24,10 @@ struct Samples {
   Eigen::Vector2d along_sum = Eigen::Vector2d::Zero();
 };
 
-void addTop(const ProposalError& e, const Proposal& p, const ProposalCase& c, Samples& s) {
-  const Eigen::Matrix2d covariance = p.covariance.topLeftCorner<2, 2>();
-  const Eigen::Vector2d place =
-      (c.camera_from_ground.inverse() * p.camera_from_object).translation().head<2>();
-  const Eigen::Vector2d ahead = place.normalized(), left(-ahead.y(), ahead.x());
-  s.along_sum += Eigen::Vector2d(e.center.dot(ahead), e.center.dot(left));
-  s.nees.push_back(e.center.dot(covariance.inverse() * e.center));
-  s.sigma.push_back(std::sqrt(covariance.trace() / 2));
+void addTop(const ProposalError& e, const Proposal& p, Samples& s) {
+  s.along_sum += e.in_view;
+  s.nees.push_back(e.nees);
+  s.sigma.push_back(std::sqrt(p.covariance.topLeftCorner<2, 2>().trace() / 2));
   s.center_top.push_back(e.center.norm());
   s.yaw_top.push_back(e.yaw_deg);
   s.iou_top.push_back(e.iou3d);
@@ -41,7 +37,7 @@ void addCase(const ProposalCase& c, Samples& s) {
   double center = 1e9, yaw = 1e9, overlap = 0;
   for (std::size_t i = 0; i < c.proposals.size(); ++i) {
     const ProposalError e = errorOf(c.proposals[i], c);
-    if (i == 0) addTop(e, c.proposals[i], c, s);
+    if (i == 0) addTop(e, c.proposals[i], s);
     center = std::min(center, e.center.norm());
     yaw = std::min(yaw, e.yaw_deg);
     overlap = std::max(overlap, e.iou3d);
@@ -75,8 +71,8 @@ ProposalFigures figuresOf(const Samples& s, int detections) {
   return f;
 }
 
-// Normalised squared error of the tilts about two axes in the plane and of the height; the covariance of (normal,
-// offset) has rank 3.
+// Normalised squared error of the tilts about two axes in the plane and of the height; the covariance of
+// (normal, offset) has rank 3.
 double groundNees(const GroundEstimate& estimate, const Plane& truth) {
   const Eigen::Vector3d n = truth.normal;
   const Eigen::Vector3d first = n.unitOrthogonal(), second = n.cross(first);
@@ -98,6 +94,15 @@ ProposalError errorOf(const Proposal& p, const ProposalCase& c) {
               truth = ground_from_camera * c.camera_from_truth;
   ProposalError e;
   e.center = (estimate.translation() - truth.translation()).head<2>();
+  const Eigen::Vector2d place = estimate.translation().head<2>(), ahead = place.normalized();
+  Eigen::Matrix2d view_from_ground;
+  view_from_ground << ahead.x(), ahead.y(), -ahead.y(), ahead.x();
+  const Eigen::Matrix2d covariance = p.covariance.topLeftCorner<2, 2>();
+  e.in_view = view_from_ground * e.center;
+  e.sigma_in_view =
+      (view_from_ground * covariance * view_from_ground.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
+  e.nees = e.center.dot(covariance.inverse() * e.center);
+  e.range_m = place.norm();
   if (c.rule.symmetry > 0) e.yaw_deg = yawError(estimate, truth, c.rule.symmetry);
   e.iou3d = iou3d(p.shape, estimate, c.truth, truth);
   return e;

@@ -86,11 +86,17 @@ std::string toJsonLine(const ProposalCase& c) {
   if (!c.proposals.empty()) {
     const Proposal& top = c.proposals.front();
     const ProposalError error = errorOf(top, c);
-    out["proposal"] = {
-        {"source", top.source},           {"score", top.score},
-        {"has_yaw", top.has_yaw},         {"center_error_m", {error.center.x(), error.center.y()}},
-        {"yaw_error_deg", error.yaw_deg}, {"iou3d", error.iou3d},
-        {"reasons", top.reasons}};
+    out["proposal"] = {{"source", top.source},
+                       {"score", top.score},
+                       {"has_yaw", top.has_yaw},
+                       {"center_error_m", {error.center.x(), error.center.y()}},
+                       {"yaw_error_deg", error.yaw_deg},
+                       {"iou3d", error.iou3d},
+                       {"range_m", error.range_m},
+                       {"error_in_view_m", {error.in_view.x(), error.in_view.y()}},
+                       {"nees", error.nees},
+                       {"sigma_in_view_m", {error.sigma_in_view.x(), error.sigma_in_view.y()}},
+                       {"reasons", top.reasons}};
   }
   return out.dump() + "\n";
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Screen-space ambient occlusion from a depth image.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -11,7 +12,7 @@ namespace roomgraph {
 namespace {
 
 constexpr int kPattern = 4;  ///< directions repeat every 4 x 4 pixels; the blur averages over one such cell
-constexpr int kSamples = 10;
+constexpr std::size_t kSamples = 10;
 constexpr double kReach_m = 0.45;
 constexpr double kStrength = 1.5;
 
@@ -34,16 +35,32 @@ Eigen::Vector3d normalAt(const Points& points, int u, int v) {
   return normal.norm() > 1e-12 ? Eigen::Vector3d(normal.normalized()) : Eigen::Vector3d(0, 0, -1);
 }
 
-double occlusionAt(const Points& points, int u, int v) {
+/// Where a pixel of the pattern looks: a direction in the image and a share of the reach.
+struct Ray {
+  double u, v, share;
+};
+using Rays = std::array<Ray, kSamples>;
+
+/// By (column % kPattern) * kPattern + row % kPattern.
+std::array<Rays, kPattern * kPattern> raysOfPattern() {
+  std::array<Rays, kPattern * kPattern> out;
+  for (std::size_t cell = 0; cell < out.size(); ++cell)
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const double angle =
+          static_cast<double>(cell) * 0.3927 + 2.399963 * static_cast<double>(i);  // golden angle
+      out[cell][i] = {std::cos(angle), std::sin(angle), std::sqrt((static_cast<double>(i) + 0.5) / kSamples)};
+    }
+  return out;
+}
+
+double occlusionAt(const Points& points, const Rays& rays, int u, int v) {
   const Eigen::Vector3d p = points.at(u, v), normal = normalAt(points, u, v);
   const double reach_px = std::min(kReach_m * points.camera.fx / p.z(), points.camera.width / 3.0);
-  const double start = ((u % kPattern) * kPattern + v % kPattern) * 0.3927;
   double sum = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    const double radius = reach_px * std::sqrt((i + 0.5) / kSamples),
-                 angle = start + 2.399963 * i;  // golden angle
-    const int su = u + static_cast<int>(std::lround(radius * std::cos(angle)));
-    const int sv = v + static_cast<int>(std::lround(radius * std::sin(angle)));
+  for (const Ray& ray : rays) {
+    const double radius = reach_px * ray.share;
+    const int su = u + static_cast<int>(std::lround(radius * ray.u));
+    const int sv = v + static_cast<int>(std::lround(radius * ray.v));
     if (su < 0 || sv < 0 || su >= points.depth.cols || sv >= points.depth.rows ||
         points.depth.at<float>(sv, su) <= 0)
       continue;
@@ -65,10 +82,15 @@ cv::Mat ambientLight(const cv::Mat& depth, const PinholeCamera& camera) {
                             camera.cy / 2, {}};
   const Points points{half, half_camera};
   cv::Mat light(half.size(), CV_32F, cv::Scalar(1));
+  const auto rays = raysOfPattern();
   parallelFor(1, half.rows - 1, [&](int v) {
     for (int u = 1; u < half.cols - 1; ++u)
       if (half.at<float>(v, u) > 0)
-        light.at<float>(v, u) = static_cast<float>(std::max(0.15, 1 - kStrength * occlusionAt(points, u, v)));
+        light.at<float>(v, u) = static_cast<float>(std::max(
+            0.15, 1 - kStrength *
+                          occlusionAt(points,
+                                      rays[static_cast<std::size_t>(u % kPattern * kPattern + v % kPattern)],
+                                      u, v)));
   });
   cv::Mat out;
   cv::blur(light, light, {kPattern, kPattern});

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
 
 #include "parallel.h"
 
@@ -46,9 +48,14 @@ void project(const std::array<Eigen::Vector3d, 3>& points, const PinholeCamera& 
   }
 }
 
-/// Calls visit(u, v, 1/z) for the pixels of `area` whose centres lie in the triangle.
+/// Of a row of pixels in a triangle: 1/z at column u is that of its corners, weighted by at_0 + slope u.
+struct RowWeights {
+  std::array<double, 3> at_0, slope;
+};
+
+/// Calls visit(v, first, last, weights) for the rows of pixels of `area` whose centres lie in the triangle.
 template <class Visit>
-void scan(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& visit) {
+void scanRows(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& visit) {
   const auto& p = triangle.pixel;
   const double det = (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
   if (std::abs(det) < 1e-12) return;
@@ -65,18 +72,28 @@ void scan(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& vis
     const double w1_0 = -(p[2] - p[0]).x() * dv / det - w1_u * p[0].x(),
                  w2_0 = (p[1] - p[0]).x() * dv / det - w2_u * p[0].x();
     double from = u_low, to = u_high;
-    const double at_0[3] = {1 - w1_0 - w2_0, w1_0, w2_0}, slope[3] = {-w1_u - w2_u, w1_u, w2_u};
-    for (int k = 0; k < 3; ++k) {
+    const RowWeights weights{{1 - w1_0 - w2_0, w1_0, w2_0}, {-w1_u - w2_u, w1_u, w2_u}};
+    const auto& [at_0, slope] = weights;
+    for (std::size_t k = 0; k < 3; ++k) {
       if (slope[k] > 0) from = std::max(from, std::ceil(-at_0[k] / slope[k]));
       if (slope[k] < 0) to = std::min(to, std::floor(-at_0[k] / slope[k]));
       if (slope[k] == 0 && at_0[k] < 0) to = from - 1;
     }
-    const auto& d = triangle.inverse_depth;
-    for (int u = static_cast<int>(from); u <= to; ++u)
+    if (from <= to) visit(v, static_cast<int>(from), static_cast<int>(to), weights);
+  }
+}
+
+/// Calls visit(u, v, 1/z) for the pixels of `area` whose centres lie in the triangle.
+template <class Visit>
+void scan(const ScreenTriangle& triangle, const cv::Rect& area, const Visit& visit) {
+  const auto& d = triangle.inverse_depth;
+  scanRows(triangle, area, [&](int v, int first, int last, const RowWeights& weights) {
+    const auto& [at_0, slope] = weights;
+    for (int u = first; u <= last; ++u)
       visit(u, v,
             d[0] * (at_0[0] + slope[0] * u) + d[1] * (at_0[1] + slope[1] * u) +
                 d[2] * (at_0[2] + slope[2] * u));
-  }
+  });
 }
 
 std::vector<ScreenTriangle> screenTriangles(const Scene& scene, const std::vector<Pose3>& world_from_part,
@@ -129,22 +146,18 @@ ObjectView viewOf(int object, Seen& seen, const std::vector<const ScreenTriangle
       canvas &
       cv::Rect(cv::Point(static_cast<int>(std::max(u0, -1e6)) - 1, static_cast<int>(std::max(v0, -1e6)) - 1),
                cv::Point(static_cast<int>(std::min(u1, 1e6)) + 2, static_cast<int>(std::min(v1, 1e6)) + 2));
-  std::vector<char> covered(static_cast<std::size_t>(around.area()), 0);
-  Seen whole;
-  int inside = 0;
-  for (const auto* triangle : triangles) {
-    scan(*triangle, around, [&](int u, int v, double) {
-      char& cell = covered[static_cast<std::size_t>((v - around.y) * around.width + u - around.x)];
-      if (cell) return;
-      cell = 1;
-      whole.add(u, v);
-      if (u >= 0 && v >= 0 && u < image.width && v < image.height) ++inside;
+  cv::Mat covered = cv::Mat::zeros(around.size(), CV_8U);
+  for (const auto* triangle : triangles)
+    scanRows(*triangle, around, [&](int v, int first, int last, const RowWeights&) {
+      std::memset(covered.ptr(v - around.y, first - around.x), 1, static_cast<std::size_t>(last - first + 1));
     });
-  }
-  ObjectView out{object, seen.px, seen.box(), whole.box(), 0, 0, 0, 0};
-  out.visible = static_cast<double>(seen.px) / whole.px;
+  const int whole = cv::countNonZero(covered);
+  const cv::Rect box = cv::boundingRect(covered) + around.tl();
+  const int inside = cv::countNonZero(covered((cv::Rect({0, 0}, image) & around) - around.tl()));
+  ObjectView out{object, seen.px, seen.box(), box, 0, 0, 0, 0};
+  out.visible = static_cast<double>(seen.px) / whole;
   out.unoccluded = static_cast<double>(seen.px) / inside;
-  out.in_frame = static_cast<double>(inside) / whole.px;
+  out.in_frame = static_cast<double>(inside) / whole;
   const auto middle = seen.depths.begin() + static_cast<std::ptrdiff_t>(seen.depths.size() / 2);
   std::nth_element(seen.depths.begin(), middle, seen.depths.end());
   out.median_depth_m = *middle;

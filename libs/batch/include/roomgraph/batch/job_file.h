@@ -17,6 +17,7 @@ struct SimulatedInputs {
   std::vector<std::int64_t> seeds;
   int rooms = 0;  ///< of flats; 0: drawn
   bool handheld = false;
+  std::filesystem::path meshes;  ///< folder of catalogue models that furnish flats; empty: none
 };
 
 /// One entry of `inputs`.

@@ -28,8 +28,13 @@ struct ProposalCase {
 
 /// Errors of one proposal, on the ground.
 struct ProposalError {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< ground frame, estimate minus truth, m
-  double yaw_deg = 0;                                ///< modulo symmetry
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< ground frame, estimate minus truth, m
+  Eigen::Vector2d in_view = Eigen::Vector2d::Zero();  ///< the same along the view and to its left, m
+  Eigen::Vector2d sigma_in_view =
+      Eigen::Vector2d::Zero();  ///< that the proposal claims, along and to the left, m
+  double nees = 0;              ///< of `center` by the proposal's covariance; expected: 2
+  double range_m = 0;           ///< of the proposal's centre, on the ground
+  double yaw_deg = 0;           ///< modulo symmetry
   double iou3d = 0;
 };
 
@@ -44,7 +49,7 @@ struct ProposalFigures {
   double share_good = 0;  ///< of all detections, those with a proposal whose 3D IoU exceeds .4
   double away_mean_m = 0, left_mean_m = 0;  ///< mean error of the top proposal along and across the view
   double nees_mean = 0, nees_median = 0;    ///< of (x, y): expected 2, and 1.39
-  ErrorStatistics sigma_m;                  ///< standard deviation that the top proposals claim: root of trace / 2
+  ErrorStatistics sigma_m;  ///< standard deviation that the top proposals claim: root of trace / 2
 };
 
 std::map<std::string, ProposalFigures> evaluateProposals(const std::vector<ProposalCase>& cases);
