@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_commands.h"
 #include "commands.h"
 #include "configuration.h"
 #include "roomgraph/core/errors.h"
@@ -211,9 +212,10 @@ void addProposals(CLI::App& parent) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
-  auto* command = app.add_subcommand("bench", "Measure single stages against the truth");
+  auto* command = app.add_subcommand("bench", "Measure single stages against the truth, and the speed of a run");
   command->require_subcommand(1);
   addProposals(*command);
+  addSpeedCommand(*command);
 }
 
 }  // namespace roomgraph

@@ -54,9 +54,7 @@ TEST_F(Plans, HoldEveryCombinationOnce) {
       world.simulated->seeds.push_back(s);
       inputs.insert("w_s" + std::to_string(s));
     }
-    EXPECT_THAT(plan.inputs[2].simulate, ElementsAre("--flat", "9", "--meshes", "/models/chairs"));
-  EXPECT_EQ(plan.inputs[2].input.name, "flat_chairs_9");
-  jobs.inputs.push_back(world);
+    jobs.inputs.push_back(world);
     jobs.variants.clear();
     for (int v = 0; v < variants; ++v) {
       jobs.variants.push_back({.name = "v" + std::to_string(v)});
@@ -106,6 +104,8 @@ TEST_F(Plans, SimulatedInputsSayHowTheyAreMade) {
   EXPECT_EQ(plan.inputs[0].input.group, "w");
   EXPECT_EQ(plan.inputs[0].input.seed, 4);
   EXPECT_EQ(plan.inputs[1].input.name, "flat_handheld_3rooms_9");
+  EXPECT_THAT(plan.inputs[2].simulate, ElementsAre("--flat", "9", "--meshes", "/models/chairs"));
+  EXPECT_EQ(plan.inputs[2].input.name, "flat_chairs_9");
   jobs.inputs.push_back(world);
   EXPECT_THROW(planBatch(jobs, folder.file("out")), ConfigError);
 }

@@ -8,6 +8,7 @@
 #include "errors_of.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
+#include "results_in_memory.h"
 #include "temporary_folder.h"
 #include "tiny_network.h"
 
@@ -102,6 +103,32 @@ TEST(AutoDetector, ANamedNetworkIsWhatRuns) {
   EXPECT_EQ(detector.identity().model, "tiny");
   EXPECT_THAT(messageOf<InputError>([&] { prepare(detector, "models = /nowhere/x.onnx"); }),
               HasSubstr("/nowhere/x.onnx"));
+}
+
+// The thread that looks ahead runs the network; what it found is what detect() gives, also from the results of an earlier run.
+TEST(AutoDetector, ForeseenBoxesAreThoseOfTheNetwork) {
+  TemporaryFolder folder;
+  AutoDetector detector, plain;
+  for (AutoDetector* one : {&detector, &plain})
+    prepare(*one, "models = " + writeTinyNetwork(folder, 80).string());
+  ResultsInMemory results;
+  detector.setResultStore(results);
+  for (const double t : {1.0, 2.0}) EXPECT_TRUE(detector.foresee(frameAt(t)));
+  Frame blind = frameAt(3);
+  blind.color = cv::Mat();
+  EXPECT_FALSE(detector.foresee(blind)) << "nothing will be found in it";
+  for (const double t : {1.0, 2.0, 4.0}) {
+    const auto a = detector.detect(frameAt(t)), b = plain.detect(frameAt(t));
+    ASSERT_TRUE(a && b);
+    EXPECT_EQ(a->size(), b->size());
+  }
+  EXPECT_FALSE(detector.detect(blind));
+}
+
+TEST(AutoDetector, WithoutANetworkNothingIsForeseen) {
+  AutoDetector detector;
+  prepare(detector, "");
+  EXPECT_FALSE(detector.foresee(frameAt(1)));
 }
 
 TEST(AutoDetector, DeclaresEveryKeyOnceAndAllOfThem) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <set>
+#include <thread>
 
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/tracking/register_classes.h"
@@ -62,6 +63,31 @@ TEST(FeatureOdometry, FollowsAKnownMotion) {
     const Pose3 error = (truth.front().inverse() * truth[i]).inverse() * trajectory.poses()[i].pose;
     EXPECT_LT(error.translation().norm(), 0.015) << i;
     EXPECT_LT(rotationAngle(error), 0.008) << i;
+  }
+}
+
+// Some frames are foreseen, some with people in them; also one that never comes.
+TEST(FeatureOdometry, FramesThatWereForeseenGiveTheSameBits) {
+  FeatureOdometry plain, foreseeing;
+  plain.prepare();
+  foreseeing.prepare();
+  std::vector<Frame> frames;
+  for (int i = 0; i < 12; ++i) frames.push_back(room().render(0.1 * i, poseAt(i)));
+  std::thread beside([&] {
+    for (int i = 0; i < 12; ++i)
+      if (i % 4 != 1) foreseeing.foresee(frames[static_cast<std::size_t>(i)]);
+    foreseeing.foresee(room().render(5, poseAt(12)));
+  });
+  for (int i = 0; i < 12; ++i) {
+    if (i == 6) beside.join();  // before it, whichever is faster
+    const Frame& frame = frames[static_cast<std::size_t>(i)];
+    TrackingPrior prior;
+    if (i > 2 && i % 3 == 0) prior.dynamic_regions = {{40, 30, 200, 220}};
+    const auto a = plain.track(frame, prior), b = foreseeing.track(frame, prior);
+    ASSERT_TRUE(a.tracked && b.tracked) << i;
+    EXPECT_EQ(a.odom_from_camera.matrix(), b.odom_from_camera.matrix()) << i;
+    EXPECT_EQ(a.step_covariance, b.step_covariance) << i;
+    ASSERT_EQ(a.features.size(), b.features.size()) << i;
   }
 }
 

@@ -22,6 +22,7 @@ class AutoDetector : public Detector {
   /// No network, and no recorded boxes so far.
   bool idle() const override { return !networks_.hasModels() && records_.empty(); }
   Outcome<std::vector<Detection>> detect(const Frame& frame) override { return chosen().detect(frame); }
+  bool foresee(const Frame& frame) override { return networks_.hasModels() && networks_.foresee(frame); }
   DetectorIdentity identity() const override { return chosen().identity(); }
   std::string warning() const override { return chosen().warning(); }
 

@@ -107,11 +107,23 @@ DetectorIdentity DnnDetector::identity() const {
 
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
   return recalled(
-      results_, "boxes", frame.t, [&] { return run(frame); }, bytesOf, detectionsFrom);
+      results_, "boxes", frame.t,
+      [&] {
+        auto found = foreseen_.take(frame.t);
+        return found ? std::move(*found) : run(frame);
+      },
+      bytesOf, detectionsFrom);
 }
 
-Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) const {
+bool DnnDetector::foresee(const Frame& frame) {
+  if (frame.color.empty()) return false;
+  if (!results_ || !results_->recalling()) foreseen_.put(frame.t, run(frame));
+  return true;
+}
+
+Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
+  const std::lock_guard one(running_);
   if (networks_.empty() || !database_) return Result::failure(kNoNetwork);
   if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");
 

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "roomgraph/core/read_ahead.h"
 #include "roomgraph/detection/detector.h"
 
 namespace roomgraph {
@@ -22,13 +24,14 @@ class DnnDetector : public Detector {
   void prepare() override;
   /// The networks run only when their boxes of that frame are not in the result store.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  bool foresee(const Frame& frame) override;
   void setResultStore(ResultStore& store) override { results_ = &store; }
   DetectorIdentity identity() const override;
   bool hasModels() const { return !models_.empty(); }
   double scoreThreshold() const { return score_threshold_; }
 
  private:
-  Outcome<std::vector<Detection>> run(const Frame& frame) const;
+  Outcome<std::vector<Detection>> run(const Frame& frame);
 
   std::vector<std::string> models_;
   std::string labels_file_;
@@ -40,6 +43,8 @@ class DnnDetector : public Detector {
 
   const ObjectDatabase* database_ = nullptr;
   std::vector<std::shared_ptr<Network>> networks_;
+  std::mutex running_;  ///< networks run on one frame at a time
+  Foreseen<Outcome<std::vector<Detection>>> foreseen_;
   DetectorIdentity identity_;
   ResultStore* results_ = nullptr;
 };

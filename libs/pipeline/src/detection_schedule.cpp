@@ -4,19 +4,22 @@
 
 namespace roomgraph {
 
-bool DetectionSchedule::due(double t) const {
+bool DetectionClock::due(double t) const {
   constexpr double kJitter_s = 0.002;  // of stamps: a camera at the wanted rate is not halved by it
   if (!age_) return true;
-  return *age_ + 1 >= options_.every_nth_frame && (options_.rate_hz == 0 || t > period_end_s_ - kJitter_s);
+  return *age_ + 1 >= every_nth_frame_ && (rate_hz_ == 0 || t > period_end_s_ - kJitter_s);
+}
+
+void DetectionClock::ran(double t) {
+  age_ = 0;
+  if (rate_hz_ == 0) return;
+  // From the end of the last period, so that the mean rate is the wanted one; anew after a pause.
+  const double period = 1 / rate_hz_;
+  period_end_s_ = (t - period_end_s_ < period ? period_end_s_ : t) + period;
 }
 
 FrameDetections DetectionSchedule::detected(std::vector<Detection> boxes, const Frame& frame) {
-  age_ = 0;
-  // From the end of the last period, so that the mean rate is the wanted one; anew after a pause.
-  if (options_.rate_hz > 0) {
-    const double period = 1 / options_.rate_hz;
-    period_end_s_ = (frame.t - period_end_s_ < period ? period_end_s_ : frame.t) + period;
-  }
+  clock_.ran(frame.t);
   carried_from_.reset();
   if (options_.track_boxes && options_.max_carried_frames > 0) {
     tracker_.start(boxes, frame);
@@ -26,11 +29,12 @@ FrameDetections DetectionSchedule::detected(std::vector<Detection> boxes, const 
 }
 
 FrameDetections DetectionSchedule::missed(const Frame& frame, const std::optional<Pose3>& previous_from_current) {
-  if (!age_) return {};
-  FrameDetections out{.age = ++*age_};
+  if (!clock_.age()) return {};
+  clock_.missed();
+  FrameDetections out{.age = *clock_.age()};
   if (!carried_from_) return out;
   carried_from_.reset();
-  if (*age_ > options_.max_carried_frames) return out;
+  if (out.age > options_.max_carried_frames) return out;
   auto carried = tracker_.advance(frame, previous_from_current);
   if (!carried) return out;
   carried_from_ = frame.t;

@@ -11,17 +11,38 @@
 
 namespace roomgraph {
 
+/// Tells on which frames the detector is to run: `every_nth_frame` frames after the last one on which it ran, and when a period
+/// of `rate_hz` is over. Of every frame either ran() or missed() is told, in order of time.
+class DetectionClock {
+ public:
+  explicit DetectionClock(const DetectionStageOptions& options)
+      : every_nth_frame_(options.every_nth_frame), rate_hz_(options.rate_hz) {}
+
+  /// Whether the detector is to run on the frame of time `t`, s. One that fails is asked again on the next frame.
+  bool due(double t) const;
+  void ran(double t);
+  void missed() {
+    if (age_) ++*age_;
+  }
+  /// Frames since the detector ran; nothing: it never ran.
+  std::optional<int> age() const { return age_; }
+
+ private:
+  int every_nth_frame_;
+  double rate_hz_;
+  double period_end_s_ = 0;  ///< before it, no frame is due
+  std::optional<int> age_;
+};
+
 /// Decides on which frames the detector runs (`every_nth_frame`, `rate_hz`) and carries its boxes over the frames after it
 /// (`track_boxes`, `max_carried_frames`). Of every frame either detected() or missed() is told, in order of time.
 class DetectionSchedule {
  public:
   /// The database outlives the schedule; it says which classes move by themselves.
   DetectionSchedule(const DetectionStageOptions& options, const ObjectDatabase& database)
-      : options_(options), tracker_(database) {}
+      : options_(options), clock_(options), tracker_(database) {}
 
-  /// Whether the detector is to run on the frame of time `t`, s: `every_nth_frame` frames after the last one on
-  /// which it ran, and when a period of `rate_hz` is over. A detector that fails is asked again on the next frame.
-  bool due(double t) const;
+  bool due(double t) const { return clock_.due(t); }
 
   /// The detector ran on this frame; its boxes replace all carried ones.
   FrameDetections detected(std::vector<Detection> boxes, const Frame& frame);
@@ -34,9 +55,8 @@ class DetectionSchedule {
 
  private:
   DetectionStageOptions options_;
+  DetectionClock clock_;
   BoxTracker tracker_;
-  double period_end_s_ = 0;  ///< before it, no frame is due
-  std::optional<int> age_;  ///< frames since the detector ran; nothing: it never ran
   std::optional<double> carried_from_;
 };
 

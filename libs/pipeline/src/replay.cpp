@@ -1,25 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replay loop over sorted records, and the share of the span done.
+// Replay loop over sorted records, which are read and looked at on a thread beside it, and the share of the
+// span done.
 #include "roomgraph/pipeline/replay.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
+#include <opencv2/core/utility.hpp>
 
 #include "record_sorter.h"
+#include "roomgraph/core/read_ahead.h"
 
 namespace roomgraph {
 namespace {
 
-// Records in order of time, as far as the look-ahead goes.
-std::optional<Record> nextInOrder(RecordStream& stream, RecordSorter& sorter, bool& ended) {
-  while (true) {
-    if (auto record = sorter.pop(ended)) return record;
-    if (ended) return std::nullopt;
-    if (auto read = stream.next())
-      sorter.push(std::move(*read));
-    else
-      ended = true;
+constexpr std::size_t kAhead = 12;  // records that wait at most; an image with what is known of it has 4 MB
+
+/// Time on the wall, and on the processor of a thread.
+struct Work {
+  double ms = 0, cpu_ms = 0;
+  void add(const Work& more) {
+    ms += more.ms;
+    cpu_ms += more.cpu_ms;
   }
+};
+
+/// Measures the work of a thread from now on.
+class Meter {
+ public:
+  Work soFar() const {
+    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started_).count(),
+            threadTime_ms() - cpu_};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  double cpu_ = threadTime_ms();
+};
+
+/// A record whose turn comes.
+struct Upcoming {
+  Record record;
+  double progress = 0;  ///< of the stream, when it was read
+  Work reading, foreseeing;
+};
+
+/// Reads the records in order of time, as far as the look-ahead goes, up to the first one behind the span.
+class SpanReader {
+ public:
+  SpanReader(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& span, bool foresees)
+      : stream_(stream),
+        slam_(slam),
+        span_(span),
+        foresees_(foresees),
+        sorter_(slam.setup().options.general.lookahead_s) {}
+
+  std::optional<Upcoming> next() {
+    if (behind_) return std::nullopt;
+    const Meter reading;
+    auto record = nextInOrder();
+    if (!record) return std::nullopt;
+    const double t = timeOf(*record);
+    if (!start_) start_ = t;
+    behind_ = span_.until_s > 0 && t - *start_ > span_.until_s;
+    Upcoming out{std::move(*record), stream_.progress(), {}, {}};
+    out.reading = reading.soFar();
+    if (foresees_ && !behind_ && t - *start_ >= span_.from_s) {
+      const Meter foreseeing;
+      slam_.foresee(out.record);
+      out.foreseeing = foreseeing.soFar();
+    }
+    return out;
+  }
+
+ private:
+  std::optional<Record> nextInOrder() {
+    while (true) {
+      if (auto record = sorter_.pop(ended_)) return record;
+      if (ended_) return std::nullopt;
+      if (auto read = stream_.next())
+        sorter_.push(std::move(*read));
+      else
+        ended_ = true;
+    }
+  }
+
+  RecordStream& stream_;
+  SemanticSlam& slam_;
+  ReplaySpan span_;
+  bool foresees_, ended_ = false, behind_ = false;
+  RecordSorter sorter_;
+  std::optional<double> start_;
+};
+
+bool isImage(const Record& record) {
+  return std::holds_alternative<Frame>(record);
 }
 
 // By the file from where the span begins in it, or by time, whichever is farther: the file may end first.
@@ -34,25 +109,34 @@ double shareDone(double file_share, double file_from, double seconds, const Repl
 ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& span,
                    const ReplayWatch& watch) {
   ReplayState state;
-  RecordSorter sorter(slam.setup().options.general.lookahead_s);
   const double until_s = span.until_s > 0 ? span.until_s : std::numeric_limits<double>::infinity();
   std::optional<double> start;
   double file_from = 0;
-  bool ended = false;
+  const bool beside = cv::getNumThreads() > 1;
+  SpanReader reader(stream, slam, span, beside);
+  ReadAhead<Upcoming> ahead([&] { return reader.next(); }, beside ? kAhead : 0);
+  Work reading;
   while (!(state.interrupted = watch.interrupted())) {
-    const auto record = nextInOrder(stream, sorter, ended);
-    if (!record) break;
-    const double t = timeOf(*record);
+    const auto next = ahead.next();
+    if (!next) break;
+    const double t = timeOf(next->record);
     if (!start) state.start_t = *(start = t);
     if (t - *start > until_s) break;
     state.last_t = t;
     if (t - *start < span.from_s) continue;
     if (state.records++ == 0) {
       state.first_t = t;
-      file_from = stream.progress();
+      file_from = next->progress;
     }
-    slam.process(*record);
-    state.share = shareDone(stream.progress(), file_from, state.seconds(), span);
+    slam.process(next->record);
+    reading.add(next->reading);
+    if (isImage(next->record)) {  // with what was read since the last one
+      slam.account("reading", reading.ms, reading.cpu_ms);
+      reading = {};
+    }
+    if (next->foreseeing.ms > 0 && isImage(next->record))
+      slam.account("foreseeing", next->foreseeing.ms, next->foreseeing.cpu_ms);
+    state.share = shareDone(next->progress, file_from, state.seconds(), span);
     watch.progress(state);
   }
   return state;

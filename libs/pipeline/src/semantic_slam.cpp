@@ -34,6 +34,8 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
     : setup_(std::move(setup)),
       front_ends_(setup_->stages, setup_->options),
       detection_schedule_(std::make_unique<DetectionSchedule>(setup_->options.detection, setup_->database)),
+      foreseen_detections_(std::make_unique<DetectionClock>(setup_->options.detection)),
+      last_foreseen_t_(-std::numeric_limits<double>::infinity()),
       estimator_(setup_->options.backend, front_ends_.motion()),
       objects_(setup_->stages.associator, setup_->options.landmarks, setup_->options.backend.pose_sigma_m,
                estimator_.poses()),

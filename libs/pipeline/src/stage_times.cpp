@@ -11,12 +11,6 @@
 namespace roomgraph {
 namespace {
 
-double processorTime_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 // Resident pages: the second number of statm.
 double residentMemory_mb() {
   std::ifstream statm("/proc/self/statm");
@@ -27,13 +21,24 @@ double residentMemory_mb() {
 
 }  // namespace
 
+double threadTime_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+void StageTimes::add(const char* stage, double ms, double cpu_ms) {
+  calls_.push_back({t_, stage, ms, cpu_ms, memory_mb_});
+}
+
 StageTimes::Measured::Measured(StageTimes& times, const char* stage)
-    : times_(times), stage_(stage), started_(std::chrono::steady_clock::now()), cpu_ms_(processorTime_ms()) {}
+    : times_(times), stage_(stage), started_(std::chrono::steady_clock::now()), cpu_ms_(threadTime_ms()) {}
 
 StageTimes::Measured::~Measured() {
   const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - started_;
-  const double cpu_ms = processorTime_ms() - cpu_ms_;
-  times_.calls_.push_back({times_.t_, stage_, passed.count(), cpu_ms, residentMemory_mb()});
+  const double cpu_ms = threadTime_ms() - cpu_ms_;
+  times_.memory_mb_ = residentMemory_mb();
+  times_.calls_.push_back({times_.t_, stage_, passed.count(), cpu_ms, times_.memory_mb_});
 }
 
 std::map<std::string, StageTimes::Totals> StageTimes::totals() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -80,45 +81,40 @@ std::vector<std::size_t> quotas(const TrackingParameters& parameters) {
   return out;
 }
 
+cv::Rect innerOf(const cv::Mat& image) {
+  return {kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx};
+}
+
 bool inAny(const std::vector<Box2>& boxes, double u, double v) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Box2& box) { return box.contains(u, v); });
 }
 
 /// Corners of one level, in px of the level.
-std::vector<cv::KeyPoint> levelCorners(const cv::Mat& image, double scale, const std::vector<Box2>& excluded,
-                                       const TrackingParameters& parameters, std::size_t wanted) {
-  const cv::Rect inner(kBorderPx, kBorderPx, image.cols - 2 * kBorderPx, image.rows - 2 * kBorderPx);
+std::vector<cv::KeyPoint> levelCorners(const Corners::Level& level, double scale,
+                                       const std::vector<Box2>& excluded, int cell_px, std::size_t wanted) {
   std::vector<cv::KeyPoint> corners;
-  cv::FAST(image(inner), corners, parameters.fast_threshold, true);
-  std::erase_if(corners, [&](const cv::KeyPoint& k) {
-    return inAny(excluded, (k.pt.x + kBorderPx) * scale, (k.pt.y + kBorderPx) * scale);
-  });
-  corners = spread(corners, inner.size(), parameters.cell_px, wanted);
+  std::copy_if(level.corners.begin(), level.corners.end(), std::back_inserter(corners),
+               [&](const cv::KeyPoint& k) {
+                 return !inAny(excluded, (k.pt.x + kBorderPx) * scale, (k.pt.y + kBorderPx) * scale);
+               });
+  corners = spread(corners, innerOf(level.image).size(), cell_px, wanted);
   for (auto& corner : corners) {
     corner.pt += cv::Point2f(kBorderPx, kBorderPx);
-    corner.angle = patchAngle(image, cv::Point(corner.pt));
+    corner.angle = patchAngle(level.image, cv::Point(corner.pt));
   }
   return corners;
 }
 
 /// Corners of all levels; pt = px of the level * scale, which is how cv::ORB addresses its own pyramid.
-std::vector<cv::KeyPoint> pyramidCorners(const cv::Mat& gray, const std::vector<Box2>& excluded,
+std::vector<cv::KeyPoint> pyramidCorners(const Corners& found, const std::vector<Box2>& excluded,
                                          const TrackingParameters& parameters) {
   const auto wanted = quotas(parameters);
   std::vector<cv::KeyPoint> all;
-  cv::Mat image = gray;
-  for (int level = 0; level < parameters.pyramid_levels; ++level) {
+  for (std::size_t level = 0; level < found.levels.size(); ++level) {
     const double scale = std::pow(parameters.scale_factor, level);
-    const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
-    if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
-    if (level > 0) {
-      cv::Mat smaller;
-      cv::resize(image, smaller, size, 0, 0, cv::INTER_LINEAR_EXACT);
-      image = smaller;
-    }
     for (auto corner :
-         levelCorners(image, scale, excluded, parameters, wanted[static_cast<std::size_t>(level)])) {
-      corner.octave = level;
+         levelCorners(found.levels[level], scale, excluded, parameters.cell_px, wanted[level])) {
+      corner.octave = static_cast<int>(level);
       corner.size = static_cast<float>(31 * scale);
       corner.pt *= static_cast<float>(scale);
       all.push_back(corner);
@@ -144,10 +140,34 @@ float steadyDepth(const Frame& frame, const cv::Point2f& p, const TrackingParame
 
 }  // namespace
 
+Corners findCorners(const cv::Mat& gray, const TrackingParameters& parameters) {
+  Corners out;
+  cv::Mat image = gray;
+  for (int level = 0; level < parameters.pyramid_levels; ++level) {
+    const double scale = std::pow(parameters.scale_factor, level);
+    const cv::Size size(cvRound(gray.cols / scale), cvRound(gray.rows / scale));
+    if (std::min(size.width, size.height) <= 2 * kBorderPx) break;
+    if (level > 0) {
+      cv::Mat smaller;
+      cv::resize(image, smaller, size, 0, 0, cv::INTER_LINEAR_EXACT);
+      image = smaller;
+    }
+    std::vector<cv::KeyPoint> corners;
+    cv::FAST(image(innerOf(image)), corners, parameters.fast_threshold, true);
+    out.levels.push_back({image, std::move(corners)});
+  }
+  return out;
+}
+
 Features extractFeatures(const cv::Mat& gray, const Frame& frame, const std::vector<Box2>& excluded,
                          const TrackingParameters& parameters) {
+  return extractFeatures(gray, findCorners(gray, parameters), frame, excluded, parameters);
+}
+
+Features extractFeatures(const cv::Mat& gray, const Corners& corners, const Frame& frame,
+                         const std::vector<Box2>& excluded, const TrackingParameters& parameters) {
   Features features;
-  features.keypoints = pyramidCorners(gray, excluded, parameters);
+  features.keypoints = pyramidCorners(corners, excluded, parameters);
   cv::Mat descriptors;
   if (!features.keypoints.empty())
     cv::ORB::create(parameters.max_features, static_cast<float>(parameters.scale_factor),

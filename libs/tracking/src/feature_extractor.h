@@ -28,8 +28,20 @@ struct Features {
   Eigen::Vector2d pixel(std::size_t i) const { return {keypoints[i].pt.x, keypoints[i].pt.y}; }
 };
 
+/// Corners of an image as FAST finds them, level by level: what features need that depends on the image alone.
+struct Corners {
+  struct Level {
+    cv::Mat image;
+    std::vector<cv::KeyPoint> corners;  ///< px within the border
+  };
+  std::vector<Level> levels;  ///< fine to coarse
+};
+Corners findCorners(const cv::Mat& gray, const TrackingParameters& parameters);
+
 /// Oriented FAST corners, spread evenly over the image on each pyramid level, with ORB descriptors
-/// (Rublee et al., ICCV 2011). Corners inside an excluded box (px) are left out.
+/// (Rublee et al., ICCV 2011). Corners inside an excluded box (px) are left out. `corners` are those of `gray`.
+Features extractFeatures(const cv::Mat& gray, const Corners& corners, const Frame& frame,
+                         const std::vector<Box2>& excluded, const TrackingParameters& parameters);
 Features extractFeatures(const cv::Mat& gray, const Frame& frame, const std::vector<Box2>& excluded,
                          const TrackingParameters& parameters);
 

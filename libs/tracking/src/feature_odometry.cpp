@@ -25,6 +25,10 @@ TrackingResult FeatureOdometry::track(const Frame& frame, const TrackingPrior& p
   return tracker_->track(frame, prior);
 }
 
+void FeatureOdometry::foresee(const Frame& frame) {
+  if (tracker_) tracker_->foresee(frame);
+}
+
 Trajectory FeatureOdometry::trajectory() const {
   return tracker_ ? tracker_->trajectory() : Trajectory();
 }

@@ -15,7 +15,8 @@ class Tracker;
 
 /// Sparse RGB-D odometry in the manner of ORB-SLAM2 (Mur-Artal & Tardos, T-RO 2017): ORB features with depth,
 /// a local map of points held by keyframes, windowed bundle adjustment, relocalisation, and loop closures as
-/// measurements (the back end, not the tracker, corrects drift with them). Deterministic and single-threaded.
+/// measurements (the back end, not the tracker, corrects drift with them). Deterministic; features can be found on another
+/// thread.
 class FeatureOdometry : public RgbdOdometry {
   DEFINE_MRPT_OBJECT(FeatureOdometry, roomgraph)
  public:
@@ -28,6 +29,7 @@ class FeatureOdometry : public RgbdOdometry {
   /// What was found of frames between keyframes, and local bundle adjustments, are kept there.
   void setResultStore(ResultStore& store) override;
   TrackingResult track(const Frame& frame, const TrackingPrior& prior) override;
+  void foresee(const Frame& frame) override;
   Trajectory trajectory() const override;
   std::vector<RelativePose> takeLoopClosures() override;
   std::optional<RelativePose> verifyLoop(const RelativePose& proposed) override;

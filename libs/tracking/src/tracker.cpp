@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <opencv2/imgproc.hpp>
 
@@ -68,11 +69,29 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   return known && !known->empty() ? recall(frame, *known) : look(frame, prior);
 }
 
+void Tracker::foresee(const Frame& frame) {
+  if ((results_ && results_->recalling()) || !unusable(frame, -std::numeric_limits<double>::infinity()).empty())
+    return;
+  Sight sight{grayOf(frame), {}, {}};
+  sight.corners = findCorners(sight.gray, parameters_);
+  sight.features = extractFeatures(sight.gray, sight.corners, frame, {}, parameters_);
+  foreseen_.put(frame.t, std::move(sight));
+}
+
+void Tracker::see(View& view, const std::vector<Box2>& excluded) {
+  auto sight = foreseen_.take(view.frame->t);
+  view.gray = sight ? sight->gray : grayOf(*view.frame);
+  if (sight && excluded.empty())
+    view.features = std::move(sight->features);
+  else
+    view.features = extractFeatures(view.gray, sight ? sight->corners : findCorners(view.gray, parameters_),
+                                    *view.frame, excluded, parameters_);
+}
+
 TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   View view;
   view.frame = &frame;
-  view.gray = grayOf(frame);
-  view.features = extractFeatures(view.gray, frame, prior.dynamic_regions, parameters_);
+  see(view, prior.dynamic_regions);
   view.points.assign(view.features.size(), -1);
   const int with_depth = countDepth(view.features);
   if (with_depth < parameters_.min_inliers) {

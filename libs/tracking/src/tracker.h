@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "feature_extractor.h"
 #include "local_map.h"
 #include "pose_solver.h"
+#include "roomgraph/core/read_ahead.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
 
 namespace roomgraph {
@@ -22,6 +24,8 @@ class Tracker {
   explicit Tracker(const TrackingParameters& parameters) : parameters_(parameters) {}
   void setResultStore(ResultStore& store) { results_ = &store; }
   TrackingResult track(const Frame& frame, const TrackingPrior& prior);
+  /// Finds the features of a frame before its turn; beside all else, but not beside itself.
+  void foresee(const Frame& frame);
   Trajectory trajectory() const;
   std::vector<RelativePose> takeLoopClosures() { return std::exchange(closures_, {}); }
   std::optional<RelativePose> verifyLoop(const RelativePose& proposed) const;
@@ -37,6 +41,12 @@ class Tracker {
     Pose3 odom_from_camera = Pose3::Identity();
     PoseSolution solution;
     int matches = 0;
+  };
+  /// What images alone tell.
+  struct Sight {
+    cv::Mat gray;
+    Corners corners;
+    Features features;  ///< with nothing left out
   };
   /// A tracked frame, held by a keyframe: when that moves, the frame moves along.
   struct Record {
@@ -56,6 +66,8 @@ class Tracker {
   bool solve(View& view, int min_inliers, bool start_is_good) const;
   std::vector<std::int64_t> localPoints(const View& view) const;
 
+  /// Grey image and features of the view.
+  void see(View& view, const std::vector<Box2>& excluded);
   /// Tracks by the images.
   TrackingResult look(const Frame& frame, const TrackingPrior& prior);
   /// Takes over a located view that was kept.
@@ -82,6 +94,7 @@ class Tracker {
   Pose3 lastPose() const;
 
   TrackingParameters parameters_;
+  Foreseen<Sight> foreseen_;
   LocalMap map_;
   std::vector<Record> records_;
   std::vector<RelativePose> closures_;

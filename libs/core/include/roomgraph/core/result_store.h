@@ -2,6 +2,7 @@
 // ResultStore: results of costly computations, kept while a run goes on and given back when it is repeated.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -25,6 +26,8 @@ class ResultStore {
   virtual std::optional<std::string> recall(std::string_view name, double t) = 0;
   /// A result that was computed, as recall() gave nothing. Throws RunError when it cannot be written.
   virtual void keep(std::string_view name, double t, std::string_view bytes) = 0;
+  /// Whether there are results left: work that is done before its turn would be in vain. Any thread may ask.
+  virtual bool recalling() const { return false; }
 };
 
 /// `compute()`, or what it gave the first time. `store` may be null. `encode` turns the result into bytes,
@@ -57,6 +60,7 @@ class JournalledResults : public ResultStore {
 
   std::optional<std::string> recall(std::string_view name, double t) override;
   void keep(std::string_view name, double t, std::string_view bytes) override;
+  bool recalling() const override { return recalling_; }
   /// From now on nothing is recalled nor kept: what follows is no part of the whole run.
   void stop() { stopped_ = true; }
 
@@ -72,7 +76,8 @@ class JournalledResults : public ResultStore {
   double sync_s_;
   std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
   int kept_ = 0;
-  bool recalling_ = true, stopped_ = false, diverged_ = false;
+  std::atomic<bool> recalling_ = true;
+  bool stopped_ = false, diverged_ = false;
 };
 
 }  // namespace roomgraph

@@ -34,6 +34,13 @@ class Detector : public Stage {
   /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
   /// ("no colour image", "no record at this time"). The caller decides on which frames the detector runs.
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
+  /// A frame on which detect() will be called: it may find its boxes now and keep them until then. Called after prepare(), in
+  /// the order of the frames, beside all other calls, or not at all; the outcome is the same. Returns false when nothing
+  /// will be found in it.
+  virtual bool foresee(const Frame& frame) {
+    (void)frame;
+    return true;
+  }
   virtual DetectorIdentity identity() const { return {}; }
   /// Warning for the user about the detections of this run; empty without one.
   virtual std::string warning() const { return {}; }

@@ -55,6 +55,7 @@ struct SlamResult {
   std::optional<EarlierMap> earlier;  ///< nothing: the run was given none
 };
 
+class DetectionClock;
 class DetectionSchedule;
 class ResultStore;
 struct PeopleInView;
@@ -71,6 +72,9 @@ class SemanticSlam {
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to continue this map; until its place in it is known the run is in its own frame.
   void setMap(CSemanticMap map);
+  /// A record that will come: what depends on it alone is computed now and kept until its turn. In the order of the records, on
+  /// any one thread beside process(), or not at all; the result is the same.
+  void foresee(const Record& record);
   /// One record, in order of time. Records whose time goes backwards are counted and left out.
   void process(const Record& record);
   /// Refines everything with all data and builds the map. May be called at any moment.
@@ -86,6 +90,8 @@ class SemanticSlam {
   /// Whether the robot drives on the floor; else the camera is handheld.
   bool planar() const { return estimator_.planar(); }
   const Setup& setup() const { return *setup_; }
+  /// Adds work on the record being processed that was done elsewhere to the times.
+  void account(const char* stage, double ms, double cpu_ms) { times_.add(stage, ms, cpu_ms); }
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }
 
@@ -127,6 +133,8 @@ class SemanticSlam {
 
   FrontEnds front_ends_;     ///< trajectories of the sources
   std::unique_ptr<DetectionSchedule> detection_schedule_;  ///< when the detector runs; boxes of frames between
+  std::unique_ptr<DetectionClock> foreseen_detections_;  ///< of foresee(); nothing else uses it
+  double last_foreseen_t_;
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
   ObjectMapper objects_;     ///< what was seen of objects

@@ -9,6 +9,9 @@
 
 namespace roomgraph {
 
+/// Processor time of the calling thread so far, ms.
+double threadTime_ms();
+
 /// How long the stages of a run take, call by call: MRPT's time logger keeps sums only, and those do not tell
 /// whether a stage gets slower as the run goes on. Nothing computed depends on it.
 class StageTimes {
@@ -17,7 +20,7 @@ class StageTimes {
     double t = 0;       ///< of the record it was made for, s
     const char* stage;  ///< a literal
     double ms = 0;      ///< by the clock on the wall
-    double cpu_ms = 0;  ///< of all threads of the program
+    double cpu_ms = 0;  ///< of the thread that made the call
     double memory_mb = 0;  ///< that the program holds when the call ends; 0: the system does not tell
   };
   struct Totals {
@@ -42,6 +45,8 @@ class StageTimes {
 
   /// From now on calls are for the record of that time.
   void startRecord(double t) { t_ = t; }
+  /// A call that another thread made for that record.
+  void add(const char* stage, double ms, double cpu_ms);
   [[nodiscard]] Measured measure(const char* stage) { return {*this, stage}; }
 
   /// In the order in which they ended.
@@ -50,6 +55,7 @@ class StageTimes {
 
  private:
   double t_ = 0;
+  double memory_mb_ = 0;  ///< when last looked at
   std::vector<Call> calls_;
 };
 

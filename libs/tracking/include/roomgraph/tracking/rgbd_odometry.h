@@ -41,6 +41,10 @@ class RgbdOdometry : public Stage {
  public:
   virtual TrackingResult track(const Frame& frame, const TrackingPrior& prior) = 0;
 
+  /// A frame that will be tracked: what depends on it alone may be computed now and kept until its turn. Called after
+  /// prepare(), in the order of the frames, beside all other calls, or not at all; the outcome is the same.
+  virtual void foresee(const Frame& frame) { (void)frame; }
+
   /// Best current estimate of every tracked frame (later frames refine earlier ones), in the tracker's frame.
   virtual Trajectory trajectory() const = 0;
 
