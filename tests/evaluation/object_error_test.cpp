@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <random>
 
 #include "random_poses.h"
 #include "usual_classes.h"
@@ -144,6 +146,35 @@ TEST(ObjectError, YawModuloSymmetry) {
   auto unknown = object(2, "sofa", 0, 0);
   unknown.has_yaw = false;
   EXPECT_EQ(errorsOf({object(1, "sofa", 0, 0)}, {unknown}).all.yaw_deg.count, 0);
+}
+
+// Places drawn from their covariances, in a world that is turned: the mean is that of chi-squared with two
+// degrees of freedom.
+TEST(ObjectError, PlacesInUnitsOfTheirCovariance) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal(0, 1);
+  const Eigen::Matrix2d root{{0.05, 0}, {0.04, 0.01}};
+  const Pose2 truth_from_map{3, -2, 0.7};
+  constexpr int kObjects = 600;
+  Objects truth, map;
+  for (int i = 0; i < kObjects; ++i) {
+    auto landmark = object(i, "sofa", 5.0 * (i % 60), 5.0 * (i / 60));
+    const Eigen::Vector2d at =
+        landmark.position.head<2>() + root * Eigen::Vector2d(normal(random), normal(random));
+    truth.push_back(landmark);
+    truth.back().position.head<2>() = truth_from_map * at;
+    landmark.place_covariance = root * root.transpose();
+    map.push_back(landmark);
+  }
+  ObjectOptions options;
+  options.classes["sofa"] = {ShapeKind::kCuboid, 1};
+  options.truth_from_map = truth_from_map;
+  const auto errors = evaluateObjects(truth, map, options);
+  ASSERT_EQ(errors.all.correct, kObjects);
+  EXPECT_NEAR(errors.all.nees.mean, 2, 4 * 2 / std::sqrt(kObjects));
+  EXPECT_NEAR(errors.all.nees.median, 1.386, 0.25);
+  map.front().place_covariance.reset();
+  EXPECT_EQ(evaluateObjects(truth, map, options).all.nees.count, kObjects - 1);
 }
 
 TEST(ObjectError, SizeErrorAndIou) {

@@ -2,6 +2,7 @@
 // Optimal matching per class, verdict on every landmark, and the figures from them.
 #include "roomgraph/evaluation/object_error.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
 
@@ -23,6 +24,8 @@ Objects moved(Objects landmarks, const Pose2& truth_from_map) {
   for (auto& landmark : landmarks) {
     landmark.position.head<2>() = truth_from_map * Eigen::Vector2d(landmark.position.head<2>());
     landmark.yaw = wrapAngle(landmark.yaw + truth_from_map.yaw);
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(truth_from_map.yaw).toRotationMatrix();
+    if (auto& covariance = landmark.place_covariance) *covariance = turn * *covariance * turn.transpose();
   }
   return landmarks;
 }
@@ -43,6 +46,9 @@ void compare(const EvaluatedObject& truth, const EvaluatedObject& landmark, cons
                       std::abs(truth.height - landmark.height)) /
                      3;
   out.iou3d = iou3dOf(truth, landmark, rule.shape);
+  const Eigen::Vector2d error = (landmark.position - truth.position).head<2>();
+  if (landmark.place_covariance && landmark.place_covariance->determinant() > 0)
+    out.nees = error.dot(landmark.place_covariance->inverse() * error);
   if (rule.symmetry > 0 && truth.has_yaw && landmark.has_yaw)
     out.yaw_error_deg =
         std::abs(wrapAngle((landmark.yaw - truth.yaw) * rule.symmetry)) / rule.symmetry * kDegreesPerRadian;
@@ -131,7 +137,7 @@ class Comparison {
 ObjectFigures figuresOf(const std::vector<LandmarkVerdict>& verdicts, int missed) {
   ObjectFigures out;
   out.missed = missed;
-  std::vector<double> position, yaw, size;
+  std::vector<double> position, yaw, size, nees;
   for (const auto& v : verdicts) {
     out.uncounted += v.verdict == Verdict::kUncounted;
     out.duplicates += v.verdict == Verdict::kDuplicate;
@@ -140,6 +146,7 @@ ObjectFigures figuresOf(const std::vector<LandmarkVerdict>& verdicts, int missed
     ++out.correct;
     position.push_back(v.distance_m);
     size.push_back(v.size_error_m);
+    if (v.nees >= 0) nees.push_back(v.nees);
     if (v.yaw_error_deg >= 0) yaw.push_back(v.yaw_error_deg);
     out.iou3d_mean += v.iou3d;
   }
@@ -151,6 +158,7 @@ ObjectFigures figuresOf(const std::vector<LandmarkVerdict>& verdicts, int missed
   out.position_m = summarize(position);
   out.yaw_deg = summarize(yaw);
   out.size_m = summarize(size);
+  out.nees = summarize(nees);
   return out;
 }
 

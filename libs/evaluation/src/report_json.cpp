@@ -43,6 +43,8 @@ ordered_json figures(const ObjectFigures& f) {
   out["yaw_pairs"] = f.yaw_deg.count;
   out["size_error_mean_m"] = orNull(f.size_m.mean, hit);
   out["iou3d_mean"] = orNull(f.iou3d_mean, hit);
+  out["position_nees_mean"] = orNull(f.nees.mean, f.nees.count > 0);
+  out["position_nees_median"] = orNull(f.nees.median, f.nees.count > 0);
   return out;
 }
 

@@ -43,6 +43,7 @@ struct LandmarkVerdict {
   double yaw_error_deg = -1;  ///< modulo symmetry; -1: does not apply
   double size_error_m = 0;    ///< mean of |dw|, |dd|, |dh|
   double iou3d = 0;
+  double nees = -1;  ///< squared distance by the covariance of its place; expected 2; -1: it has none
 };
 
 struct ObjectFigures {
@@ -50,6 +51,7 @@ struct ObjectFigures {
   double precision = 0, recall = 0, f1 = 0;  ///< 0 where the denominator is 0
   ErrorStatistics position_m, yaw_deg, size_m;
   double iou3d_mean = 0;
+  ErrorStatistics nees;  ///< of places, in units of their covariance: expected mean 2, median 1.39
 };
 
 struct ObjectErrors {

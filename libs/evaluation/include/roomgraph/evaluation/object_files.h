@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct EvaluatedObject {
   bool has_yaw = true;
   double width = 0, depth = 0, height = 0;  ///< m
   double existence = 1;
+  std::optional<Eigen::Matrix2d> place_covariance;  ///< of x and y, m^2; of landmarks
 };
 
 /// Reads objects.json (key `objects`) or landmarks.json (key `landmarks`).
