@@ -15,6 +15,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace roomgraph::test {
@@ -94,7 +95,8 @@ class Program {
                                   pointersTo(environment).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    EXPECT_EQ(error, 0) << ROOMGRAPH_PROGRAM << " cannot be started";
+    // No test may go on: whoever kills process -1 kills all there are.
+    if (error != 0) throw std::system_error(error, std::generic_category(), ROOMGRAPH_PROGRAM " cannot be started");
   }
 
   pid_t pid() const { return pid_; }

@@ -64,7 +64,7 @@ class Resume : public ::testing::Test {
   }
   /// Starts a run, and returns it when so many bytes of live poses are on the disk.
   Program started(const std::vector<std::string>& arguments, std::uintmax_t live_bytes,
-                  const fs::path& working_folder = {}) const {
+                  const fs::path& working_folder = fs::current_path()) const {
     Program program(folder.path(), arguments, working_folder);
     for (int i = 0; i < 6000; ++i) {
       std::error_code none_yet;
@@ -75,7 +75,7 @@ class Resume : public ::testing::Test {
     return program;
   }
   void killOne(const std::vector<std::string>& arguments, std::uintmax_t live_bytes = 4000,
-               const fs::path& working_folder = {}) const {
+               const fs::path& working_folder = fs::current_path()) const {
     Program program = started(arguments, live_bytes, working_folder);
     ASSERT_EQ(kill(program.pid(), SIGKILL), 0);
     EXPECT_EQ(program.wait().exit_code, -1) << "it had ended before it was killed";
