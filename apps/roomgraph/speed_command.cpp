@@ -43,22 +43,24 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Of the process so far.
-void addUsage(SpeedReport& report) {
+rusage usedSoFar() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
+  return used;
+}
+
+double processorTime_s(const rusage& used) {
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  report.cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime) - report.cpu_s;
-  report.peak_memory_mb = static_cast<double>(used.ru_maxrss) / 1024;
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
 SpeedReport measured(const SpeedOptions& options, RawlogReader& reader, SemanticSlam& slam) {
   const auto latency = std::make_shared<LatencySink>();
   slam.addSink(latency);
   SpeedReport report;
-  addUsage(report);
+  const rusage before = usedSoFar();
   const auto start = Clock::now();
   Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
   const auto show = [&](const ReplayState& now) {
@@ -78,7 +80,9 @@ SpeedReport measured(const SpeedOptions& options, RawlogReader& reader, Semantic
   report.stages = speedOfStages(slam.times());
   report.frames = latency->frames();
   report.scans = latency->scans();
-  addUsage(report);
+  const rusage after = usedSoFar();
+  report.cpu_s = processorTime_s(after) - processorTime_s(before);
+  report.peak_memory_mb = static_cast<double>(after.ru_maxrss) / 1024;
   return report;
 }
 

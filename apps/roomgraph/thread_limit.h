@@ -11,8 +11,8 @@
 
 namespace roomgraph {
 
-/// No more than so many threads of TBB and OpenCV, and of Mesa's software renderer where none is running yet,
-/// in this process during its lifetime; 0: no limit.
+/// No more than so many threads of TBB (during its lifetime), of OpenCV and, where none is running yet, of Mesa's software
+/// renderer (from now on) in this process; 0: no limit.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads) {

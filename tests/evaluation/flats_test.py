@@ -15,22 +15,10 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "bench"))
 import flats  # noqa: E402
+from made_up_batch import BEGINNING  # noqa: E402
 
 # ATE is a hundredth of the flat's number, with x.y=1 half of it; live it is 1 m. Precision is 0.5, live accuracy 0.25. Flat 7 fails.
-FAKE = """#!{python}
-import json, pathlib, sqlite3, sys
-a = sys.argv[1:]
-if a[0] != "batch":
-    sys.exit(2)
-jobs, out = json.loads(pathlib.Path(a[1]).read_text()), pathlib.Path(a[3])
-out.mkdir(parents=True, exist_ok=True)
-(out / "catalogue.sqlite").unlink(missing_ok=True)
-db = sqlite3.connect(out / "catalogue.sqlite")
-db.execute("CREATE TABLE inputs(id INTEGER PRIMARY KEY, input_group, seed)")
-db.execute("CREATE TABLE runs(name, input_id, variant, status, reason, revision)")
-db.execute("CREATE TABLE figures(run, figure, value)")
-failed = 0
-for job in jobs["inputs"]:
+FAKE = BEGINNING + """for job in jobs["inputs"]:
     for seed in map(int, job["simulate"]["flats"].split(",")):
         id = db.execute("INSERT INTO inputs(input_group, seed) VALUES(?, ?)", [job["group"], seed]).lastrowid
         for variant in jobs["variants"]:
@@ -53,7 +41,7 @@ class Flats(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         self.program = self.folder / "roomgraph"
-        self.program.write_text(FAKE.format(python=sys.executable))
+        self.program.write_text(FAKE.format(python=sys.executable, log=str(self.folder / "log")))
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
 
     def run_flats(self, *arguments):

@@ -27,7 +27,7 @@ EvaluatedObject toObject(const json& record) {
   out.depth = size[1];
   out.height = size[2];
   out.existence = record.value("existence", 1.0);
-  if (const auto covariance = record.find("covariance"); covariance != record.end())
+  if (const auto covariance = record.find("covariance"); covariance != record.end() && !covariance->is_null())
     out.place_covariance = Eigen::Matrix2d{{covariance->at(0).at(0), covariance->at(0).at(1)},
                                            {covariance->at(1).at(0), covariance->at(1).at(1)}};
   return out;
