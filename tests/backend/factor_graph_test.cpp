@@ -148,6 +148,25 @@ TEST(FactorGraph, UnknownIdsAreErrorsThatNameThem) {
   EXPECT_EQ(graph.factors(), 0u);
 }
 
+TEST(FactorGraph, StartsFromWhatAFormerGraphFoundForTheNamedVariables) {
+  SimulatedLoop first(3), second(3);  // the same noise
+  FactorGraph former = first.graph(), graph = second.graph();
+  former.addPoint(PointId{4}, {1, 2, 3});
+  graph.addPoint(PointId{4}, {0, 0, 0});
+  graph.addPoint(PointId{5}, {5, 5, 5});
+  ASSERT_TRUE(former.optimize().usable);
+  const Pose3 one = graph.pose(NodeId{1});
+  const Eigen::Vector3d zero = graph.landmark(LandmarkId{0}).position;
+  graph.startFrom(former, {{NodeId{2}, NodeId{999}}, {LandmarkId{1}}, {PointId{4}, PointId{5}}});
+  EXPECT_TRUE(graph.pose(NodeId{2}).matrix() == former.pose(NodeId{2}).matrix());
+  EXPECT_TRUE(graph.pose(NodeId{1}).matrix() == one.matrix()) << "was not named";
+  EXPECT_EQ(graph.landmark(LandmarkId{1}).position, former.landmark(LandmarkId{1}).position);
+  EXPECT_EQ(graph.landmark(LandmarkId{1}).yaw, former.landmark(LandmarkId{1}).yaw);
+  EXPECT_EQ(graph.landmark(LandmarkId{0}).position, zero);
+  EXPECT_EQ(graph.point(PointId{4}), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(graph.point(PointId{5}), Eigen::Vector3d(5, 5, 5)) << "the former graph has none";
+}
+
 TEST(FactorGraph, TheValuesOfASolvedGraphStandForItsSolution) {
   SimulatedLoop first(3), second(3);  // the same noise
   FactorGraph solved = first.graph(), other = second.graph();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -143,6 +144,29 @@ TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
   std::set<std::vector<std::int64_t>> by_view;
   for (const auto& [view, seen_from] : nodes) by_view.insert(seen_from);
   EXPECT_EQ(by_view, (std::set<std::vector<std::int64_t>>{{1, 5}, {3}})) << "the middle of each visit";
+}
+
+// A graph that is built again goes on from its views: who comes first among the landmarks must not name them.
+TEST(ObjectFactors, AViewKeepsItsIdWhateverElseIsSeen) {
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  const KeyPoses poses = twoVisits(motion);
+  std::vector<ObjectFrame> frames = framesOf(poses);
+  const ObjectFactors alone = objectFactors(frames, poses, {chair()}, {}, {});
+  Landmark other = chair();
+  other.id = LandmarkId{3};
+  for (ObjectFrame& frame : frames) {
+    frame.decisions.push_back(frame.decisions.front());
+    frame.decisions.back().landmark = other.id;
+  }
+  const ObjectFactors both = objectFactors(frames, poses, {other, chair()}, {}, {});
+  EXPECT_EQ(both.views.size(), 2 * alone.views.size());
+  for (const auto& shared : alone.shared_errors) {
+    const auto same = std::find_if(both.shared_errors.begin(), both.shared_errors.end(),
+                                   [&](const LandmarkViewFactor& f) { return f.view == shared.view; });
+    ASSERT_NE(same, both.shared_errors.end());
+    EXPECT_EQ(same->landmark, LandmarkId{4});
+  }
 }
 
 // Two directions whose errors cancel: the landmark is in the middle, and its variance is that of two independent

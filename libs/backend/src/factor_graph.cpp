@@ -308,6 +308,25 @@ void FactorGraph::setValues(const std::vector<double>& values) {
   });
 }
 
+namespace {
+
+template <class Id, class Value>
+void takeOver(std::map<Id, Value>& mine, const std::map<Id, Value>& former, const std::vector<Id>& ids) {
+  for (const Id id : ids) {
+    const auto to = mine.find(id);
+    const auto from = former.find(id);
+    if (to != mine.end() && from != former.end()) to->second.start(from->second);
+  }
+}
+
+}  // namespace
+
+void FactorGraph::startFrom(const FactorGraph& former, const Variables& variables) {
+  takeOver(impl_->poses, former.impl_->poses, variables.nodes);
+  takeOver(impl_->objects, former.impl_->objects, variables.landmarks);
+  takeOver(impl_->points, former.impl_->points, variables.points);
+}
+
 bool FactorGraph::initializePoses() {
   if (impl_->poses.empty() || !impl_->objects.empty() || !impl_->points.empty()) return false;
   std::vector<RelativeEdge> edges;

@@ -29,15 +29,18 @@ struct FactorGraph::Impl {
     std::array<double, 3> t;
     std::array<double, 4> q;  // x y z w
     bool fixed = false;
+    void start(const Pose& from) { t = from.t, q = from.q; }
   };
   struct Object {
     std::array<double, 4> value;  // x y z yaw
     std::array<double, 3> size;   // width, depth, height
     ShapeKind kind;
     bool free_yaw = false, free_size = false;
+    void start(const Object& from) { value = from.value, size = from.size; }
   };
   struct Point {
     std::array<double, 3> value;
+    void start(const Point& from) { value = from.value; }
   };
   struct Entry {
     Factor factor;

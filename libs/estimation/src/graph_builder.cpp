@@ -53,14 +53,24 @@ std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const Ke
 }
 
 constexpr double kOnFloorSigma_m = 0.02;
+constexpr double kSameYaw_rad = 0.5;
 
-void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph, const BackendOptions& options) {
+// From the yaw of most sightings derivatives lead to the optimum; so they do from that of a former one,
+// unless who is who has changed it.
+double startYaw(const Landmark& landmark, double voted, bool optimised) {
+  const bool same = landmark.has_yaw && std::abs(wrapAngle(landmark.yaw - voted)) < kSameYaw_rad;
+  return optimised && same ? landmark.yaw : voted;
+}
+
+// `optimised`: landmarks are where a former graph had them.
+void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph, const BackendOptions& options,
+                bool optimised) {
   const ObjectFactors& objects = in_graph.factors;
   for (const auto& landmark : in_graph.landmarks) {
     const auto yaw = objects.yaws.find(landmark.id);
     if (yaw == objects.yaws.end()) continue;
-    // It starts with the yaw of most sightings: near the optimum, where derivatives lead to it.
-    graph.addLandmark(landmark.id, {landmark.position, yaw->second, landmark.shape});
+    graph.addLandmark(landmark.id,
+                      {landmark.position, startYaw(landmark, yaw->second, optimised), landmark.shape});
     if (options.objects_on_floor) graph.add(LandmarkGroundFactor{landmark.id, kOnFloorSigma_m});
   }
   for (const auto& [id, view] : objects.views) graph.addLandmark(id, view);
@@ -128,17 +138,28 @@ void addFixes(FactorGraph& graph, const KeyPoses& poses, const std::vector<MapFi
   }
 }
 
+// Variables of which nothing but the graph has an estimate.
+Variables onlyInGraph(const std::vector<LocalMap>& local_maps, const ObjectFactors& objects) {
+  Variables out;
+  for (const LocalMap& map : local_maps) out.nodes.push_back(map.id);
+  for (const auto& [id, view] : objects.views) out.landmarks.push_back(id);
+  for (const auto& [id, point] : objects.points) out.points.push_back(id);
+  return out;
+}
+
 }  // namespace
 
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const ObjectsInGraph& objects, const BackendOptions& options) {
+                       const ObjectsInGraph& objects, const BackendOptions& options,
+                       const FactorGraph* former) {
   FactorGraph graph;
   const bool fixed = !measurements.fixes.empty();
-  addPoses(graph, poses, motion, measurements, options, 0, !fixed);
+  const auto local_maps = addPoses(graph, poses, motion, measurements, options, 0, !fixed);
   if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
     if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
-  addObjects(graph, objects, options);
+  addObjects(graph, objects, options, former != nullptr);
+  if (former) graph.startFrom(*former, onlyInGraph(local_maps, objects.factors));
   return graph;
 }
 

@@ -158,6 +158,7 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
 
 // Landmarks of the graph that stand for views; the map's own never get that far.
 constexpr std::int64_t kFirstView = 1'000'000'000;
+constexpr int kDirections = 1024;      // more than there are of the least landmark_view_rad
 constexpr double kLeastWeight = 1e-9;  // a view without weight would leave its place undetermined
 constexpr double kVisitPause_s = 3;    // an object not seen for so long begins a new visit
 
@@ -266,6 +267,11 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
           .robust_width = options.landmark_robust_width};
 }
 
+// The same whenever the graph is built again.
+LandmarkId viewId(LandmarkId landmark, int direction) {
+  return LandmarkId{kFirstView + landmark.value * kDirections + kDirections / 2 + direction};
+}
+
 // Returns whether there is a view that ties the landmark to the key poses.
 bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
@@ -273,7 +279,7 @@ bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
   const auto views = viewsByDirection(seen, usual, poses, yaw, options.landmark_view_rad);
   for (const auto& [direction, view] : views) {
     std::vector<LandmarkFactor> visits;
-    const LandmarkId id{kFirstView + static_cast<std::int64_t>(out.views.size())};
+    const LandmarkId id = viewId(landmark.id, direction);
     for (const Visit& visit : view.visits) {
       visits.push_back(meanSighting(visit));
       LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));

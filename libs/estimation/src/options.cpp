@@ -129,6 +129,11 @@ void BackendOptions::declareParameters(ParameterVisitor& v) {
            "During the run an optimisation of the whole graph ends when the cost changes by a smaller share.",
        .min = 1e-12,
        .max = 0.1});
+  v.add("final_tolerance", final_tolerance,
+        {.doc = "At the end of the run an optimisation of the whole graph ends when the cost changes by a "
+                "smaller share.",
+         .min = 1e-12,
+         .max = 0.1});
   v.add("closure_robust_width", closure_robust_width,
         {.doc = "Width of the Cauchy loss of loop closures, in standard deviations. 0: least squares.",
          .min = 0,

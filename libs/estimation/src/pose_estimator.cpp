@@ -57,6 +57,7 @@ std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
     const Pose3 move = closure.t_a < closure.t_b ? a_now * closure.a_from_b * b_now.inverse()
                                                  : b_now * closure.a_from_b.inverse() * a_now.inverse();
     poses_.moveFrom(nodes[i].id, move);
+    graph_is_near_ = false;
     restartWindow();
     return PathShift{nodes[i].t, move};
   }
@@ -138,12 +139,17 @@ void PoseEstimator::optimizeWindow() {
   }
 }
 
+// Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
 std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGraph& objects) {
-  return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
+  graph_is_near_ = false;
+  return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance}, nullptr);
 }
 
 std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects) {
-  return optimize(objects, SolveOptions{options_.max_iterations});
+  const auto estimates = optimize(objects, {options_.max_iterations, options_.final_tolerance},
+                                  graph_is_near_ ? &graph_ : nullptr);
+  graph_is_near_ = estimates.has_value();
+  return estimates;
 }
 
 // The graph is the same when a run is repeated: its solution need not be sought again.
@@ -164,10 +170,11 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
   return recalled(results_, "whole graph", poses_.nodes().back().t, solve, encode, decode);
 }
 
-std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until) {
+std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until,
+                                                         const FactorGraph* former) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;
-  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_);
+  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, former);
   const SolveReport report = solveWhole(until);
   surprised_ = surprised_ && report.usable && report.iterations >= until.max_iterations;
   if (report.usable)
@@ -183,6 +190,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& o
 void PoseEstimator::transform(const Pose3& new_from_old) {
   if (poses_.empty()) return;
   poses_.moveFrom(poses_.nodes().front().id, new_from_old);
+  graph_is_near_ = false;
   restartWindow();
 }
 

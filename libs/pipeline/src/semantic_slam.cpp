@@ -13,7 +13,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMovementHorizon_s = 0.15;
-constexpr int kMaxDescents = 5;
+constexpr int kMaxClosingRounds = 3, kMaxDescents = 5;
 
 // A sensor on a robot has a place on it; a handheld camera has none.
 bool isMounted(const Frame& frame) {
@@ -263,9 +263,9 @@ std::vector<ObjectDecision> SemanticSlam::associate(const Frame& frame,
 void SemanticSlam::localize(double t) {
   if (!estimator_.advance(t)) return;
   addClosures(front_ends_.takeImageClosures());
-  if (const auto& closer = setup_->stages.scan_loop_closer) {
+  {
     const auto timing = times_.measure("scan loop closing");
-    addClosures(closer->search(estimator_.poses().trajectory()));
+    closeLoopsOfScans();
   }
   {
     const auto timing = times_.measure("object loop closing");
@@ -281,6 +281,15 @@ void SemanticSlam::localize(double t) {
     estimator_.optimizeWindow();
   }
   anchor();
+}
+
+// Returns whether there were new ones.
+bool SemanticSlam::closeLoopsOfScans() {
+  const auto& closer = setup_->stages.scan_loop_closer;
+  if (!closer || estimator_.poses().empty()) return false;
+  const auto closures = closer->search(estimator_.poses().trajectory());
+  addClosures(closures);
+  return !closures.empty();
 }
 
 void SemanticSlam::addClosures(const std::vector<RelativePose>& closures) {
@@ -332,11 +341,10 @@ SlamResult SemanticSlam::finish() {
 void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   front_ends_.refine();
-  // Alternate until nothing new is found: landmarks merge after poses moved, loops close after poses moved.
-  for (int round = 0; round < 3; ++round) {
+  // Alternate until nothing new is found: loops close after poses moved.
+  for (int round = 0; round < kMaxClosingRounds; ++round) {
     if (!optimizeAll()) ++counts_.reasons["back end: no usable solution"];
-    const auto& closer = setup_->stages.scan_loop_closer;
-    if (closer && !estimator_.poses().empty()) addClosures(closer->search(estimator_.poses().trajectory()));
+    if (!closeLoopsOfScans()) break;
   }
   anchor();  // before the last optimisation, so that the graph is in the same frame as all else
   optimizeAll();

@@ -59,6 +59,8 @@ class FactorGraph {
   /// Takes over what values() gave of the same graph. Throws std::invalid_argument when the graph holds more
   /// or less.
   void setValues(const std::vector<double>& values);
+  /// Takes over what `former` found for these variables, where both graphs hold them.
+  void startFrom(const FactorGraph& former, const Variables& variables);
   /// Initialises the poses from the movements alone by chordal relaxation, which needs no good initial estimate; kept
   /// when they lower the cost. Only for graphs of poses and movements. Returns whether anything changed.
   bool initializePoses();

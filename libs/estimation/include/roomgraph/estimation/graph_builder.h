@@ -39,9 +39,11 @@ struct LocalMap {
 };
 
 /// Movements between consecutive key poses, local maps of images and scans with the key poses in them,
-/// priors, closures, ground and objects (method.md sec. 4.4, factors 1 to 6).
+/// priors, closures, ground and objects (method.md sec. 4.4, factors 1 to 6). With a `former` graph of the
+/// run, local maps, views and points begin where its solution left them.
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                       const ObjectsInGraph& objects, const BackendOptions& options);
+                       const ObjectsInGraph& objects, const BackendOptions& options,
+                       const FactorGraph* former = nullptr);
 
 /// Graph of the latest key poses and of the older ones that closures connect them with.
 struct Window {

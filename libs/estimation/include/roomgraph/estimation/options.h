@@ -21,7 +21,7 @@ struct BackendOptions : Configurable {
   int window_nodes = 10, optimize_every_nodes = 20, max_iterations = 30;
   int local_map_nodes = 10;
   double local_map_drift_share = 0.05;
-  double live_tolerance = 1e-4;
+  double live_tolerance = 1e-4, final_tolerance = 1e-6;
   double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
   double closure_robust_width = 1.0, landmark_robust_width = 1.0;
   double planar_sigma_z_m = 0.01, planar_sigma_tilt_rad = 0.005;

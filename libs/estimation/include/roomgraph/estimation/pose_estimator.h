@@ -72,7 +72,8 @@ class PoseEstimator {
   void transform(const Pose3& new_from_old);
 
  private:
-  std::optional<LandmarkEstimates> optimize(const ObjectsInGraph& objects, const SolveOptions& until);
+  std::optional<LandmarkEstimates> optimize(const ObjectsInGraph& objects, const SolveOptions& until,
+                                            const FactorGraph* former);
   SolveReport solveWhole(const SolveOptions& until);
   void slideWindow();
   void restartWindow();
@@ -85,6 +86,7 @@ class PoseEstimator {
   Drift drift_;
   Measurements measurements_;
   FactorGraph graph_;
+  bool graph_is_near_ = false;  ///< optimised to the end, and no poses were moved since: the next solution begins with it
   Window window_;                       ///< of the latest key poses
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised

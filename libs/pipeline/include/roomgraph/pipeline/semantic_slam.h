@@ -115,6 +115,7 @@ class SemanticSlam {
   ScanMatch match(const Scan& scan);
 
   void localize(double t);
+  bool closeLoopsOfScans();
   void addClosures(const std::vector<RelativePose>& closures);
   ObjectsInGraph inGraph() const;
   bool optimizeAll();
