@@ -108,7 +108,7 @@ std::optional<Pose3> FrameGraph::interpolated(const Edge& edge, std::int64_t t_n
   if (after == recent.begin()) return std::nullopt;
   const auto& before = *std::prev(after);
   const auto span = static_cast<double>(after->t_ns - before.t_ns);
-  if (span > kSecondNs) return std::nullopt;
+  if (span > kSecondNs && differs(before.pose, after->pose)) return std::nullopt;
   return interpolate(before.pose, after->pose, static_cast<double>(t_ns - before.t_ns) / span);
 }
 
