@@ -140,6 +140,10 @@ void addCommand(CLI::App& importer, const std::string& name, const std::string& 
   command->add_option(
       "--pose", a->poses,
       "place of a sensor instead of tf: LABEL=x,y,z,yaw,pitch,roll (m, deg; x forward); may be repeated");
+  command
+      ->add_option("--jpeg", a->options.jpeg_quality,
+                   "colour as JPEG of this quality in the rawlog (default: without loss)")
+      ->check(CLI::Range(1, 100));
   command->add_flag("--external-images", a->options.external_images,
                     "keep the images as files in X_Images/: no loss beyond that in the bag");
   command->footer(

@@ -51,6 +51,25 @@ void storeOutside(CObservation3DRangeScan& record, const std::vector<std::uint8_
   if (record.hasRangeImage) output.storeDepth(record, name + "_depth.bin");
 }
 
+// MRPT's setting for all images, put back at the end.
+class EmbeddedImages {
+ public:
+  explicit EmbeddedImages(std::optional<int> jpeg_quality) {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(!jpeg_quality);
+    if (jpeg_quality) mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(*jpeg_quality);
+  }
+  ~EmbeddedImages() {
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(disabled_);
+    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality_);
+  }
+  EmbeddedImages(const EmbeddedImages&) = delete;
+  EmbeddedImages& operator=(const EmbeddedImages&) = delete;
+
+ private:
+  const bool disabled_ = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
+  const int quality_ = mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY();
+};
+
 ImportInputs inputsOf(const fs::path& bag) {
   const auto files = bags::filesOfBag(bag);
   return {fs::is_directory(bag) ? bag : fs::path(), files};
@@ -122,6 +141,7 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
   append(result.warnings, plan.warnings);
   tellUsed(survey, plan, result);
   ImportOutput output(places, options.external_images);
+  const EmbeddedImages embedded(options.jpeg_quality);
   bags::Conversion conversion(std::move(survey), plan, options,
                               [&](mrpt::obs::CObservation& record, const std::vector<std::uint8_t>& picture) {
                                 auto* images = dynamic_cast<CObservation3DRangeScan*>(&record);

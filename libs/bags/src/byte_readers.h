@@ -2,9 +2,8 @@
 // Bounds-checked readers of ROS 1 serialisation and of CDR (ROS 2) with one interface.
 #pragma once
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -52,28 +51,32 @@ class Ros1Reader {
   Bytes bytes_;
 };
 
-/// CDR with its encapsulation header, of either byte order; texts count and have a zero at their end.
+/// CDR with its encapsulation header, of either byte order: numbers are aligned to their size, counted from
+/// behind that header; texts count and have a zero at their end. (Fast-CDR copies all data, and when bytes
+/// are stepped over it takes the next number for aligned.)
 class CdrReader {
  public:
   static constexpr bool kRos1 = false;
-  explicit CdrReader(Bytes bytes)
-      : bytes_(bytes),
-        buffer_(reinterpret_cast<char*>(const_cast<std::uint8_t*>(bytes.data())), bytes.size()),
-        cdr_(buffer_, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN, eprosima::fastcdr::Cdr::DDS_CDR) {
-    if (bytes.size() < 4) throw BadMessage("ends too early");
+  explicit CdrReader(Bytes bytes) {
+    constexpr std::size_t kHeader = 4;
+    if (bytes.size() < kHeader) throw BadMessage("ends too early");
     if (bytes[0] != 0 || bytes[1] > 1) throw BadMessage("is not in plain CDR");
-    cdr_.read_encapsulation();
+    swapped_ = (bytes[1] == 1) != (std::endian::native == std::endian::little);
+    bytes_ = bytes.subspan(kHeader);
   }
   template <class Number>
   Number number() {
-    Number value;
-    if (!tryNumber(value)) throw BadMessage("ends too early");
-    return value;
+    take((sizeof(Number) - at_ % sizeof(Number)) % sizeof(Number));
+    std::array<std::uint8_t, sizeof(Number)> raw;
+    const Bytes taken = take(sizeof(Number));
+    std::copy(taken.begin(), taken.end(), raw.begin());
+    if (swapped_) std::reverse(raw.begin(), raw.end());
+    return std::bit_cast<Number>(raw);
   }
   Bytes take(std::size_t count) {
-    const std::size_t at = bytes_.size() - left();
-    if (count > left() || !cdr_.jump(count)) throw BadMessage("ends too early");
-    return bytes_.subspan(at, count);
+    if (count > left()) throw BadMessage("ends too early");
+    at_ += count;
+    return bytes_.subspan(at_ - count, count);
   }
   std::string text() {
     const Bytes taken = take(number<std::uint32_t>());
@@ -81,25 +84,12 @@ class CdrReader {
     if (!out.empty() && out.back() == '\0') out.pop_back();
     return out;
   }
-  std::size_t left() const {
-    return bytes_.size() -
-           static_cast<std::size_t>(const_cast<eprosima::fastcdr::Cdr&>(cdr_).getCurrentPosition() -
-                                    reinterpret_cast<const char*>(bytes_.data()));
-  }
+  std::size_t left() const { return bytes_.size() - at_; }
 
  private:
-  template <class Number>
-  bool tryNumber(Number& value) {
-    try {
-      cdr_.deserialize(value);
-      return true;
-    } catch (const eprosima::fastcdr::exception::Exception&) {
-      return false;
-    }
-  }
   Bytes bytes_;
-  eprosima::fastcdr::FastBuffer buffer_;
-  eprosima::fastcdr::Cdr cdr_;
+  std::size_t at_ = 0;
+  bool swapped_ = false;
 };
 
 }  // namespace roomgraph::bags

@@ -24,8 +24,10 @@ const std::optional<FrameGraph::Way>& SensorFrames::wayTo(const std::string& fra
   auto way = graph_.way(root_, frame);
   if (!way) {
     const std::string name = frame.empty() ? "sensors without a frame" : "frame '" + frame + "'";
-    warnings_.push_back(name + ": no transform to '" + root_ +
-                        "'; taken to be there (--pose places a sensor)");
+    warnings_.push_back(name +
+                        (root_.empty() ? ": the robot's frame is not known (--base names it)"
+                                       : ": no transform to '" + root_ + "'") +
+                        "; taken to be there (--pose places a sensor)");
   }
   return ways_.emplace(frame, std::move(way)).first->second;
 }

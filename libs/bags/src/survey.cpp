@@ -94,8 +94,10 @@ Survey surveyBag(const std::filesystem::path& bag, const std::function<void(doub
   reader->wants(wantOf);
   for (RawMessage raw; reader->next(raw);) {
     while (survey.topics.size() <= raw.topic) {
-      survey.topics.emplace_back().topic = reader->topics()[survey.topics.size() - 1];
-      survey.topics.back().type = typeOf(survey.topics.back().topic);
+      const BagTopic& added = reader->topics()[survey.topics.size()];
+      survey.topics.emplace_back();
+      survey.topics.back().topic = added;
+      survey.topics.back().type = typeOf(added);
     }
     auto& topic = survey.topics[raw.topic];
     if (topic.count++ == 0) topic.first_ns = topic.last_ns = raw.received_ns;

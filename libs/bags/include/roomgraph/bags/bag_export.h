@@ -19,7 +19,7 @@ struct BagExportResult {
 /// /camera/depth/image_raw (16UC1 where the unit is a millimetre, else 32FC1), their camera_info, /scan,
 /// /odom, /imu, /tf (odom -> base_link), /tf_static (base_link -> sensors, named by their labels), and
 /// /ground_truth when X.groundtruth.txt stands beside the rawlog. A second sensor of a kind has its label in
-/// its topics. importBag() makes the same records of it; only colour is compressed again there. `progress`
+/// its topics. importBag() makes the same records of it. `progress`
 /// gets the share done and may throw to end the export.
 ///
 /// Throws InputError (no rawlog, nothing to export), ConfigError (the bag is the rawlog) or RunError (cannot

@@ -32,6 +32,7 @@ struct BagImportOptions {
   double max_time_difference_s = 0.02;  ///< between colour and depth
   std::optional<PinholeCamera> camera;  ///< stands for CameraInfo; size 0: that of the images
   SensorPoses sensor_poses;             ///< robot_from_sensor by label of the record, instead of tf
+  std::optional<int> jpeg_quality;      ///< of colour in the rawlog; nothing: without loss
   bool external_images = false;         ///< colour as PNG or as the bag's own JPEG, in X_Images/
 };
 
