@@ -73,6 +73,7 @@ TEST_F(DamagedBag, ADamagedPlaceCostsItsChunk) {
 }
 
 TEST_F(DamagedBag, WhatIsNoBagIsNamed) {
+  std::filesystem::create_directory(folder_.file("empty"));
   EXPECT_THAT(inputError(""), HasSubstr("y.bag: is empty"));
   EXPECT_THAT(inputError("hello"), HasSubstr("is no bag, neither of ROS 1 (.bag) nor of ROS 2 (.db3)"));
   EXPECT_THAT(inputError("#ROSBAG V1.2\n"), HasSubstr("another version (ROSBAG V1.2); `rosbag fix`"));
@@ -84,7 +85,7 @@ TEST_F(DamagedBag, WhatIsNoBagIsNamed) {
   EXPECT_THAT(inputError("SQLite format 3", "y.db3"), HasSubstr("y.db3: is no bag of ROS 2, or damaged"));
   EXPECT_THAT(messageOf<InputError>([&] { importBag(folder_.file("none.bag"), folder_.file("y.rawlog")); }),
               HasSubstr("none.bag: no such file"));
-  EXPECT_THAT(messageOf<InputError>([&] { importBag(folder_.path(), folder_.file("y.rawlog")); }),
+  EXPECT_THAT(messageOf<InputError>([&] { importBag(folder_.file("empty"), folder_.file("y.rawlog")); }),
               HasSubstr("no bag in this folder"));
   EXPECT_FALSE(std::filesystem::exists(folder_.file("y.rawlog")));
 }

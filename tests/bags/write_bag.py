@@ -6,6 +6,7 @@ of ROS 1; "ros2": "<" or ">" (byte order of CDR), with "index": false the table 
 """
 import importlib
 import json
+import pathlib
 import sqlite3
 import struct
 import sys
@@ -139,6 +140,7 @@ def cdr_of(kind, m, order):
 
 
 def write_ros2(out, options, order, index):
+    pathlib.Path(out).unlink(missing_ok=True)
     database = sqlite3.connect(out)
     database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
                      " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)")

@@ -72,7 +72,7 @@ class EmbeddedImages {
 
 ImportInputs inputsOf(const fs::path& bag) {
   const auto files = bags::filesOfBag(bag);
-  return {fs::is_directory(bag) ? bag : fs::path(), files};
+  return {bag, files};
 }
 
 void tellUsed(const bags::Survey& survey, const bags::ImportPlan& plan, BagImportResult& result) {

@@ -46,7 +46,7 @@ void Conversion::take(const RawMessage& message, const BagTopic& topic) {
     const TopicType type = survey_.topics[index].type;
     if (plan_.truth.topic == index) takeTruth(message, type);
     if (type == TopicType::kTransforms)
-      takeTransforms(message);
+      takeTransforms(message, isStaticTf(topic));
     else if (choice.color == index)
       takeColor(message, index);
     else if (choice.depth == index)
@@ -72,9 +72,9 @@ void Conversion::finish() {
     skipped_[survey_.topics[*plan_.choice.depth].topic.name + ": no colour image of its time"] += count;
 }
 
-void Conversion::takeTransforms(const RawMessage& message) {
+void Conversion::takeTransforms(const RawMessage& message, bool is_static) {
   for (const auto& transform : decode<TransformsMessage>(message).transforms) {
-    const auto edge = survey_.frames.follow(transform, kKeepTransforms_s);
+    const auto edge = survey_.frames.follow(transform, is_static, kKeepTransforms_s);
     if (!edge) continue;
     const auto t = transform.header.stamp_ns;
     newest_tf_ns_ = std::max(newest_tf_ns_, t);

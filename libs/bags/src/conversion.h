@@ -34,7 +34,7 @@ class Conversion {
   std::vector<std::string> warnings() const { return frames_.warnings(); }
 
  private:
-  void takeTransforms(const RawMessage& message);
+  void takeTransforms(const RawMessage& message, bool is_static);
   void takeColor(const RawMessage& message, std::size_t topic);
   void takeDepth(const RawMessage& message, std::size_t topic);
   void takeScan(const RawMessage& message, std::size_t topic);

@@ -40,7 +40,8 @@ void FrameGraph::learn(const TransformMessage& transform, bool is_static) {
   if (!is_static && !edge->moves) edge->moves = differs(edge->first, transform.parent_from_child);
 }
 
-std::optional<std::size_t> FrameGraph::follow(const TransformMessage& transform, double keep_s) {
+std::optional<std::size_t> FrameGraph::follow(const TransformMessage& transform, bool is_static,
+                                              double keep_s) {
   Edge* edge = find(transform);
   if (!edge || !edge->moves) return std::nullopt;
   auto& recent = edge->recent;
@@ -49,7 +50,7 @@ std::optional<std::size_t> FrameGraph::follow(const TransformMessage& transform,
       std::upper_bound(recent.begin(), recent.end(), t,
                        [](std::int64_t time, const StampedTransform& other) { return time < other.t_ns; });
   if (place != recent.begin() && std::prev(place)->t_ns == t) return std::nullopt;  // published twice
-  recent.insert(place, {t, transform.parent_from_child});
+  recent.insert(place, {t, transform.parent_from_child, is_static});
   while (static_cast<double>(recent.back().t_ns - recent.front().t_ns) > keep_s * kSecondNs)
     recent.pop_front();
   return static_cast<std::size_t>(edge - edges_.data());
@@ -103,12 +104,13 @@ std::optional<Pose3> FrameGraph::interpolated(const Edge& edge, std::int64_t t_n
   const auto after =
       std::lower_bound(recent.begin(), recent.end(), t_ns,
                        [](const StampedTransform& other, std::int64_t time) { return other.t_ns < time; });
-  if (after == recent.end()) return std::nullopt;
-  if (after->t_ns == t_ns) return after->pose;
+  if (after != recent.end() && after->t_ns == t_ns) return after->pose;
   if (after == recent.begin()) return std::nullopt;
   const auto& before = *std::prev(after);
+  if (before.holds) return before.pose;
+  if (after == recent.end()) return std::nullopt;
   const auto span = static_cast<double>(after->t_ns - before.t_ns);
-  if (span > kSecondNs && differs(before.pose, after->pose)) return std::nullopt;
+  if (span > kSecondNs) return std::nullopt;
   return interpolate(before.pose, after->pose, static_cast<double>(t_ns - before.t_ns) / span);
 }
 

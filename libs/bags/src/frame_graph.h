@@ -25,7 +25,7 @@ class FrameGraph {
   void learn(const TransformMessage& transform, bool is_static);
   /// Like learn(), for frames known from there; what is older than `keep_s` before the newest of its edge is
   /// forgotten. Returns the edge when it moves.
-  std::optional<std::size_t> follow(const TransformMessage& transform, double keep_s);
+  std::optional<std::size_t> follow(const TransformMessage& transform, bool is_static, double keep_s);
 
   bool has(const std::string& frame) const;
   std::vector<std::string> frames() const;
@@ -45,6 +45,7 @@ class FrameGraph {
   struct StampedTransform {
     std::int64_t t_ns = 0;
     Pose3 pose;
+    bool holds = false;  ///< of tf_static: until another one comes
   };
   struct Edge {
     std::string parent, child;
