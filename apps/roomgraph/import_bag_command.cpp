@@ -112,9 +112,11 @@ void addCommand(CLI::App& importer, const std::string& name, const std::string& 
       ->required();
   command->add_option("-o,--output", a->rawlog, "rawlog to write (gzip inside)");
   command->add_flag("--list", a->list, "only list topics, frames and clocks");
-  command->add_option("--topic", a->options.topics,
-                      "NAME, or KIND=NAME with KIND " + join(bagTopicKinds()) +
-                          "; stands for those found by type; KIND=none leaves a kind out; may be repeated");
+  command
+      ->add_option("--topic", a->options.topics,
+                   "NAME, or KIND=NAME with KIND " + join(bagTopicKinds()) +
+                       "; stands for those found by type; KIND=none leaves a kind out; may be repeated")
+      ->allow_extra_args(false);
   command->add_option(
       "--base", a->options.base_frame,
       "frame of the robot (default: base_footprint, the odometry's child frame, or base_link)");
@@ -137,9 +139,11 @@ void addCommand(CLI::App& importer, const std::string& name, const std::string& 
   command->add_option(
       "--camera", a->camera,
       "instead of camera_info: FX,FY,CX,CY in px, or a published camera (" + presetNames() + ")");
-  command->add_option(
-      "--pose", a->poses,
-      "place of a sensor instead of tf: LABEL=x,y,z,yaw,pitch,roll (m, deg; x forward); may be repeated");
+  command
+      ->add_option(
+          "--pose", a->poses,
+          "place of a sensor instead of tf: LABEL=x,y,z,yaw,pitch,roll (m, deg; x forward); may be repeated")
+      ->allow_extra_args(false);
   command
       ->add_option("--jpeg", a->options.jpeg_quality,
                    "colour as JPEG of this quality in the rawlog (default: without loss)")
