@@ -105,6 +105,36 @@ void import(const BagArguments& arguments) {
     std::cout << result.ground_truth.string() << ": ground truth, " << result.truth << "\n";
 }
 
+// How the messages are to be understood.
+void addMeaning(CLI::App& command, BagArguments& a) {
+  command
+      .add_option("--times", a.times,
+                  "header: what the drivers wrote; received: when the recorder got it; corrected: the "
+                  "former, shifted for "
+                  "each topic by its median difference to the latter")
+      ->check(CLI::IsMember({"header", "received", "corrected"}))
+      ->capture_default_str();
+  command
+      .add_option("--max-difference", a.options.max_time_difference_s,
+                  "largest time between colour and depth, s")
+      ->check(atLeastZero())
+      ->capture_default_str();
+  command.add_option(
+      "--camera", a.camera,
+      "instead of camera_info: FX,FY,CX,CY in px, or a published camera (" + presetNames() + ")");
+  command
+      .add_option(
+          "--pose", a.poses,
+          "place of a sensor instead of tf: LABEL=x,y,z,yaw,pitch,roll (m, deg; x forward); may be repeated")
+      ->allow_extra_args(false);
+  command
+      .add_option("--jpeg", a.options.jpeg_quality,
+                  "colour as JPEG of this quality in the rawlog (default: without loss)")
+      ->check(CLI::Range(1, 100));
+  command.add_flag("--external-images", a.options.external_images,
+                   "keep the images as files in X_Images/: no loss beyond that in the bag");
+}
+
 void addCommand(CLI::App& importer, const std::string& name, const std::string& description) {
   auto* command = importer.add_subcommand(name, description);
   auto a = std::make_shared<BagArguments>();
@@ -124,32 +154,7 @@ void addCommand(CLI::App& importer, const std::string& name, const std::string& 
                       "ground truth: a frame of tf in which the robot moves, a topic (Odometry, "
                       "PoseStamped), or none (default: "
                       "by name: mocap, vicon, ground_truth, world, map)");
-  command
-      ->add_option("--times", a->times,
-                   "header: what the drivers wrote; received: when the recorder got it; corrected: the "
-                   "former, shifted for "
-                   "each topic by its median difference to the latter")
-      ->check(CLI::IsMember({"header", "received", "corrected"}))
-      ->capture_default_str();
-  command
-      ->add_option("--max-difference", a->options.max_time_difference_s,
-                   "largest time between colour and depth, s")
-      ->check(atLeastZero())
-      ->capture_default_str();
-  command->add_option(
-      "--camera", a->camera,
-      "instead of camera_info: FX,FY,CX,CY in px, or a published camera (" + presetNames() + ")");
-  command
-      ->add_option(
-          "--pose", a->poses,
-          "place of a sensor instead of tf: LABEL=x,y,z,yaw,pitch,roll (m, deg; x forward); may be repeated")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--jpeg", a->options.jpeg_quality,
-                   "colour as JPEG of this quality in the rawlog (default: without loss)")
-      ->check(CLI::Range(1, 100));
-  command->add_flag("--external-images", a->options.external_images,
-                    "keep the images as files in X_Images/: no loss beyond that in the bag");
+  addMeaning(*command, *a);
   command->footer(
       "Examples:\n"
       "  roomgraph import " +
