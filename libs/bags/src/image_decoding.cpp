@@ -157,6 +157,9 @@ cv::Mat colorImageOf(const ImageMessage& image, bool compressed) {
   const auto found = colorEncodings().find(image.encoding);
   if (found == colorEncodings().end()) throw BadMessage("encoding '" + image.encoding + "' is not known");
   const cv::Mat view = viewOf(image, found->second.type);
+  // Two pixels share their colour; OpenCV does not look whether there are two.
+  if (found->second.type == CV_8UC2 && image.width % 2 != 0)
+    throw BadMessage("image in " + image.encoding + " has an odd width");
   if (found->second.conversion < 0) return view.clone();
   cv::Mat out;
   try {
