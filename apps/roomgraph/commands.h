@@ -9,6 +9,7 @@ namespace roomgraph {
 // Each adds its sub-command to the application; the work happens in the sub-command's callback. A callback
 // reports failure by throwing roomgraph::Error, whose exit code main() returns.
 void addImportCommand(CLI::App& app);
+void addExportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 
 void addOptimizeCommand(CLI::App& app);

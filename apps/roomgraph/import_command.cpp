@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "bag_commands.h"
 #include "commands.h"
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
@@ -94,6 +95,7 @@ void addImportCommand(CLI::App& app) {
                   "without it the camera is taken for handheld");
   tum->add_flag("--external-images", options.external_images, "keep the images as files in X_Images/");
   tum->callback([arguments] { importFolder(*arguments); });
+  addImportBag(*importer);
 }
 
 }  // namespace roomgraph

@@ -62,6 +62,7 @@ void holdStandardStreams() {
 
 void addCommands(CLI::App& app) {
   addImportCommand(app);
+  addExportCommand(app);
   addInfoCommand(app);
   addOptimizeCommand(app);
   addRunCommand(app);

@@ -4,11 +4,9 @@
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
@@ -16,10 +14,10 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
+#include "roomgraph/datasets/import_output.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
 #include "tum_lists.h"
-#include "tum_output.h"
 
 namespace roomgraph {
 namespace {
@@ -40,19 +38,9 @@ mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
   return out;
 }
 
-// Bytes that can be read back. MRPT says nothing when the disk is full.
-std::size_t sizeOfGzip(const fs::path& file) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
-  std::array<char, 1 << 16> block;
-  std::size_t size = 0;
-  for (int got = 1; in && got > 0; size += static_cast<std::size_t>(std::max(got, 0)))
-    got = gzread(in.get(), block.data(), block.size());
-  return size;
-}
-
 class Writer {
  public:
-  Writer(TumOutput& output, const TumCamera& camera, const TumImportOptions& options)
+  Writer(ImportOutput& output, const TumCamera& camera, const TumImportOptions& options)
       : output_(output), camera_(camera), options_(options) {}
 
   /// Empty, or why the pair was left out. Throws InputError when the images do not fit the camera.
@@ -114,13 +102,10 @@ class Writer {
     fs::copy_file(pair.color, folder / color, fs::copy_options::overwrite_existing, error);
     if (error) throw RunError("cannot write " + (folder / color).string() + ": " + error.message());
     record.intensityImage.setExternalStorage(color);
-    const std::string depth = name + "_depth.bin";
-    const auto bytes = record.rangeImage.size() * sizeof(std::uint16_t);
-    record.rangeImage_convertToExternalStorage(depth, folder.string() + "/");
-    if (sizeOfGzip(folder / depth) < bytes) failToWrite(folder / depth, ENOSPC);
+    output_.storeDepth(record, name + "_depth.bin");
   }
 
-  TumOutput& output_;
+  ImportOutput& output_;
   TumCamera camera_;
   const TumImportOptions& options_;
 };
@@ -156,9 +141,9 @@ void checkCenter(const PinholeCamera& camera, std::vector<std::string>& warnings
 }
 
 // Everything that is read, or would be if another file were not there.
-TumInputs inputsOf(const fs::path& folder, const TumImportOptions& options,
-                   const std::vector<TumPair>& pairs) {
-  TumInputs inputs{folder, {findGroundTruth(folder), options.camera_file.value_or(fs::path())}};
+ImportInputs inputsOf(const fs::path& folder, const TumImportOptions& options,
+                      const std::vector<TumPair>& pairs) {
+  ImportInputs inputs{folder, {findGroundTruth(folder), options.camera_file.value_or(fs::path())}};
   for (const char* name :
        {"associations.txt", "association.txt", "associate.txt", "rgb.txt", "depth.txt", "camera.json"})
     inputs.files.push_back(folder / name);
@@ -175,8 +160,8 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
     throw ConfigError("the frame rate must be positive");
   TumImportResult result;
   const auto pairs = readTumPairs(folder, options.max_time_difference_s, result.warnings);
-  const TumPlaces places = placesOf(rawlog);
-  const TumInputs inputs = inputsOf(folder, options, pairs);
+  const ImportPlaces places = placesOf(rawlog);
+  const ImportInputs inputs = inputsOf(folder, options, pairs);
   checkPlaces(places, inputs, options.external_images);
   const TumCamera camera = readTumCamera(folder, options);
   result.mirrored = camera.mirrored;
@@ -185,7 +170,7 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
         "fy < 0: |fy| is used and the ground truth is mirrored in y to a right-handed world");
   if (!options.frame_rate_hz && lookLikeFrameNumbers(pairs))
     result.warnings.push_back("the time stamps look like frame numbers: give the frame rate (ICL-NUIM: 30)");
-  TumOutput output(places, options.external_images);
+  ImportOutput output(places, options.external_images);
   Writer writer(output, camera, options);
   writeAll(writer, pairs, result, progress);
   if (result.written == 0)

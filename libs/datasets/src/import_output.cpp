@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks against overwriting of inputs, and atomic exchange of rawlog, images and ground truth.
-#include "tum_output.h"
+#include "roomgraph/datasets/import_output.h"
+
+#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cerrno>
+#include <memory>
 #include <string_view>
 
 #include "image_folder.h"
@@ -20,7 +25,7 @@ fs::path unfinished(const fs::path& file) {
 }
 
 // Nothing may be written or removed there.
-bool isRead(const fs::path& folder, const TumInputs& inputs) {
+bool isRead(const fs::path& folder, const ImportInputs& inputs) {
   return isInside(folder, inputs.folder) || isInside(inputs.folder, folder) ||
          std::any_of(inputs.files.begin(), inputs.files.end(),
                      [&](const fs::path& file) { return isInside(file, folder); });
@@ -66,14 +71,24 @@ void moveFolder(const fs::path& from, const fs::path& to) {
   if (error) throw RunError("cannot write " + to.string() + ": " + error.message());
 }
 
+// Bytes that can be read back. MRPT says nothing when the disk is full.
+std::size_t sizeOfGzip(const fs::path& file) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(file.c_str(), "rb"), gzclose);
+  std::array<char, 1 << 16> block;
+  std::size_t size = 0;
+  for (int got = 1; in && got > 0; size += static_cast<std::size_t>(std::max(got, 0)))
+    got = gzread(in.get(), block.data(), block.size());
+  return size;
+}
+
 }  // namespace
 
-TumPlaces placesOf(const fs::path& rawlog) {
+ImportPlaces placesOf(const fs::path& rawlog) {
   const fs::path name = withoutEndings(rawlog);
   return {rawlog, name.string() + "_Images", name.string() + ".groundtruth.txt"};
 }
 
-void checkPlaces(const TumPlaces& places, const TumInputs& inputs, bool external_images) {
+void checkPlaces(const ImportPlaces& places, const ImportInputs& inputs, bool external_images) {
   const fs::path& rawlog = places.rawlog;
   if (fs::is_directory(rawlog))
     throw RunError(rawlog.string() + ": is a folder; name the rawlog to write, e.g. " +
@@ -96,7 +111,7 @@ void checkPlaces(const TumPlaces& places, const TumInputs& inputs, bool external
                       ": is not from an import and would be replaced; name another rawlog, or move it away");
 }
 
-TumOutput::TumOutput(TumPlaces places, bool external_images)
+ImportOutput::ImportOutput(ImportPlaces places, bool external_images)
     : places_(std::move(places)), replaces_(fs::exists(places_.rawlog)), rawlog_(places_.rawlog) {
   if (!external_images) return;
   pending_ = unfinished(places_.images);
@@ -109,32 +124,38 @@ TumOutput::TumOutput(TumPlaces places, bool external_images)
   if (error) throw RunError(new_images_.string() + ": cannot be made: " + error.message());
 }
 
-TumOutput::~TumOutput() {
+ImportOutput::~ImportOutput() {
   std::error_code ignored;
   const bool keeps_old = !committed_ && fs::exists(old_images_, ignored);  // they could not be put back
   if (!pending_.empty() && !keeps_old) fs::remove_all(pending_, ignored);
 }
 
-void TumOutput::setGroundTruth(const std::string& text) {
+void ImportOutput::setGroundTruth(const std::string& text) {
   ground_truth_.emplace(places_.ground_truth);
   OutputFile out(ground_truth_->path());
   out << text;
   out.finish();
 }
 
+void ImportOutput::storeDepth(mrpt::obs::CObservation3DRangeScan& record, const std::string& name) const {
+  const auto bytes = record.rangeImage.size() * sizeof(std::uint16_t);
+  record.rangeImage_convertToExternalStorage(name, new_images_.string() + "/");
+  if (sizeOfGzip(new_images_ / name) < bytes) failToWrite(new_images_ / name, ENOSPC);
+}
+
 // When there are no others in their place.
-void TumOutput::restoreImages() {
+void ImportOutput::restoreImages() {
   std::error_code ignored;
   if (fs::exists(old_images_, ignored) && !fs::exists(places_.images, ignored))
     fs::rename(old_images_, places_.images, ignored);
 }
 
-void TumOutput::swapImages() {
+void ImportOutput::swapImages() {
   if (fs::exists(places_.images)) moveFolder(places_.images, old_images_);
   moveFolder(new_images_, places_.images);
 }
 
-std::vector<fs::path> TumOutput::commit(const TumInputs& inputs) {
+std::vector<fs::path> ImportOutput::commit(const ImportInputs& inputs) {
   rawlog_.close();  // the disk may turn out to be full only now
   try {
     if (!pending_.empty()) swapImages();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Output files of a TUM import, put into place together.
+// Output files of an import, put into place together.
 #pragma once
+
+#include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <filesystem>
 #include <optional>
@@ -13,42 +15,45 @@
 namespace roomgraph {
 
 /// Files of an import to X.rawlog or X.rawlog.gz.
-struct TumPlaces {
+struct ImportPlaces {
   std::filesystem::path rawlog, images, ground_truth;  ///< images: the folder X_Images
 };
-TumPlaces placesOf(const std::filesystem::path& rawlog);
+ImportPlaces placesOf(const std::filesystem::path& rawlog);
 
 /// What the import reads.
-struct TumInputs {
+struct ImportInputs {
   std::filesystem::path folder;
   std::vector<std::filesystem::path> files;  ///< in the folder or elsewhere, whether or not they exist
 };
 
 /// Throws RunError when the rawlog can have no place, ConfigError when something that is read would be
 /// replaced, and when X_Images, to be written, is there and was not made by an import.
-void checkPlaces(const TumPlaces& places, const TumInputs& inputs, bool external_images);
+void checkPlaces(const ImportPlaces& places, const ImportInputs& inputs, bool external_images);
 
 /// What an import writes: all of it gets into place, or nothing does.
-class TumOutput {
+class ImportOutput {
  public:
   /// `external_images`: X_Images is written too. Throws RunError.
-  TumOutput(TumPlaces places, bool external_images);
+  ImportOutput(ImportPlaces places, bool external_images);
   /// Removes what was not put into place.
-  ~TumOutput();
+  ~ImportOutput();
 
   RawlogWriter& rawlog() { return rawlog_; }
   /// Where to write images; empty when they are in the rawlog.
   const std::filesystem::path& images() const { return new_images_; }
+  /// Writes the depth image of a record to the file `name` ("LABEL_STAMP_depth.bin") in images() and lets the
+  /// record refer to it. Throws RunError.
+  void storeDepth(mrpt::obs::CObservation3DRangeScan& record, const std::string& name) const;
   void setGroundTruth(const std::string& text);
   /// Puts everything into place; what a former import to the same place left and this one does not have is
   /// removed, unless the import read it. Returns what was removed. Throws RunError.
-  std::vector<std::filesystem::path> commit(const TumInputs& inputs);
+  std::vector<std::filesystem::path> commit(const ImportInputs& inputs);
 
  private:
   void swapImages();
   void restoreImages();
 
-  TumPlaces places_;
+  ImportPlaces places_;
   bool replaces_;           ///< there was such a rawlog before
   bool committed_ = false;  ///< the rawlog and its images are in place
   RawlogWriter rawlog_;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pinhole camera of a CameraInfo message; removal of distortions that it cannot express.
+#pragma once
+
+#include <mrpt/img/TCamera.h>
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "messages.h"
+#include "roomgraph/geometry/camera.h"
+
+namespace roomgraph::bags {
+
+/// How images of a topic are to be understood.
+struct CameraModel {
+  PinholeCamera camera;  ///< of the images as they are recorded in the rawlog
+  /// Pixel of the message's image for each pixel (CV_32FC1, x and y); empty: images stay as they are.
+  cv::Mat map_x, map_y;
+
+  /// The image without the distortion that `camera` lacks. Depth is not interpolated.
+  cv::Mat rectified(const cv::Mat& image, bool depth) const;
+};
+
+/// `rectified`: the topic's images are free of distortion already (image_rect): the projection matrix counts.
+/// Up to five coefficients of plumb_bob stay with the camera; eight of rational_polynomial and the four of
+/// equidistant (fisheye) lenses are removed from the images. Throws BadMessage: not calibrated (no focal
+/// length), model not known.
+CameraModel cameraModel(const CameraInfoMessage& info, bool rectified);
+
+mrpt::img::TCamera toTCamera(const PinholeCamera& camera);
+
+}  // namespace roomgraph::bags

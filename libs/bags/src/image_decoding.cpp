@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Raw encodings, JPEG and PNG, and the two formats of compressed depth.
+#include "image_decoding.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "roomgraph/core/allocation_limit.h"
+#include "roomgraph/datasets/image_memory.h"
+
+namespace roomgraph::bags {
+namespace {
+
+constexpr std::size_t kDecoderBytes = 256u << 20;
+
+struct RawEncoding {
+  int type;             ///< of the pixels as they stand in the message
+  int conversion = -1;  ///< to BGR; -1: none
+};
+
+const std::map<std::string, RawEncoding>& colorEncodings() {
+  // A Bayer pattern is named after its first two pixels by ROS, after the second row's by OpenCV.
+  static const std::map<std::string, RawEncoding> encodings{
+      {"rgb8", {CV_8UC3, cv::COLOR_RGB2BGR}},
+      {"bgr8", {CV_8UC3}},
+      {"8UC3", {CV_8UC3}},
+      {"rgba8", {CV_8UC4, cv::COLOR_RGBA2BGR}},
+      {"bgra8", {CV_8UC4, cv::COLOR_BGRA2BGR}},
+      {"8UC4", {CV_8UC4, cv::COLOR_BGRA2BGR}},
+      {"mono8", {CV_8UC1}},
+      {"8UC1", {CV_8UC1}},
+      {"yuv422", {CV_8UC2, cv::COLOR_YUV2BGR_UYVY}},
+      {"uyvy", {CV_8UC2, cv::COLOR_YUV2BGR_UYVY}},
+      {"yuv422_yuy2", {CV_8UC2, cv::COLOR_YUV2BGR_YUY2}},
+      {"yuyv", {CV_8UC2, cv::COLOR_YUV2BGR_YUY2}},
+      {"bayer_rggb8", {CV_8UC1, cv::COLOR_BayerBG2BGR}},
+      {"bayer_bggr8", {CV_8UC1, cv::COLOR_BayerRG2BGR}},
+      {"bayer_gbrg8", {CV_8UC1, cv::COLOR_BayerGR2BGR}},
+      {"bayer_grbg8", {CV_8UC1, cv::COLOR_BayerGB2BGR}},
+  };
+  return encodings;
+}
+
+bool isDepth16(const std::string& encoding) {
+  return encoding == "16UC1" || encoding == "mono16";
+}
+
+// The pixels where they are in the message.
+cv::Mat viewOf(const ImageMessage& image, int type) {
+  constexpr std::uint32_t kLargest = 1u << 16;
+  const std::size_t row = static_cast<std::size_t>(image.width) * CV_ELEM_SIZE(type);
+  if (image.width == 0 || image.height == 0 || image.width > kLargest || image.height > kLargest)
+    throw BadMessage("image of " + std::to_string(image.width) + "x" + std::to_string(image.height) + " px");
+  if (image.step < row || static_cast<std::size_t>(image.step) * (image.height - 1) + row > image.data.size())
+    throw BadMessage("image has fewer bytes than its size needs");
+  return cv::Mat(static_cast<int>(image.height), static_cast<int>(image.width), type,
+                 const_cast<std::uint8_t*>(image.data.data()), image.step);
+}
+
+void swapBytes(cv::Mat& image) {
+  const std::size_t width = image.elemSize();
+  for (int v = 0; v < image.rows; ++v)
+    for (auto* p = image.ptr(v); p < image.ptr(v) + static_cast<std::size_t>(image.cols) * width; p += width)
+      std::reverse(p, p + width);
+}
+
+// Memory of decoders is bounded: a damaged size in a picture's header may ask for anything.
+cv::Mat decodePicture(Bytes bytes, int flags) {
+  if (bytes.empty()) throw BadMessage("compressed image is empty");
+  countImageMemory();
+  cv::Mat image;
+  try {
+    const AllocationLimit limit(kDecoderBytes);
+    image = cv::imdecode(
+        cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data())), flags);
+  } catch (const std::exception&) {
+    image.release();
+  }
+  if (image.empty()) throw BadMessage("compressed image is damaged, or neither JPEG nor PNG");
+  return image;
+}
+
+// Run lengths of zeros and of values, these as differences in nibbles with a continuation bit (A. D. Wilson,
+// "Fast lossless depth image compression", ISS 2017).
+cv::Mat decodeRvl(Bytes bytes) {
+  Ros1Reader in(bytes);
+  const auto cols = in.number<std::uint32_t>(), rows = in.number<std::uint32_t>();
+  constexpr std::uint64_t kMostPixels = 1u << 26, kPixelsPerByte = 1u << 20;
+  const std::uint64_t pixels = static_cast<std::uint64_t>(cols) * rows;
+  if (pixels == 0 || pixels > kMostPixels || pixels > in.left() * kPixelsPerByte)
+    throw BadMessage("RVL image has an impossible size");
+  cv::Mat image = cv::Mat::zeros(static_cast<int>(rows), static_cast<int>(cols), CV_16UC1);
+  auto* out = image.ptr<std::uint16_t>();
+  auto* const end = out + pixels;
+  std::uint32_t word = 0;
+  int nibbles = 0;
+  const auto next = [&] {
+    std::uint32_t value = 0, nibble = 0;
+    int shift = 0;
+    do {
+      if (nibbles == 0) {
+        word = in.number<std::uint32_t>();
+        nibbles = 8;
+      }
+      nibble = word >> 28;
+      word <<= 4;
+      --nibbles;
+      if (shift > 30) throw BadMessage("RVL image is damaged");
+      value |= (nibble & 7u) << shift;
+      shift += 3;
+    } while (nibble & 8u);
+    return value;
+  };
+  std::uint16_t previous = 0;
+  while (out < end) {
+    out += std::min<std::ptrdiff_t>(next(), end - out);
+    for (std::uint32_t values = next(); values > 0 && out < end; --values) {
+      const std::uint32_t zigzag = next();
+      previous = static_cast<std::uint16_t>(previous + ((zigzag >> 1) ^ (0u - (zigzag & 1u))));
+      *out++ = previous;
+    }
+  }
+  return image;
+}
+
+// 12 bytes (format, two parameters of the quantisation), then PNG or RVL. Floats are stored as their inverse.
+cv::Mat decodeCompressedDepth(const ImageMessage& image) {
+  Ros1Reader in(image.data);
+  in.number<std::uint32_t>();
+  const auto a = in.number<float>(), b = in.number<float>();
+  const Bytes rest = in.take(in.left());
+  cv::Mat stored = image.encoding.find("rvl") != std::string::npos
+                       ? decodeRvl(rest)
+                       : decodePicture(rest, cv::IMREAD_UNCHANGED);
+  if (stored.type() != CV_16UC1) throw BadMessage("compressed depth is not of 16 bit");
+  if (!image.encoding.starts_with("32FC1")) return stored;
+  cv::Mat metres(stored.size(), CV_32FC1);
+  for (int v = 0; v < stored.rows; ++v)
+    for (int u = 0; u < stored.cols; ++u) {
+      const auto value = stored.at<std::uint16_t>(v, u);
+      metres.at<float>(v, u) = value == 0 ? 0.f : a / (static_cast<float>(value) - b);
+    }
+  return metres;
+}
+
+}  // namespace
+
+cv::Mat colorImageOf(const ImageMessage& image, bool compressed) {
+  if (compressed) {
+    const cv::Mat out = decodePicture(image.data, cv::IMREAD_ANYCOLOR);
+    if (out.type() != CV_8UC3 && out.type() != CV_8UC1) throw BadMessage("compressed image is not of 8 bit");
+    return out;
+  }
+  const auto found = colorEncodings().find(image.encoding);
+  if (found == colorEncodings().end()) throw BadMessage("encoding '" + image.encoding + "' is not known");
+  const cv::Mat view = viewOf(image, found->second.type);
+  // Two pixels share their colour; OpenCV does not look whether there are two.
+  if (found->second.type == CV_8UC2 && image.width % 2 != 0)
+    throw BadMessage("image in " + image.encoding + " has an odd width");
+  if (found->second.conversion < 0) return view.clone();
+  cv::Mat out;
+  try {
+    cv::cvtColor(view, out, found->second.conversion);
+  } catch (const cv::Exception&) {
+    throw BadMessage("image of " + std::to_string(image.width) + "x" + std::to_string(image.height) +
+                     " px cannot be in " + image.encoding);
+  }
+  return out;
+}
+
+cv::Mat depthImageOf(const ImageMessage& image, bool compressed) {
+  if (compressed) {
+    if (image.encoding.find("compressedDepth") != std::string::npos) return decodeCompressedDepth(image);
+    const cv::Mat out = decodePicture(image.data, cv::IMREAD_UNCHANGED);
+    if (out.type() != CV_16UC1) throw BadMessage("compressed depth is not of 16 bit");
+    return out;
+  }
+  const bool metres = image.encoding == "32FC1";
+  if (!metres && !isDepth16(image.encoding))
+    throw BadMessage("encoding '" + image.encoding + "' is not known for depth");
+  cv::Mat out = viewOf(image, metres ? CV_32FC1 : CV_16UC1).clone();
+  if (image.big_endian == (std::endian::native == std::endian::little)) swapBytes(out);
+  return out;
+}
+
+ImageContent contentOf(const std::string& encoding) {
+  const std::string raw = encoding.substr(0, encoding.find(';'));
+  if (isDepth16(raw) || raw == "32FC1") return ImageContent::kDepth;
+  if (raw == "mono8" || raw == "8UC1") return ImageContent::kGray;
+  if (colorEncodings().contains(raw)) return ImageContent::kColor;
+  const bool picture = raw == "jpeg" || raw == "jpg" || raw == "png";  // of drivers that tell no more
+  return picture ? ImageContent::kColor : ImageContent::kUnknown;
+}
+
+}  // namespace roomgraph::bags

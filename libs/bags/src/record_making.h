@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Observations of MRPT made from messages of ROS.
+#pragma once
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <opencv2/core/mat.hpp>
+
+#include "messages.h"
+
+namespace roomgraph::bags {
+
+/// Time in MRPT's clock, which has steps of 100 ns, from the Unix epoch; and back.
+mrpt::Clock::time_point toMrptTime(std::int64_t t_ns);
+std::int64_t toNanoseconds(mrpt::Clock::time_point t);
+
+/// From the stamp of a scan, which is that of its first beam, to the middle of the sweep.
+std::int64_t halfSweepNs(const LaserScanMessage& scan);
+
+/// A scan without pose and label: MRPT's lies symmetrically about the sensor's x axis; `yaw` gets the angle
+/// from the message's axis to that, rad. Throws BadMessage: no beams, impossible angles.
+mrpt::obs::CObservation2DRangeScan::Ptr makeScan(const LaserScanMessage& message, double& yaw);
+
+mrpt::obs::CObservationOdometry::Ptr makeOdometry(const Pose3& odom_from_robot);
+mrpt::obs::CObservationOdometry::Ptr makeOdometry(const OdometryMessage& message);
+
+/// Throws BadMessage when it measures nothing.
+mrpt::obs::CObservationIMU::Ptr makeImu(const ImuMessage& message);
+
+/// Unit in which depth is kept, m: of 16UC1 a millimetre (REP 118), of 32FC1 0.2 mm (up to 13.1 m).
+double depthUnit(const cv::Mat& depth);
+/// Sets range image and unit. Values that are not finite, negative or beyond 16 bit become 0: no measurement.
+void setDepth(mrpt::obs::CObservation3DRangeScan& record, const cv::Mat& depth);
+
+}  // namespace roomgraph::bags
