@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records of the bag format 2.0: header, chunks with their index, connections, chunk infos.
 //
-// Why not rosbag_storage: Debian's headers do not compile as installed, its Bag throws from its destructor
-// when the disk is full, and the message packages need C++17 (allocator::rebind). What is left to do is this
-// page.
+// Why not rosbag_storage: Debian's headers do not compile as installed (pluginlib's path), and the message
+// packages need C++17 (allocator::rebind). What is left to do is this page.
 #include "bag_writer.h"
 
 #include <algorithm>

@@ -77,14 +77,4 @@ CameraModel cameraModel(const CameraInfoMessage& info, bool rectified) {
   return model;
 }
 
-mrpt::img::TCamera toTCamera(const PinholeCamera& camera) {
-  mrpt::img::TCamera out;
-  out.ncols = static_cast<std::uint32_t>(camera.width);
-  out.nrows = static_cast<std::uint32_t>(camera.height);
-  out.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-  const auto& d = camera.distortion;
-  if (d != std::array<double, 5>{}) out.setDistortionPlumbBob(d[0], d[1], d[2], d[3], d[4]);
-  return out;
-}
-
 }  // namespace roomgraph::bags

@@ -2,8 +2,6 @@
 // Pinhole camera of a CameraInfo message; removal of distortions that it cannot express.
 #pragma once
 
-#include <mrpt/img/TCamera.h>
-
 #include <opencv2/core/mat.hpp>
 #include <string>
 
@@ -27,7 +25,5 @@ struct CameraModel {
 /// equidistant (fisheye) lenses are removed from the images. Throws BadMessage: not calibrated (no focal
 /// length), model not known.
 CameraModel cameraModel(const CameraInfoMessage& info, bool rectified);
-
-mrpt::img::TCamera toTCamera(const PinholeCamera& camera);
 
 }  // namespace roomgraph::bags

@@ -7,6 +7,7 @@
 
 #include "image_decoding.h"
 #include "record_making.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph::bags {
 namespace {
@@ -257,8 +258,8 @@ std::string Conversion::completeImages(WaitingRecord& record) {
     if (depth.empty()) return "no depth image of its time";
     setDepth(images, depth);
   }
-  if (plan_.color) images.cameraParamsIntensity = toTCamera(plan_.color->camera);
-  images.cameraParams = toTCamera(plan_.depth ? plan_.depth->camera : plan_.color->camera);
+  if (plan_.color) images.cameraParamsIntensity = toMrpt(plan_.color->camera);
+  images.cameraParams = toMrpt(plan_.depth ? plan_.depth->camera : plan_.color->camera);
   images.maxRange = kMaxRangeM;
   Pose3 forward_from_optical = Pose3::Identity();
   forward_from_optical.linear() = bodyFromOptical();

@@ -3,10 +3,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <cmath>
-#include <deque>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "bag_writer.h"
 #include "message_writing.h"
@@ -15,6 +12,8 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/import_output.h"
 #include "roomgraph/datasets/observation_reader.h"
+#include "roomgraph/evaluation/trajectory_file.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {
 namespace {
@@ -34,29 +33,15 @@ std::string topicWord(std::string label) {
   return label;
 }
 
-struct TruthPose {
-  std::int64_t t_ns = 0;
-  Pose3 pose;
-};
-
-std::deque<TruthPose> readTruth(const std::filesystem::path& file) {
-  std::deque<TruthPose> poses;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    double t, x, y, z, qx, qy, qz, qw;
-    if (!(std::istringstream(line) >> t >> x >> y >> z >> qx >> qy >> qz >> qw)) continue;
-    Pose3 pose = Pose3::Identity();
-    pose.translation() = Eigen::Vector3d(x, y, z);
-    pose.linear() = Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix();
-    if (t > 0 && pose.matrix().allFinite()) poses.push_back({std::llround(1e9 * t), pose});
-  }
-  return poses;
+// Beside the rawlog, if it is there.
+Trajectory truthOf(const std::filesystem::path& rawlog) {
+  const auto file = placesOf(rawlog).ground_truth;
+  return std::filesystem::exists(file) ? readTrajectory(file).trajectory : Trajectory();
 }
 
 class RecordingExport {
  public:
-  RecordingExport(const std::filesystem::path& bag, std::deque<TruthPose> truth)
-      : bag_(bag), truth_(std::move(truth)) {}
+  RecordingExport(const std::filesystem::path& bag, Trajectory truth) : bag_(bag), truth_(std::move(truth)) {}
 
   void write(CObservation& observation, const ObservationReader& reader) {
     const std::int64_t t = bags::toNanoseconds(observation.timestamp);
@@ -119,25 +104,18 @@ class RecordingExport {
   }
 
   void writeTruth(std::int64_t until) {
-    for (; !truth_.empty() && truth_.front().t_ns <= until; truth_.pop_front())
-      bag_.write("/ground_truth", "geometry_msgs/PoseStamped", truth_.front().t_ns,
-                 bags::poseBytes(truth_.front().pose, truth_.front().t_ns, kWorld));
+    for (; truths_ < truth_.size(); ++truths_) {
+      const auto& [seconds, pose] = truth_.poses()[truths_];
+      const std::int64_t t = std::llround(1e9 * seconds);
+      if (t > until) return;
+      bag_.write("/ground_truth", "geometry_msgs/PoseStamped", t, bags::poseBytes(pose, t, kWorld));
+    }
   }
 
   void writeImage(const std::string& folder, const cv::Mat& image, const PinholeCamera& camera,
                   const std::string& frame, std::int64_t t) {
     bag_.write(folder + "/camera_info", "sensor_msgs/CameraInfo", t, bags::cameraInfoBytes(camera, t, frame));
     bag_.write(folder + "/image_raw", "sensor_msgs/Image", t, bags::imageBytes(image, t, frame));
-  }
-
-  static PinholeCamera cameraOf(const mrpt::img::TCamera& camera) {
-    return {static_cast<int>(camera.ncols),
-            static_cast<int>(camera.nrows),
-            camera.fx(),
-            camera.fy(),
-            camera.cx(),
-            camera.cy(),
-            {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3()}};
   }
 
   // Depth as it is recorded, in metres unless its unit is a millimetre.
@@ -169,9 +147,9 @@ class RecordingExport {
     if (apart) place(depth_frame, robot_from_depth, t);
     if (images.hasIntensityImage)
       writeImage(folder + "/rgb", images.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY),
-                 cameraOf(images.cameraParamsIntensity), color_frame, t);
+                 toPinhole(images.cameraParamsIntensity), color_frame, t);
     if (images.hasRangeImage)
-      writeImage(folder + "/depth", depthOf(images), cameraOf(images.cameraParams), depth_frame, t);
+      writeImage(folder + "/depth", depthOf(images), toPinhole(images.cameraParams), depth_frame, t);
   }
 
   // Ranges along the rays, which ROS does not know: as a run sees them.
@@ -210,7 +188,8 @@ class RecordingExport {
   }
 
   bags::BagWriter bag_;
-  std::deque<TruthPose> truth_;
+  Trajectory truth_;
+  std::size_t truths_ = 0;                                        ///< poses of it that are written
   std::map<std::string, std::vector<std::string>> labels_;        ///< by kind, in the order of appearance
   std::map<std::string, std::pair<std::int64_t, Pose3>> placed_;  ///< last transform by frame
   std::vector<bags::FrameLink> links_;                            ///< of /tf_static
@@ -224,7 +203,7 @@ BagExportResult exportRecording(const std::filesystem::path& rawlog, const std::
                                 const std::function<void(double)>& progress) {
   ObservationReader reader(rawlog);
   requireOther(bag, {rawlog});
-  RecordingExport out(bag, readTruth(placesOf(rawlog).ground_truth));
+  RecordingExport out(bag, truthOf(rawlog));
   while (const auto observation = reader.next()) {
     out.write(*observation, reader);
     if (progress) progress(reader.progress());

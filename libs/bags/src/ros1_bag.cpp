@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sequential reading of chunks and messages, with search for the next chunk behind damage.
 //
-// Why not rosbag_storage, which writes our bags: it refuses a bag without an index (a recorder that was
+// Why not rosbag_storage: it refuses a bag without an index (a recorder that was
 // killed, a disk that was full) and trusts the lengths in the file. Read from front to end, a bag needs no
 // index, and a damaged place costs its chunk.
 #include "ros1_bag.h"

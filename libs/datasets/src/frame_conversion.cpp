@@ -15,6 +15,7 @@
 #include "flag_repair.h"
 #include "record_source.h"
 #include "roomgraph/datasets/image_memory.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {
 namespace {
@@ -119,15 +120,7 @@ Outcome<Frame> convert(CObservation3DRangeScan& observation, const std::string& 
 }  // namespace
 
 PinholeCamera cameraForImage(const mrpt::img::TCamera& calibration, int width, int height) {
-  PinholeCamera camera;
-  camera.width = static_cast<int>(calibration.ncols);
-  camera.height = static_cast<int>(calibration.nrows);
-  camera.fx = calibration.fx();
-  camera.fy = calibration.fy();
-  camera.cx = calibration.cx();
-  camera.cy = calibration.cy();
-  camera.distortion = {calibration.k1(), calibration.k2(), calibration.p1(), calibration.p2(),
-                       calibration.k3()};
+  const PinholeCamera camera = toPinhole(calibration);
   if (width == camera.width && height == camera.height) return camera;
   if (1LL * width * camera.height != 1LL * height * camera.width || camera.width <= 0) return {};
   return camera.scaled(static_cast<double>(width) / camera.width);

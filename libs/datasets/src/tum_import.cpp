@@ -15,6 +15,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/datasets/import_output.h"
+#include "roomgraph/observations/mrpt_camera.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
 #include "tum_lists.h"
@@ -27,16 +28,6 @@ using mrpt::obs::CObservation3DRangeScan;
 
 constexpr float kMaxRangeM = 10;  // for viewers only
 constexpr int kWarningsShown = 5;
-
-mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
-  mrpt::img::TCamera out;
-  out.ncols = static_cast<std::uint32_t>(camera.width);
-  out.nrows = static_cast<std::uint32_t>(camera.height);
-  out.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-  const auto& d = camera.distortion;
-  if (d != std::array<double, 5>{}) out.setDistortionPlumbBob(d[0], d[1], d[2], d[3], d[4]);
-  return out;
-}
 
 class Writer {
  public:

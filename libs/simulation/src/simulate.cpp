@@ -13,6 +13,7 @@
 #include "persistent_detector.h"
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/observations/detection_comment.h"
+#include "roomgraph/observations/mrpt_camera.h"
 #include "roomgraph/observations/rawlog_writer.h"
 #include "scene.h"
 #include "truth_files.h"
@@ -32,14 +33,6 @@ enum Stream : std::uint64_t {
 
 mrpt::Clock::time_point stamp(double seconds) {
   return mrpt::Clock::fromDouble(kStart + seconds);
-}
-
-mrpt::img::TCamera toMrpt(const PinholeCamera& camera) {
-  mrpt::img::TCamera out;
-  out.ncols = static_cast<std::uint32_t>(camera.width);
-  out.nrows = static_cast<std::uint32_t>(camera.height);
-  out.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-  return out;
 }
 
 /// Instants of one sensor.
