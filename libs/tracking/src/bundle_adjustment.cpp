@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Local bundle adjustment with Ceres: choice of the window, Huber loss, outlier removal.
+// Local bundle adjustment: choice of the window, what takes part, outlier removal.
 #include "bundle_adjustment.h"
-
-#include <ceres/ceres.h>
-#include <ceres/rotation.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +8,7 @@
 #include <set>
 
 #include "roomgraph/core/result_store.h"
+#include "sparse_bundle.h"
 
 namespace roomgraph::tracking {
 namespace {
@@ -18,13 +16,13 @@ namespace {
 constexpr double kAdjustmentChi2 = 5.991;   // 95 %, 2 degrees of freedom
 constexpr double kMaxDepthSigmas = 3;  // a depth further off is not used
 constexpr double kAdjustmentHuber = 2.0;         // sigma
+constexpr double kTolerance = 1e-4;              // relative change of the cost
 constexpr int kMinShared = 10;         // points that make two keyframes neighbours
 
 /// camera_from_odom as rotation vector and translation.
 using PoseBlock = std::array<double, 6>;
 
-PoseBlock toBlock(const Pose3& odom_from_camera) {
-  const Pose3 pose = odom_from_camera.inverse();
+PoseBlock toBlock(const Pose3& pose) {
   const Eigen::Vector3d r = logSO3(pose.linear()), t = pose.translation();
   return {r.x(), r.y(), r.z(), t.x(), t.y(), t.z()};
 }
@@ -35,20 +33,6 @@ Pose3 fromBlock(const PoseBlock& block) {
   pose.translation() << block[3], block[4], block[5];
   return normalized(pose.inverse());
 }
-
-struct ReprojectionCost {
-  PinholeCamera camera;
-  Observation observation;
-  template <class T>
-  bool operator()(const T* pose, const T* point, T* residual) const {
-    T p[3];
-    ceres::AngleAxisRotatePoint(pose, point, p);
-    for (int i = 0; i < 3; ++i) p[i] += pose[3 + i];
-    if (p[2] < T(0.05)) return false;
-    reprojectionResidual(camera, observation, p, residual);
-    return true;
-  }
-};
 
 /// Which keyframes take part: true when the keyframe may move.
 std::map<int, bool> chooseWindow(const LocalMap& map, int index, const TrackingParameters& parameters) {
@@ -73,12 +57,11 @@ Eigen::Vector3d whitened(const Keyframe& keyframe, const Observation& observatio
   return r;
 }
 
-/// One local problem; owns the parameter blocks while Ceres works on them.
+/// One local problem around a keyframe.
 class LocalProblem {
  public:
   LocalProblem(LocalMap& map, std::map<int, bool> window, const TrackingParameters& parameters)
       : map_(map), window_(std::move(window)), parameters_(parameters) {
-    for (const auto& [index, moves] : window_) poses_[index] = toBlock(map_.keyframe(index).odom_from_camera);
     std::vector<int> moving;
     for (const auto& [index, moves] : window_)
       if (moves) moving.push_back(index);
@@ -87,31 +70,31 @@ class LocalProblem {
 
   /// The solution as numbers: camera_from_odom of the keyframes that move, then each point that takes part
   /// with its id; nothing when there is none.
-  std::vector<double> solve() {
-    ceres::Problem::Options options;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    ceres::Problem problem(options);
-    for (const auto id : ids_) addPoint(problem, id);
-    if (problem.NumResidualBlocks() == 0) return {};
-    for (const auto& [index, moves] : window_)
-      if (!moves && problem.HasParameterBlock(poses_[index].data()))
-        problem.SetParameterBlockConstant(poses_[index].data());
-    ceres::Solver::Options solver;
-    solver.linear_solver_type = ceres::DENSE_SCHUR;
-    solver.max_num_iterations = parameters_.ba_iterations;
-    solver.num_threads = 1;
-    solver.logging_type = ceres::SILENT;
-    solver.function_tolerance = 1e-4;
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &problem, &summary);
-    if (!summary.IsSolutionUsable()) return {};
-    std::vector<double> solution;
-    for (const auto& [index, moves] : window_)
-      if (moves) solution.insert(solution.end(), poses_[index].begin(), poses_[index].end());
+  std::vector<double> solve() const {
+    SparseBundle bundle;
+    std::map<int, int> cameras;  // of keyframes
+    for (const auto& [index, moves] : window_) {
+      const Keyframe& keyframe = map_.keyframe(index);
+      cameras[index] = static_cast<int>(bundle.cameras.size());
+      bundle.cameras.push_back({keyframe.camera, keyframe.odom_from_camera.inverse(), moves});
+    }
+    std::vector<std::int64_t> taking_part;
     for (const auto id : ids_) {
-      const Eigen::Vector3d& place = map_.point(id).position;
-      if (problem.HasParameterBlock(place.data()))
-        solution.insert(solution.end(), {static_cast<double>(id), place.x(), place.y(), place.z()});
+      BundlePoint point = bundlePoint(id, cameras);
+      if (point.terms.empty()) continue;
+      taking_part.push_back(id);
+      bundle.points.push_back(std::move(point));
+    }
+    if (bundle.points.empty() || !adjust(bundle, {parameters_.ba_iterations, kAdjustmentHuber, kTolerance})) return {};
+    std::vector<double> solution;
+    for (const BundleCamera& camera : bundle.cameras)
+      if (camera.moves) {
+        const PoseBlock block = toBlock(camera.camera_from_odom);
+        solution.insert(solution.end(), block.begin(), block.end());
+      }
+    for (std::size_t i = 0; i < taking_part.size(); ++i) {
+      const Eigen::Vector3d& place = bundle.points[i].position;
+      solution.insert(solution.end(), {static_cast<double>(taking_part[i]), place.x(), place.y(), place.z()});
     }
     return solution;
   }
@@ -120,48 +103,53 @@ class LocalProblem {
   void write(const std::vector<double>& solution) {
     if (solution.empty()) return;
     auto next = solution.begin();
-    for (const auto& [index, moves] : window_)
-      for (std::size_t k = 0; moves && k < poses_[index].size(); ++k) poses_[index][k] = *next++;
+    std::map<int, Pose3> refined;
+    for (const auto& [index, moves] : window_) {
+      if (!moves) continue;
+      PoseBlock block;
+      for (double& number : block) number = *next++;
+      refined[index] = fromBlock(block);
+    }
     std::set<std::int64_t> adjusted;
     while (next != solution.end()) {
       const auto id = static_cast<std::int64_t>(*next++);
       adjusted.insert(id);
       for (double& value : map_.point(id).position) value = *next++;
     }
-    moveAlong(adjusted);
+    moveAlong(refined, adjusted);
     removeOutliers();
   }
 
  private:
-  void addPoint(ceres::Problem& problem, std::int64_t id) {
-    auto& point = map_.point(id);
-    int sightings = 0;
-    for (const auto& s : point.sightings) sightings += window_.contains(s.keyframe);
-    if (sightings < 2) return;
-    for (const auto& s : point.sightings) {
-      if (!window_.contains(s.keyframe)) continue;
+  /// A point with the keyframes of the window that see it; without terms when these are fewer than two.
+  BundlePoint bundlePoint(std::int64_t id, const std::map<int, int>& cameras) const {
+    const MapPoint& seen = map_.point(id);
+    BundlePoint point{seen.position, {}};
+    const auto inside = std::count_if(seen.sightings.begin(), seen.sightings.end(),
+                                      [&](const Sighting& s) { return window_.contains(s.keyframe); });
+    if (inside < 2) return point;
+    for (const auto& s : seen.sightings) {
+      const auto camera = cameras.find(s.keyframe);
+      if (camera == cameras.end()) continue;
       const Keyframe& keyframe = map_.keyframe(s.keyframe);
       Observation observation = keyframe.observation(s.feature, parameters_);
-      const Eigen::Vector3d residual = whitened(keyframe, observation, point.position);
-      if (std::abs(residual.z()) > 1e8) continue;
+      const Eigen::Vector3d residual = whitened(keyframe, observation, seen.position);
+      if (std::abs(residual.z()) > 1e8) continue;  // behind the camera
       if (std::abs(residual.z()) > kMaxDepthSigmas) observation.depth = 0;
-      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ReprojectionCost, 3, 6, 3>(
-                                   new ReprojectionCost{keyframe.camera, observation}),
-                               &loss_, poses_[s.keyframe].data(), point.position.data());
+      point.terms.push_back({camera->second, observation});
     }
+    return point;
   }
 
   // A point that was not optimised moves rigidly with the keyframe that created it.
-  void moveAlong(const std::set<std::int64_t>& adjusted) {
-    for (const auto& [index, moves] : window_) {
-      if (!moves) continue;
+  void moveAlong(const std::map<int, Pose3>& refined, const std::set<std::int64_t>& adjusted) {
+    for (const auto& [index, odom_from_camera] : refined) {
       Keyframe& keyframe = map_.keyframe(index);
-      const Pose3 refined = fromBlock(poses_[index]);
-      const Pose3 shift = refined * keyframe.odom_from_camera.inverse();
+      const Pose3 shift = odom_from_camera * keyframe.odom_from_camera.inverse();
       for (const auto id : keyframe.points)
         if (id >= 0 && !adjusted.contains(id) && map_.point(id).sightings.front().keyframe == index)
           map_.point(id).position = shift * map_.point(id).position;
-      keyframe.odom_from_camera = refined;
+      keyframe.odom_from_camera = odom_from_camera;
     }
   }
 
@@ -182,9 +170,7 @@ class LocalProblem {
   LocalMap& map_;
   std::map<int, bool> window_;
   const TrackingParameters& parameters_;
-  std::map<int, PoseBlock> poses_;
   std::vector<std::int64_t> ids_;
-  ceres::HuberLoss loss_{kAdjustmentHuber};
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include "matcher.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <opencv2/core/hal/hal.hpp>
-#include <opencv2/features2d.hpp>
 #include <optional>
 
 namespace roomgraph::tracking {
@@ -56,17 +56,43 @@ Best closest(const MapPoint& point, const Expected& expected, const Features& fe
   return best;
 }
 
-/// cv::Mat header over descriptors, without a copy.
-cv::Mat asMat(const std::vector<Descriptor>& descriptors) {
-  return {static_cast<int>(descriptors.size()), 32, CV_8U,
-          const_cast<std::uint8_t*>(
-              descriptors.data()->data())};  // NOLINT: OpenCV has no const header; only read
+using Words = std::array<std::uint64_t, 4>;
+static_assert(sizeof(Words) == sizeof(Descriptor));
+
+// The loop is written once for each instruction set: what is inlined into a function takes its target.
+[[gnu::always_inline]] inline int differingBits(const Descriptor& a, const Descriptor& b) {
+  const auto x = std::bit_cast<Words>(a), y = std::bit_cast<Words>(b);
+  int bits = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) bits += std::popcount(x[i] ^ y[i]);
+  return bits;
+}
+
+#if defined(__x86_64__)
+// Every processor since 2008 counts bits by an instruction, which the baseline of x86-64 does not have.
+[[gnu::target("popcnt")]] int countedByInstruction(const Descriptor& a, const Descriptor& b) { return differingBits(a, b); }
+const bool kHasInstruction = __builtin_cpu_supports("popcnt");
+#endif
+
+/// The nearest of `all` and the distance of the second nearest; of equally near ones the first.
+Best nearest(const Descriptor& descriptor, const std::vector<Descriptor>& all) {
+  Best best;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int distance = hammingDistance(descriptor, all[i]);
+    if (distance < best.distance)
+      best = {static_cast<int>(i), distance, best.distance};
+    else
+      best.second = std::min(best.second, distance);
+  }
+  return best;
 }
 
 }  // namespace
 
 int hammingDistance(const Descriptor& a, const Descriptor& b) {
-  return cv::hal::normHamming(a.data(), b.data(), static_cast<int>(a.size()));
+#if defined(__x86_64__)
+  if (kHasInstruction) return countedByInstruction(a, b);
+#endif
+  return differingBits(a, b);
 }
 
 std::vector<PointMatch> ProjectionSearch::match(const std::vector<std::int64_t>& ids,
@@ -102,19 +128,14 @@ std::vector<std::pair<int, int>> matchDescriptors(const std::vector<Descriptor>&
                                                   const TrackingParameters& parameters) {
   std::vector<std::pair<int, int>> out;
   if (a.size() < 2 || b.size() < 2) return out;
-  const cv::BFMatcher matcher(cv::NORM_HAMMING);
-  std::vector<std::vector<cv::DMatch>> forward;
-  matcher.knnMatch(asMat(a), asMat(b), forward, 2);
-  std::vector<int> best_a(b.size(), -1);
-  std::vector<float> distance(b.size(), 1e9F);
-  for (const auto& m : forward) {
-    if (m.size() < 2 || m[0].distance > static_cast<float>(parameters.max_hamming) ||
-        m[0].distance > static_cast<float>(parameters.match_ratio) * m[1].distance)
-      continue;
-    const auto j = static_cast<std::size_t>(m[0].trainIdx);
-    if (m[0].distance >= distance[j]) continue;
-    distance[j] = m[0].distance;
-    best_a[j] = m[0].queryIdx;
+  std::vector<int> best_a(b.size(), -1), distances(b.size(), 257);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Best best = nearest(a[i], b);
+    if (best.distance > parameters.max_hamming || best.distance > parameters.match_ratio * best.second) continue;
+    const auto j = static_cast<std::size_t>(best.feature);
+    if (best.distance >= distances[j]) continue;
+    distances[j] = best.distance;
+    best_a[j] = static_cast<int>(i);
   }
   for (std::size_t j = 0; j < b.size(); ++j)
     if (best_a[j] >= 0) out.emplace_back(best_a[j], static_cast<int>(j));
