@@ -114,7 +114,7 @@ PoseSolution ransacPose(const PoseProblem& problem, int min_inliers) {
   std::vector<int> chosen;
   // cv::solvePnPRansac draws from a generator of its own with a fixed seed: same input, same result.
   if (!cv::solvePnPRansac(points, pixels, matrix, cv::noArray(), rotation, translation, false, 200, 4.F, 0.99,
-                          chosen, cv::SOLVEPNP_EPNP) ||
+                          chosen, cv::SOLVEPNP_AP3P) ||
       static_cast<int>(chosen.size()) < std::max(6, min_inliers / 2))
     return none;
   Pose3 pose = Pose3::Identity();
