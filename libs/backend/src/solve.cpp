@@ -53,6 +53,10 @@ ceres::Solver::Options solverOptions(const SolveOptions& options) {
   solver.num_threads = 1;  // one order of summation: the same bits on every run
   solver.function_tolerance = options.function_tolerance;
   solver.logging_type = ceres::SILENT;
+  if (options.dogleg) {
+    solver.trust_region_strategy_type = ceres::DOGLEG;
+    solver.dogleg_type = ceres::SUBSPACE_DOGLEG;
+  }
   return solver;
 }
 

@@ -146,8 +146,8 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGrap
 }
 
 std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects) {
-  const auto estimates = optimize(objects, {options_.max_iterations, options_.final_tolerance},
-                                  graph_is_near_ ? &graph_ : nullptr);
+  const SolveOptions until{.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true};
+  const auto estimates = optimize(objects, until, graph_is_near_ ? &graph_ : nullptr);
   graph_is_near_ = estimates.has_value();
   return estimates;
 }

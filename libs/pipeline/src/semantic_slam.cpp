@@ -300,12 +300,13 @@ ObjectsInGraph SemanticSlam::inGraph() const {
   return objects_.inGraph(setup_->database, setup_->options.backend);
 }
 
-// With all data, to the end; false when the solver found no usable solution.
-bool SemanticSlam::optimizeAll() {
+// With all data, to the end.
+void SemanticSlam::optimizeAll() {
   objects_.tidy();
-  const auto landmarks = estimator_.optimizeAll(inGraph());
-  if (landmarks) objects_.apply(*landmarks);
-  return landmarks.has_value();
+  if (const auto landmarks = estimator_.optimizeAll(inGraph()))
+    objects_.apply(*landmarks);
+  else
+    ++counts_.reasons["back end: no usable solution"];
 }
 
 void SemanticSlam::setMap(CSemanticMap map) {
@@ -314,17 +315,19 @@ void SemanticSlam::setMap(CSemanticMap map) {
 }
 
 // Looks for the run's place in the map given to it, and moves the world there when it is known; from then on
-// ties it to the map.
-void SemanticSlam::anchor() {
-  if (!map_ || estimator_.poses().empty()) return;
+// ties it to the map. Returns whether it did one of these.
+bool SemanticSlam::anchor() {
+  if (!map_ || estimator_.poses().empty()) return false;
   const auto timing = times_.measure("earlier map");
-  if (const auto fix = map_->fix(estimator_.poses())) estimator_.addFix(*fix);
+  const auto fix = map_->fix(estimator_.poses());
+  if (fix) estimator_.addFix(*fix);
   const auto map_from_world =
       map_->recognise(objects_.landmarks().confirmed(), estimator_.poses(), estimator_.planar());
-  if (!map_from_world) return;
+  if (!map_from_world) return fix.has_value();
   estimator_.transform(*map_from_world);
   floors_.clear();
   objects_.move({-std::numeric_limits<double>::infinity(), *map_from_world});
+  return true;
 }
 
 // Landmarks of the map that were seen again take over their ids.
@@ -337,17 +340,14 @@ SlamResult SemanticSlam::finish() {
   return collect();
 }
 
-// With all data: poses, landmarks, and who is who.
+// With all data: poses, landmarks, and who is who. Whatever changes something is followed by an optimisation.
 void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   front_ends_.refine();
-  // Alternate until nothing new is found: loops close after poses moved.
-  for (int round = 0; round < kMaxClosingRounds; ++round) {
-    if (!optimizeAll()) ++counts_.reasons["back end: no usable solution"];
-    if (!closeLoopsOfScans()) break;
-  }
-  anchor();  // before the last optimisation, so that the graph is in the same frame as all else
   optimizeAll();
+  // Loops close after poses moved, until nothing new is found.
+  for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) optimizeAll();
+  if (anchor()) optimizeAll();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
   continueInMap();

@@ -20,6 +20,9 @@ struct SolveOptions {
   double function_tolerance = 1e-8;  ///< relative change of the cost below which it stops
   /// Called after every iteration. May be empty.
   std::function<void(int iteration, double cost)> progress = {};
+  /// Powell's dogleg in place of Levenberg's and Marquardt's damping: a step that fails is shortened without the
+  /// equations being solved again. For graphs whose robust losses make many steps fail.
+  bool dogleg = false;
 };
 
 /// Outcome of an optimisation.

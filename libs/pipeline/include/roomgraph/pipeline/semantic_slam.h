@@ -118,8 +118,8 @@ class SemanticSlam {
   bool closeLoopsOfScans();
   void addClosures(const std::vector<RelativePose>& closures);
   ObjectsInGraph inGraph() const;
-  bool optimizeAll();
-  void anchor();
+  void optimizeAll();
+  bool anchor();
   void continueInMap();
   void mapOccupancy(SlamResult& result, const Trajectory& dense);
   void refine();
