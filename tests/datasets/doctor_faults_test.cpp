@@ -8,6 +8,7 @@
 #include "rawlog_maker.h"
 #include "repetition.h"
 #include "roomgraph/core/random.h"
+#include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roughness.h"
 
@@ -189,6 +190,53 @@ TEST(Repetition, FindsTheLongestRunByTime) {
   EXPECT_EQ(repetition.longest().records, 3);
   EXPECT_EQ(repetition.longest().from, 4);
   EXPECT_EQ(repetition.longest().seconds, 4);
+}
+
+TEST(Repetition, HangsFromTheThirdOnUnlessTheStampsAreOne) {
+  Repetition repetition;
+  std::vector<bool> hangs;
+  for (const double t : {1.0, 2.0, 3.0, 4.0}) {
+    repetition.add(t, "a");
+    hangs.push_back(repetition.hangs());
+  }
+  repetition.add(5, "b");
+  hangs.push_back(repetition.hangs());
+  EXPECT_EQ(hangs, (std::vector<bool>{false, false, true, true, false}));
+  for (int i = 0; i < 4; ++i) repetition.add(6, "c");
+  EXPECT_FALSE(repetition.hangs());
+}
+
+TEST(Repetition, ContentIsWhatWasMeasured) {
+  auto scan = makeScan(1), other = makeScan(2);
+  EXPECT_EQ(contentOf(*scan), contentOf(*other));
+  other->setScanRangeValidity(3, false);
+  EXPECT_NE(contentOf(*scan), contentOf(*other));
+  auto images = makeImages(1), others = makeImages(2);
+  EXPECT_EQ(contentOf(*images), contentOf(*others));
+  others->rangeImage(7, 14) = 5;
+  EXPECT_NE(contentOf(*images), contentOf(*others));
+  others = makeImages(2);
+  others->intensityImage.setPixel(14, 7, mrpt::img::TColor(1, 2, 3));
+  EXPECT_NE(contentOf(*images), contentOf(*others));
+}
+
+TEST_F(DriveWithFaults, AReaderLeavesOutWhatASensorThatHangsRepeats) {
+  for (std::size_t i = 20; i < 30; ++i) {
+    images[i]->rangeImage = images[19]->rangeImage;
+    for (std::size_t k = 0; k < 5; ++k) scans[i]->setScanRange(k, scans[19]->getScanRange(k));
+  }
+  findings();
+  RawlogReader reader(folder.file("x.rawlog"));
+  std::vector<double> times;
+  while (const auto record = reader.next())
+    if (std::holds_alternative<Scan>(*record)) times.push_back(timeOf(*record));
+  EXPECT_EQ(times.size(), 41u);
+  EXPECT_EQ(std::count_if(times.begin(), times.end(), [](double t) { return t > 104.1 && t < 105.9; }), 0);
+  const auto& statistics = reader.statistics();
+  for (const std::string name : {"CObservation2DRangeScan", "CObservation3DRangeScan"}) {
+    EXPECT_EQ(statistics.used.at(name), 41);
+    EXPECT_EQ(statistics.skipped.at(name + ": the same as the two before it, the sensor hangs"), 9);
+  }
 }
 
 TEST(OdometryStatistics, PathTurnsAndWhatNoRobotCanDo) {

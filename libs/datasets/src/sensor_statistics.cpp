@@ -19,17 +19,6 @@ constexpr int kImageStride = 10;  // every n-th image is looked at for its depth
 constexpr int kPixelStride = 7;   // and in it every n-th pixel, along both axes
 constexpr std::size_t kMaxScans = 20000;
 
-// Every n-th pixel, all channels.
-std::string samplesOf(const cv::Mat& image) {
-  std::string samples;
-  for (int v = 0; v < image.rows; v += kPixelStride)
-    for (int u = 0; u < image.cols; u += kPixelStride) {
-      const char* pixel = image.ptr<char>(v) + static_cast<std::size_t>(u) * image.elemSize();
-      samples.append(pixel, image.elemSize());
-    }
-  return samples;
-}
-
 // Nine tenths of the values within a few grey levels: covered, unlit or blinded.
 bool isBlank(const std::string& samples) {
   constexpr int kLevels = 8;
@@ -109,34 +98,29 @@ void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const
   if (first) describe(observation);
 }
 
-// Every n-th pixel of both images.
 void ImageStatistics::addContent(const mrpt::obs::CObservation3DRangeScan& observation) {
   const double t = mrpt::Clock::toDouble(observation.timestamp);
   const auto note = [t](PoorRecords& poor) {
     if (poor.count++ == 0) poor.first_time = t;
   };
-  std::string content;
   ++summary_.looked_at;
-  if (observation.hasIntensityImage && !observation.intensityImage.isEmpty()) {
-    content = samplesOf(observation.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY));
-    if (isBlank(content)) note(summary_.blank);
-  }
-  if (observation.hasRangeImage) {
-    const std::size_t color = content.size();
-    bool any = false;
-    std::vector<float> samples_m;
-    const auto& ranges = observation.rangeImage;
-    for (int v = 0; v < static_cast<int>(ranges.rows()); v += kPixelStride)
-      for (int u = 0; u < static_cast<int>(ranges.cols()); u += kPixelStride) {
-        content.push_back(static_cast<char>(ranges(v, u) & 0xff));
-        content.push_back(static_cast<char>(ranges(v, u) >> 8));
-        any = any || ranges(v, u) > 0;
-        samples_m.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
-      }
-    if (!any && content.size() > color) note(summary_.without_depth);
-    if (any) roughness_.add(t, roughnessOf(samples_m));
-  }
-  repetition_.add(t, content);
+  repetition_.add(t, contentOf(observation));
+  if (observation.hasIntensityImage && !observation.intensityImage.isEmpty() &&
+      isBlank(samplesOf(observation.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY))))
+    note(summary_.blank);
+  if (!observation.hasRangeImage || observation.rangeImage.size() == 0) return;
+  std::vector<float> samples_m;
+  bool any = false;
+  const auto& ranges = observation.rangeImage;
+  for (int v = 0; v < static_cast<int>(ranges.rows()); v += kPixelStride)
+    for (int u = 0; u < static_cast<int>(ranges.cols()); u += kPixelStride) {
+      any = any || ranges(v, u) > 0;
+      samples_m.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
+    }
+  if (any)
+    roughness_.add(t, roughnessOf(samples_m));
+  else
+    note(summary_.without_depth);
 }
 
 void ImageStatistics::describe(const mrpt::obs::CObservation3DRangeScan& observation) {
@@ -192,7 +176,7 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) 
   }
   beams_ += beams;
   roughness_.add(scan.t, roughnessOf(scan.ranges_m));
-  repetition_.add(scan.t, {reinterpret_cast<const char*>(scan.ranges_m.data()), beams * sizeof(float)});
+  repetition_.add(scan.t, contentOf(observation));
   if (scans_.size() < kMaxScans) scans_.push_back(std::move(scan));
 }
 
