@@ -21,7 +21,7 @@ TEST(DamageCommand, PrintsWhatEachFaultTouchedInTheOrderOfTheCommandLine) {
   const auto lines = linesOf(done.out);
   ASSERT_EQ(lines.size(), 5u) << done.out;
   EXPECT_EQ(lines[0], "--drop-lidar 2:4: 10 'LIDAR'");  // 5 Hz for 2 s
-  EXPECT_THAT(lines[1], HasSubstr("--black 1:2: "));
+  EXPECT_EQ(lines[1], "--black 1:2: 5 'DETECTIONS', 5 'KINECT'");
   EXPECT_EQ(lines[2], "--drop-lidar 6:7: 5 'LIDAR'");
   EXPECT_EQ(lines[3], "--duplicate odometry=3:4: 10 'ODOMETRY'");
   EXPECT_THAT(lines[4], HasSubstr("y.rawlog: "));

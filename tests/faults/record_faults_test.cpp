@@ -85,6 +85,15 @@ TEST(FreezeFault, PicturesAndTheirDetectionsFreezeTogether) {
   EXPECT_EQ(fault.counts(), (Counts{{"BOXES", 1}, {"KINECT", 1}}));
 }
 
+TEST(PassingRecord, IsCountedByItsLabelElseByItsClass) {
+  PassingRecord boxes = boxesAt(0), scan = scanAt(0);
+  boxes.observation->sensorLabel.clear();  // MRPT does not save the label of a comment
+  EXPECT_EQ(boxes.label(), "BOXES");
+  EXPECT_EQ(boxes.sensor, kCamera);
+  scan.observation->sensorLabel.clear();
+  EXPECT_EQ(scan.label(), "CObservation2DRangeScan");
+}
+
 TEST(DuplicateFault, EachRecordOfTheWindowComesTwice) {
   DuplicateFault fault(kAnySensor, {1, 2});
   const auto out = through(fault, {scanAt(0), scanAt(1), odometryAt(1.5, 3), scanAt(2)});

@@ -35,7 +35,7 @@ TEST(NotANumberFault, StrikesAFifthOfTheBeamsMarkedValid) {
   for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
     const float range = scan.getScanRange(i);
     EXPECT_TRUE(scan.getScanRangeValidity(i));
-    if (std::isfinite(range)) EXPECT_FLOAT_EQ(range, 2 + 0.1f * static_cast<float>(i));
+    EXPECT_TRUE(!std::isfinite(range) || range == 2 + 0.1f * static_cast<float>(i));
     finite += std::isfinite(range);
     none += std::isnan(range);
     plus += std::isinf(range) && range > 0;

@@ -13,8 +13,11 @@
 namespace roomgraph {
 
 std::string PassingRecord::label() const {
-  return observation->sensorLabel.empty() ? observation->GetRuntimeClass()->className
-                                          : observation->sensorLabel;
+  const auto read = unpacked(observation);  // detections in a comment have their label in its text
+  const std::string name = read ? (*read)->sensorLabel : observation->sensorLabel;
+  if (!name.empty()) return name;
+  const std::string class_name = observation->GetRuntimeClass()->className;
+  return class_name.substr(class_name.rfind(':') + 1);
 }
 
 PassingRecord PassingRecord::clone() const {
