@@ -57,7 +57,7 @@ TEST_F(StoredObservations, OfSensoryFramesComeOneByOneWithSummedUpOdometry) {
 
 TEST_F(StoredObservations, WhatMrptCannotParseIsCountedAndTheEndTold) {
   const std::string scan = bytesOf(makeScan(1));
-  writeBytes(file, scan + scan.substr(0, 60) + scan + scan.substr(0, 30));
+  writeBytes(file, scan + scan.substr(0, 60) + "\x88" + scan + scan.substr(0, 30));  // 0x88: end mark
   EXPECT_EQ(read().size(), 2u);
   ASSERT_EQ(skipped.size(), 1u);
   EXPECT_THAT(skipped.begin()->first, HasSubstr("broken record"));

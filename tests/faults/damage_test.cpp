@@ -89,10 +89,10 @@ TEST_F(Damage, EachFaultGetsWhatTheOneBeforeItLeft) {
 }
 
 TEST_F(Damage, WindowsMeanTheTimeThatWasRecordedAndWhatIsHeldBackGoesThroughTheRest) {
-  writeRawlog(in, {makeScan(100), makeScan(101), makeScan(102)});
-  // The swap holds the last scan back until the end; the jump shifts it all the same, and once.
-  damage({{"swap-order", "2:"}, {"clock-jump", "1:50"}, {"clock-jump", "lidar=2:0.5"}});
-  EXPECT_THAT(stamps(), ElementsAre(100, 151, 152.5));
+  writeRawlog(in, {makeScan(100), makeScan(101), makeScan(102), makeScan(103)});
+  // The swap holds the last scan, which has no partner, back until the end; the jumps shift it all the same.
+  damage({{"swap-order", "1:"}, {"clock-jump", "1:50"}, {"clock-jump", "lidar=2:0.5"}});
+  EXPECT_THAT(stamps(), ElementsAre(100, 152.5, 151, 153.5));
 }
 
 TEST_F(Damage, SensoryFramesAndActionsBecomeObservations) {
@@ -136,7 +136,7 @@ TEST_F(Damage, TheSameSeedGivesTheSameBytes) {
 }
 
 TEST_F(Damage, BrokenAndImpossibleRecordsOfTheInput) {
-  const std::string broken = bytesOf(makeScan(100.5)).substr(0, 40);
+  const std::string broken = bytesOf(makeScan(100.5)).substr(0, 40) + "\x88";  // its end mark
   auto impossible = makeOdometry(101, std::nan(""), 0, 0);
   writeBytes(in, bytesOf(makeScan(100)) + broken + bytesOf(impossible) + bytesOf(makeScan(102)));
   const auto result = damage({{"drop-lidar", "0:1"}});
