@@ -81,9 +81,9 @@ void printSensor(const SensorReport& sensor) {
   }
   if (sensor.images) printImages(*sensor.images);
   if (sensor.scans) printScans(*sensor.scans);
-  if (sensor.path_length_m)
-    print("    odometry  path %.2f m, turns %.0f deg\n", *sensor.path_length_m,
-          sensor.odometry_turn_rad * kDegreesPerRadian);
+  if (sensor.odometry)
+    print("    odometry  path %.2f m, turns %.0f deg\n", sensor.odometry->path_length_m,
+          sensor.odometry->turn_rad * kDegreesPerRadian);
 }
 
 void printReport(const RawlogReport& report) {
@@ -123,6 +123,11 @@ ordered_json toJson(const ImageSummary& images) {
                       {"near_depth_m", images.near_depth_m},
                       {"far_depth_m", images.far_depth_m},
                       {"valid_depth_share", images.valid_depth_share},
+                      {"looked_at", images.looked_at},
+                      {"blank", images.blank.count},
+                      {"noisy", images.noisy.count},
+                      {"without_depth", images.without_depth.count},
+                      {"same_for_s", images.same.seconds},
                       {"external_present", images.external_present},
                       {"external_missing", images.external_missing}};
   if (images.floor) {
@@ -139,7 +144,10 @@ ordered_json toJson(const ScanSummary& scans) {
                       {"max_range_m", scans.max_range_m},
                       {"right_to_left", scans.right_to_left},
                       {"valid_share", scans.valid_share},
-                      {"at_max_share", scans.at_max_share}};
+                      {"at_max_share", scans.at_max_share},
+                      {"not_finite", scans.not_finite},
+                      {"noisy", scans.noisy.count},
+                      {"same_for_s", scans.same.seconds}};
   if (scans.rotation_ratio) out["rotation_ratio"] = *scans.rotation_ratio;
   return out;
 }
@@ -151,6 +159,7 @@ ordered_json toJson(const SensorReport& sensor) {
                       {"count", sensor.count},
                       {"invalid_times", sensor.invalid_times},
                       {"out_of_order", sensor.out_of_order},
+                      {"repeated_stamps", sensor.repeated_stamps},
                       {"first_time", sensor.first_time},
                       {"last_time", sensor.last_time},
                       {"rate_hz", sensor.rate_hz},
@@ -162,9 +171,12 @@ ordered_json toJson(const SensorReport& sensor) {
   }
   if (sensor.images) out["images"] = toJson(*sensor.images);
   if (sensor.scans) out["scans"] = toJson(*sensor.scans);
-  if (sensor.path_length_m) out["path_length_m"] = *sensor.path_length_m;
-  if (sensor.clock_offset)
+  if (sensor.odometry) out["path_length_m"] = sensor.odometry->path_length_m;
+  if (sensor.odometry) out["odometry_jumps"] = sensor.odometry->jumps;
+  if (sensor.clock_offset) {
     out["clock_offset_s"] = {sensor.clock_offset->first_s, sensor.clock_offset->last_s};
+    out["clock_step_s"] = sensor.clock_offset->step_s;
+  }
   return out;
 }
 

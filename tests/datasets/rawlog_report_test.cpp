@@ -48,7 +48,7 @@ TEST_F(Doctor, HealthyRecordingHasOnlyNotes) {
   EXPECT_NEAR(report.duration(), 0.95, 1e-6);
   ASSERT_EQ(report.sensors.size(), 3u);
   EXPECT_EQ(report.sensors[0].label, "ODOMETRY");
-  EXPECT_NEAR(*report.sensors[0].path_length_m, 0.9, 1e-9);
+  EXPECT_NEAR(report.sensors[0].odometry->path_length_m, 0.9, 1e-9);
   EXPECT_NEAR(report.sensors[1].rate_hz, 10, 1e-4);
   EXPECT_EQ(report.sensors[1].scans->beams, 5);
   EXPECT_NEAR(report.sensors[1].scans->valid_share, 1, 1e-12);
@@ -250,8 +250,8 @@ TEST_F(Doctor, ActionFormat) {
   const auto report = inspect({makeAction(-1, 1, 0, 0), makeSensoryFrame({makeScan(1)}),
                                makeAction(2, 1, 0, 0.5), makeSensoryFrame({makeScan(2.1)})});
   EXPECT_EQ(report.format, "actions and sensory frames");
-  EXPECT_NEAR(*report.sensors[0].path_length_m, 1, 1e-9) << "the first action is where odometry begins";
-  EXPECT_NEAR(report.sensors[0].odometry_turn_rad, 0.5, 1e-9);
+  EXPECT_NEAR(report.sensors[0].odometry->path_length_m, 1, 1e-9) << "the first action is where odometry begins";
+  EXPECT_NEAR(report.sensors[0].odometry->turn_rad, 0.5, 1e-9);
   EXPECT_THAT(report.findings, Contains(findingOf(Severity::kNote, "1 of 2 actions have no time stamp")));
   const auto damaged =
       inspect({makeAction(1, 1e12, 0, 0), makeSensoryFrame({makeScan(1)}), makeAction(2, 1, 0, 0.5)});
@@ -268,7 +268,7 @@ TEST(DoctorOnRealData, LabRecordingIsWell) {
   const auto report = inspectRawlog(file);
   EXPECT_THAT(report.findings, Each(Field(&Finding::severity, Severity::kNote)));
   ASSERT_EQ(report.sensors.size(), 3u);
-  for (const auto& sensor : report.sensors) EXPECT_EQ(sensor.count, sensor.path_length_m ? 1447 : 724);
+  for (const auto& sensor : report.sensors) EXPECT_EQ(sensor.count, sensor.odometry ? 1447 : 724);
 }
 
 }  // namespace

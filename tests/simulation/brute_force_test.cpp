@@ -6,7 +6,7 @@
 
 #include "example_world.h"
 #include "id_raster.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 #include "scene_rays.h"
 #include "sensors.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "example_world.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 namespace roomgraph {
 namespace {

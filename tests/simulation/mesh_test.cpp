@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "mesh_builder.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 namespace roomgraph {
 namespace {

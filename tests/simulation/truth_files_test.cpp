@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "example_world.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {

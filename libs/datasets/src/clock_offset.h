@@ -16,8 +16,8 @@ struct FilePlace {
 };
 
 /// Stamps of a sensor minus those of the reference sensor whose records stand before and after them in the
-/// file (in the middle between the two). Both lists are in the order of the file. Nothing when the records do
-/// not alternate.
+/// file (in the middle between the two), and the largest step in them. Both lists are in the order of the
+/// file. Nothing when the records do not alternate.
 std::optional<ClockOffset> clockOffset(const std::vector<FilePlace>& reference,
                                        const std::vector<FilePlace>& sensor);
 

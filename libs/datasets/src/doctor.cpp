@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Problems of a recording: time stamps, scan aperture, odometry and use of sensors.
+// Problems of a recording as a whole: scan aperture, kinds of sensors, unused records; order of all checks.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,28 +10,6 @@
 
 namespace roomgraph {
 namespace {
-
-void checkTimes(const SensorReport& sensor, Findings& out) {
-  constexpr double kLongGapS = 1, kGapIntervals = 10;
-  const int valid = sensor.count - sensor.invalid_times;
-  if (sensor.invalid_times > 0 && sensor.class_name == "CActionCollection")
-    out.note(format("%d of %d actions have no time stamp", sensor.invalid_times, sensor.count),
-             "they take the time of the next observation");
-  else if (sensor.invalid_times > 0)
-    out.warning(format("%d of %d records have no valid time stamp", sensor.invalid_times, sensor.count),
-                "such records are left out; set the stamps where they are recorded");
-  if (valid > 1 && sensor.first_time == sensor.last_time)
-    out.error("all time stamps are equal",
-              "the order and speed of movement are lost: export the recording again");
-  if (sensor.out_of_order > 0)
-    out.warning(format("%d records are older than the one before; first: record %d", sensor.out_of_order,
-                       sensor.first_out_of_order),
-                "sort the records by time stamp and save again");
-  if (sensor.largest_gap_s > kLongGapS && sensor.largest_gap_s > kGapIntervals * sensor.median_interval_s)
-    out.warning(format("gap of %.1f s after t = %.3f s (usual interval %.3f s)", sensor.largest_gap_s,
-                       sensor.largest_gap_time, sensor.median_interval_s),
-                "tracking will have to bridge it by odometry, or will be lost");
-}
 
 /// Whether an angle is a usual step between beams: 1/12 deg to 2 deg, or a circle cut into 2^n.
 bool usualStep(double degrees) {
@@ -71,6 +49,13 @@ void checkAperture(const ScanSummary& scans, Findings& out) {
 void checkScans(const SensorReport& sensor, Findings& out) {
   const auto& scans = *sensor.scans;
   checkAperture(scans, out);
+  if (scans.not_finite > 0)
+    out.warning(format("%zu ranges are marked valid and are NaN or infinite", scans.not_finite),
+                "they are taken for beams without return");
+  if (scans.noisy.count > 0)
+    out.warning(format("%d of %d scans are much noisier than the others; first at t = %.3f s",
+                       scans.noisy.count, sensor.count, scans.noisy.first_time),
+                "what is measured in them is doubtful");
   if (scans.beams_change) out.note("the number of beams changes", "each scan is read with its own");
   if (scans.beams == 0)
     out.error("scans without beams", "check the driver or the conversion");
@@ -85,19 +70,6 @@ void checkScans(const SensorReport& sensor, Findings& out) {
     out.note("maximum range is not set", "beams without return cannot be told apart");
 }
 
-void checkOdometry(const RawlogReport& report, const SensorReport& sensor, Findings& out) {
-  constexpr double kMovedM =
-      0.3;  // mean change per beam that cannot come from noise or one person walking by
-  if (sensor.count < 2 || *sensor.path_length_m > 0 || sensor.odometry_turn_rad > 0) return;
-  const bool moving = std::any_of(
-      report.sensors.begin(), report.sensors.end(),
-      [](const SensorReport& other) { return other.scans && other.scans->largest_change_m > kMovedM; });
-  if (moving)
-    out.error("odometry never changes while the scans do", "run with --set odometry.enabled=false");
-  else
-    out.note("odometry never changes", "the robot stands still, or run with --set odometry.enabled=false");
-}
-
 // As the reader will choose.
 void checkKinds(const RawlogReport& report, Findings& out) {
   SensorChoices choices;
@@ -105,7 +77,7 @@ void checkKinds(const RawlogReport& report, Findings& out) {
     if (sensor.count == sensor.invalid_times) continue;
     if (sensor.images) choices.rgbd.takes(sensor.label);
     if (sensor.scans) choices.lidar.takes(sensor.label);
-    if (sensor.path_length_m) choices.odometry.takes(sensor.label);
+    if (sensor.odometry) choices.odometry.takes(sensor.label);
   }
   for (const auto* choice : {&choices.rgbd, &choices.lidar, &choices.odometry})
     if (const auto what = choice->what(); !what.empty()) out.warning(what, choice->hint());
@@ -123,7 +95,7 @@ void checkWhole(const RawlogReport& report, Findings& out) {
     out.warning(format("%d x %s", count, reason.c_str()), "such records are left out");
   if (!has([](const SensorReport& s) { return s.images || s.scans; }))
     out.error("no usable sensor", "needs CObservation3DRangeScan (RGB-D) or CObservation2DRangeScan (lidar)");
-  else if (!has([](const SensorReport& s) { return s.path_length_m.has_value(); }))
+  else if (!has([](const SensorReport& s) { return s.odometry.has_value(); }))
     out.note("no odometry", "movement is found from images or scans alone");
   if (checkClocks(report, out) && report.largest_step_back_s > kLargeStepBackS)
     out.warning(
@@ -137,18 +109,19 @@ std::vector<Finding> findProblems(const RawlogReport& report) {
   Findings out;
   checkWhole(report, out);
   const bool on_robot = std::any_of(report.sensors.begin(), report.sensors.end(),
-                                    [](const SensorReport& s) { return s.scans || s.path_length_m; });
+                                    [](const SensorReport& s) { return s.scans || s.odometry; });
   for (const auto& sensor : report.sensors) {
     out.at(nameOf(sensor));
     if (!sensor.used) {
       out.note(format("%d records of class %s are not used", sensor.count, sensor.class_name.c_str()), "");
       continue;
     }
-    checkTimes(sensor, out);
+    checkTimes(report, sensor, out);
+    checkRepetition(sensor, out);
     const bool unit_is_right = !sensor.images || checkImages(sensor, out);
     checkPose(sensor, on_robot, unit_is_right, out);
     if (sensor.scans) checkScans(sensor, out);
-    if (sensor.path_length_m) checkOdometry(report, sensor, out);
+    if (sensor.odometry) checkOdometry(report, sensor, out);
   }
   return out.sorted();
 }

@@ -20,8 +20,14 @@ double intervalOf(const RawlogReport& report, const std::string& label) {
 // Against what stands beside the records in the file.
 bool checkOffset(const RawlogReport& report, const SensorReport& sensor, Findings& out) {
   if (!sensor.clock_offset) return true;
-  const auto& [first, last, reference] = *sensor.clock_offset;
+  const double first = sensor.clock_offset->first_s, last = sensor.clock_offset->last_s;
+  const std::string& reference = sensor.clock_offset->reference;
   const double tolerance = kApartS + intervalOf(report, reference);
+  if (const double step = sensor.clock_offset->step_s; step != 0)
+    out.warning(
+        format("its clock jumps by %+.2f s against that of %s at t = %.3f s", step, reference.c_str(),
+               sensor.clock_offset->step_time),
+        "all sensors must be stamped by one clock: cut the recording there, or shift the stamps behind");
   if (std::max(std::abs(first), std::abs(last)) < tolerance) return true;
   if (std::abs(last - first) > tolerance)
     out.error(format("its clock runs at another speed than that of %s: %.1f s apart at first, %.1f s at last",

@@ -105,6 +105,22 @@ bool checkDepth(const SensorReport& sensor, Findings& out) {
   return good;
 }
 
+// Some of the images; when all lack depth, checkDepth() says so.
+void checkPoorImages(const ImageSummary& images, Findings& out) {
+  if (images.blank.count > 0)
+    out.warning(format("%d of %d pictures show nothing; first at t = %.3f s", images.blank.count,
+                       images.looked_at, images.blank.first_time),
+                "was the lens covered, or the room dark? They cannot be tracked");
+  if (images.without_depth.count > 0 && images.valid_depth_share > 0)
+    out.warning(format("%d of %d depth images are empty; first at t = %.3f s", images.without_depth.count,
+                       images.looked_at, images.without_depth.first_time),
+                "did the depth sensor fail? Objects are not measured in them");
+  if (images.noisy.count > 0)
+    out.warning(format("%d of %d depth images are much noisier than the others; first at t = %.3f s",
+                       images.noisy.count, images.looked_at, images.noisy.first_time),
+                "what is measured in them is doubtful");
+}
+
 }  // namespace
 
 bool checkImages(const SensorReport& sensor, Findings& out) {
@@ -123,6 +139,7 @@ bool checkImages(const SensorReport& sensor, Findings& out) {
       out.error("no images in the records", "only points or nothing was recorded");
     return true;
   }
+  checkPoorImages(images, out);
   checkCamera("colour", images.color_camera, images.color_width, out);
   checkCamera("depth", images.depth_camera, images.depth_width, out);
   return checkDepth(sensor, out);

@@ -33,6 +33,12 @@ class Findings {
 /// Label of a sensor, or its class when it has none.
 std::string nameOf(const SensorReport& sensor);
 
+/// Stamps of a sensor: missing, equal, out of order, with gaps.
+void checkTimes(const RawlogReport& report, const SensorReport& sensor, Findings& out);
+/// Records that a sensor repeats.
+void checkRepetition(const SensorReport& sensor, Findings& out);
+/// Odometry against what a robot can do, and against the scans.
+void checkOdometry(const RawlogReport& report, const SensorReport& sensor, Findings& out);
 /// Images, cameras, depth unit. False when the depth unit is in doubt.
 bool checkImages(const SensorReport& sensor, Findings& out);
 /// The sensor's pose against the floor that its depth images see, if their unit is right. `on_robot`: the

@@ -9,6 +9,7 @@
 
 #include "clock_offset.h"
 #include "image_folder.h"
+#include "odometry_statistics.h"
 #include "odometry_sum.h"
 #include "plausibility.h"
 #include "record_source.h"
@@ -36,7 +37,7 @@ struct Sensor {
   std::vector<FilePlace> places;
   std::optional<ImageStatistics> images;
   std::optional<ScanStatistics> scans;
-  std::optional<Pose2> last_odometry;
+  std::optional<OdometryStatistics> odometry;
 };
 
 class Inspector {
@@ -65,6 +66,7 @@ class Inspector {
       entry->times.report(line);
       if (entry->images) line.images = entry->images->report();
       if (entry->scans) line.scans = entry->scans->report(odometry_);
+      if (entry->odometry) line.odometry = odometryOf(*entry->odometry);
       line.clock_offset = offsetOf(*entry);
       if (line.count > line.invalid_times) {
         out.first_time = std::min(out.first_time, line.first_time);
@@ -128,6 +130,20 @@ class Inspector {
     return *sensors_.back();
   }
 
+  // With the standstill in which the first lidar sees most change.
+  OdometrySummary odometryOf(const OdometryStatistics& statistics) const {
+    OdometrySummary out = statistics.report();
+    const auto lidar = std::find_if(sensors_.begin(), sensors_.end(), [](const auto& s) { return s->scans; });
+    if (lidar == sensors_.end()) return out;
+    for (OdometryStandstill standstill : statistics.standstills()) {
+      standstill.scan_change_m =
+          (*lidar)->scans->change(standstill.from, standstill.from + standstill.seconds);
+      if (!out.standstill || standstill.scan_change_m > out.standstill->scan_change_m)
+        out.standstill = standstill;
+    }
+    return out;
+  }
+
   // Against the first sensor that is used.
   std::optional<ClockOffset> offsetOf(const Sensor& entry) const {
     for (const auto& reference : sensors_) {
@@ -151,11 +167,8 @@ class Inspector {
 
   void addOdometry(Sensor& entry, std::optional<double> t, const Pose2& pose) {
     entry.report.used = true;
-    const Pose2 before = entry.last_odometry.value_or(pose);
-    entry.report.path_length_m =
-        entry.report.path_length_m.value_or(0) + std::hypot(pose.x - before.x, pose.y - before.y);
-    entry.report.odometry_turn_rad += std::abs(wrapAngle(pose.yaw - before.yaw));
-    entry.last_odometry = pose;
+    if (!entry.odometry) entry.odometry.emplace();
+    entry.odometry->add(t, pose);
     if (t && (odometry_.empty() || *t > odometry_.lastTime())) odometry_.add(*t, toPose3(pose));
   }
 

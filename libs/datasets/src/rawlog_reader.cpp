@@ -12,6 +12,7 @@
 #include "odometry_sum.h"
 #include "plausibility.h"
 #include "record_source.h"
+#include "repetition.h"
 #include "roomgraph/observations/detection_comment.h"
 #include "sensor_choice.h"
 #include "stamp_queue.h"
@@ -24,6 +25,9 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
+
+// It would say that the robot stands still.
+constexpr const char* kSensorHangs = "the sensor hangs";
 
 struct RawlogReader::Impl {
   Impl(const std::filesystem::path& file, const ReadOptions& read_options)
@@ -41,6 +45,8 @@ struct RawlogReader::Impl {
   std::optional<Record> convert(const CObservation::Ptr& observation);
   std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
   std::string groupedReason(const std::string& reason);
+  /// Whether a scan repeats those before it.
+  bool hangs(const CObservation2DRangeScan& scan);
 
   RecordSource source;
   ReadOptions options;
@@ -54,6 +60,7 @@ struct RawlogReader::Impl {
   bool source_ended = false;
   std::int64_t frame_count = 0;
   OneCamera camera;
+  Repetition same_images, same_scans;
   std::string missing_image;  ///< reason of the first frame whose image is missing
 };
 
@@ -124,8 +131,22 @@ std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& 
                          ": not the camera of the first image: several cameras have this label"];
     return std::nullopt;
   }
+  same_images.add(frame->t, contentOf(observation));
+  if (same_images.hangs()) {
+    ++statistics
+          .skipped["CObservation3DRangeScan: the same as the two before it, " + std::string(kSensorHangs)];
+    return std::nullopt;
+  }
   frame->id = FrameId{frame_count++};
   return std::move(*frame);
+}
+
+bool RawlogReader::Impl::hangs(const CObservation2DRangeScan& scan) {
+  same_scans.add(mrpt::Clock::toDouble(scan.timestamp), contentOf(scan));
+  if (same_scans.hangs())
+    ++statistics
+          .skipped["CObservation2DRangeScan: the same as the two before it, " + std::string(kSensorHangs)];
+  return same_scans.hangs();
 }
 
 // Of the kinds that are wanted, one sensor each.
@@ -154,6 +175,7 @@ std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& obser
     if (wanted && !(record = convertFrame(*images))) return std::nullopt;
   } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     wanted = options.scans;
+    if (wanted && hangs(*scan)) return std::nullopt;
     if (wanted) record = toScan(*scan);
   } else if (const auto wheels = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
     wanted = options.odometry;

@@ -3,7 +3,9 @@
 #include "sensor_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/core/mat.hpp>
 
 #include "flag_repair.h"
 #include "frame_conversion.h"
@@ -16,6 +18,20 @@ namespace {
 constexpr int kImageStride = 10;  // every n-th image is looked at for its depths,
 constexpr int kPixelStride = 7;   // and in it every n-th pixel, along both axes
 constexpr std::size_t kMaxScans = 20000;
+
+// Nine tenths of the values within a few grey levels: covered, unlit or blinded.
+bool isBlank(const std::string& samples) {
+  constexpr int kLevels = 8;
+  std::array<std::size_t, 256> histogram{};
+  for (const char value : samples) ++histogram[static_cast<std::uint8_t>(value)];
+  std::size_t within = 0, most = 0;
+  for (std::size_t level = 0; level < histogram.size(); ++level) {
+    within += histogram[level];
+    if (level >= kLevels) within -= histogram[level - kLevels];
+    most = std::max(most, within);
+  }
+  return !samples.empty() && 10 * most >= 9 * samples.size();
+}
 
 }  // namespace
 
@@ -38,6 +54,7 @@ void TimeStatistics::report(SensorReport& out) const {
   for (std::size_t i = 1; i < times_.size(); ++i) {
     const double interval = times_[i] - times_[i - 1];
     intervals.push_back(interval);
+    out.repeated_stamps += interval == 0;
     if (interval < 0 && out.out_of_order++ == 0) out.first_out_of_order = static_cast<int>(i);
     if (interval > out.largest_gap_s) {
       out.largest_gap_s = interval;
@@ -72,10 +89,38 @@ void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const
   summary_.color += observation.hasIntensityImage;
   summary_.depth += observation.hasRangeImage;
   const bool first = seen_++ == 0;
-  if (!first && seen_ % kImageStride != 0) return;
+  const bool stride = first || seen_ % kImageStride == 0;
+  if (!external) addContent(observation);
+  if (!stride) return;
   loadImages(observation);
+  if (external) addContent(observation);
   if (observation.hasRangeImage) addDepth(observation);
   if (first) describe(observation);
+}
+
+void ImageStatistics::addContent(const mrpt::obs::CObservation3DRangeScan& observation) {
+  const double t = mrpt::Clock::toDouble(observation.timestamp);
+  const auto note = [t](PoorRecords& poor) {
+    if (poor.count++ == 0) poor.first_time = t;
+  };
+  ++summary_.looked_at;
+  repetition_.add(t, contentOf(observation));
+  if (observation.hasIntensityImage && !observation.intensityImage.isEmpty() &&
+      isBlank(samplesOf(observation.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY))))
+    note(summary_.blank);
+  if (!observation.hasRangeImage || observation.rangeImage.size() == 0) return;
+  std::vector<float> samples_m;
+  bool any = false;
+  const auto& ranges = observation.rangeImage;
+  for (int v = 0; v < static_cast<int>(ranges.rows()); v += kPixelStride)
+    for (int u = 0; u < static_cast<int>(ranges.cols()); u += kPixelStride) {
+      any = any || ranges(v, u) > 0;
+      samples_m.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
+    }
+  if (any)
+    roughness_.add(t, roughnessOf(samples_m));
+  else
+    note(summary_.without_depth);
 }
 
 void ImageStatistics::describe(const mrpt::obs::CObservation3DRangeScan& observation) {
@@ -101,6 +146,8 @@ ImageSummary ImageStatistics::report() const {
   out.near_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.05);
   out.far_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.95);
   out.floor = floor_.report();
+  out.noisy = roughness_.noisy();
+  out.same = repetition_.longest();
   out.range_over_lidar = agreement_.ratio();
   if (samples_ > 0)
     out.valid_depth_share = static_cast<double>(depths_m_.size()) / static_cast<double>(samples_);
@@ -122,11 +169,14 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) 
     const float range = observation.getScanRange(i);
     const bool at_max = observation.maxRange > 0 && range >= 0.999f * observation.maxRange;
     const bool valid = observation.getScanRangeValidity(i) && std::isfinite(range) && range > 0 && !at_max;
+    summary_.not_finite += observation.getScanRangeValidity(i) && !std::isfinite(range);
     at_max_ += at_max;
     valid_ += valid;
     scan.ranges_m[i] = valid ? range : 0.f;
   }
   beams_ += beams;
+  roughness_.add(scan.t, roughnessOf(scan.ranges_m));
+  repetition_.add(scan.t, contentOf(observation));
   if (scans_.size() < kMaxScans) scans_.push_back(std::move(scan));
 }
 
@@ -136,19 +186,33 @@ ScanSummary ScanStatistics::report(const Trajectory& odometry) const {
     out.valid_share = static_cast<double>(valid_) / static_cast<double>(beams_);
     out.at_max_share = static_cast<double>(at_max_) / static_cast<double>(beams_);
   }
-  for (const auto& scan : scans_) {
-    double sum = 0;
-    int both = 0;
-    const auto& first = scans_.front().ranges_m;
-    for (std::size_t i = 0; i < std::min(first.size(), scan.ranges_m.size()); ++i)
-      if (first[i] > 0 && scan.ranges_m[i] > 0) {
-        sum += std::abs(first[i] - scan.ranges_m[i]);
-        ++both;
-      }
-    if (both > 0) out.largest_change_m = std::max(out.largest_change_m, sum / both);
-  }
+  for (const auto& scan : scans_)
+    out.largest_change_m = std::max(out.largest_change_m, difference(scans_.front(), scan));
+  out.noisy = roughness_.noisy();
+  out.same = repetition_.longest();
   out.rotation_ratio = rotationRatio(odometry);
   return out;
+}
+
+// Mean over the beams that return in both; 0 when there are none.
+double ScanStatistics::difference(const Stamped& a, const Stamped& b) {
+  double sum = 0;
+  int both = 0;
+  for (std::size_t i = 0; i < std::min(a.ranges_m.size(), b.ranges_m.size()); ++i)
+    if (a.ranges_m[i] > 0 && b.ranges_m[i] > 0) {
+      sum += std::abs(a.ranges_m[i] - b.ranges_m[i]);
+      ++both;
+    }
+  return both > 0 ? sum / both : 0;
+}
+
+double ScanStatistics::change(double from, double to) const {
+  const Stamped *first = nullptr, *last = nullptr;
+  for (const auto& scan : scans_) {
+    if (scan.t <= from) first = &scan;
+    if (scan.t <= to) last = &scan;
+  }
+  return first && last ? difference(*first, *last) : 0;
 }
 
 std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) const {

@@ -12,8 +12,10 @@
 #include "floor_statistics.h"
 #include "point_grid.h"
 #include "range_agreement.h"
+#include "repetition.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
+#include "roughness.h"
 
 namespace roomgraph {
 
@@ -38,7 +40,10 @@ class ImageStatistics {
  private:
   void describe(const mrpt::obs::CObservation3DRangeScan& observation);  ///< of the first record
   void addDepth(const mrpt::obs::CObservation3DRangeScan& observation);
+  void addContent(const mrpt::obs::CObservation3DRangeScan& observation);
   ImageSummary summary_;
+  Repetition repetition_;
+  RoughnessWatch roughness_;
   PointGridMaker grids_;
   FloorStatistics floor_;
   RangeAgreement agreement_;
@@ -52,6 +57,8 @@ class ScanStatistics {
   void add(const mrpt::obs::CObservation2DRangeScan& observation);
   /// `odometry` may be empty.
   ScanSummary report(const Trajectory& odometry) const;
+  /// Mean difference per beam between the last scans before these instants (s), m; 0 when there are none.
+  double change(double from, double to) const;
 
  private:
   struct Stamped {
@@ -59,7 +66,10 @@ class ScanStatistics {
     std::vector<float> ranges_m;  ///< 0: no return
   };
   std::optional<double> rotationRatio(const Trajectory& odometry) const;
+  static double difference(const Stamped& a, const Stamped& b);
   ScanSummary summary_;
+  Repetition repetition_;
+  RoughnessWatch roughness_;
   std::vector<Stamped> scans_;
   std::size_t beams_ = 0, valid_ = 0, at_max_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "furniture_builders.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 namespace roomgraph {
 namespace {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of things that are mistaken for others: visitor chair, stool, bench, round table, printer, coat stand.
+// Meshes of things that are mistaken for others: visitor chair, stool, bench, round table, printer, coat
+// stand.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "furniture_builders.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 namespace roomgraph {
 namespace {

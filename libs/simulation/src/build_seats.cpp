@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "furniture_builders.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 namespace roomgraph {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the steps of the generator of flats share: the world so far, uses of rooms, footprints, random choices.
+// What the steps of the generator of flats share: the world so far, uses of rooms, footprints, random
+// choices.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "floor_plan.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 #include "roomgraph/simulation/flat.h"
 
 namespace roomgraph {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "id_raster.h"
-#include "random.h"
+#include "roomgraph/core/random.h"
 #include "roomgraph/observations/CObservationDetections.h"
 #include "roomgraph/simulation/world.h"
 #include "scene.h"

@@ -8,8 +8,8 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "random.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/random.h"
 #include "roomgraph/core/suggest.h"
 
 namespace roomgraph {

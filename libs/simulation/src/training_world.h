@@ -4,7 +4,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "random.h"
+#include "roomgraph/core/random.h"
 #include "roomgraph/simulation/training_set.h"
 #include "roomgraph/simulation/world.h"
 #include "scene.h"

@@ -38,8 +38,21 @@ struct FloorSummary {
 
 /// Stamps of a sensor minus those of a reference sensor between whose records its own stand in the file, s.
 struct ClockOffset {
-  double first_s = 0, last_s = 0;  ///< at the beginning and at the end
-  std::string reference;           ///< label
+  double first_s = 0, last_s = 0;    ///< at the beginning and at the end
+  double step_s = 0, step_time = 0;  ///< largest change from one record to the next; 0: none stands out
+  std::string reference;             ///< label
+};
+
+/// Records in a row with the same content.
+struct SameRecords {
+  int records = 0;
+  double from = 0, seconds = 0;  ///< s
+};
+
+/// Records that lack something.
+struct PoorRecords {
+  int count = 0;
+  double first_time = 0;  ///< s
 };
 
 /// Camera of a sensor and what its images are like.
@@ -56,7 +69,12 @@ struct ImageSummary {
   double valid_depth_share = 0;
   int external_present = 0, external_missing = 0;  ///< records with images in files outside the rawlog
   std::string first_missing;                       ///< file
-  std::optional<FloorSummary> floor;       ///< nothing when it is not seen, or not always at one place
+  int looked_at = 0;                  ///< images behind these: all, or every tenth where they are in files
+  PoorRecords blank;                  ///< pictures without any structure
+  PoorRecords noisy;                  ///< depth images much rougher than the others
+  PoorRecords without_depth;          ///< depth images without a valid pixel
+  SameRecords same;                   ///< colour and depth
+  std::optional<FloorSummary> floor;  ///< nothing when it is not seen, or not always at one place
   std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
 };
 
@@ -66,12 +84,29 @@ struct ScanSummary {
   double aperture_rad = 0;
   double max_range_m = 0;
   bool right_to_left = true;
-  double valid_share = 0;       ///< returns among all beams
-  double at_max_share = 0;      ///< beams at the maximum range among all
+  double valid_share = 0;      ///< returns among all beams
+  double at_max_share = 0;     ///< beams at the maximum range among all
+  std::size_t not_finite = 0;  ///< ranges that are marked valid and are NaN or infinite
+  PoorRecords noisy;           ///< scans much rougher than the others
+  SameRecords same;
   double largest_change_m = 0;  ///< mean difference per beam of a scan to the first one, largest
   /// Rotation by odometry over that seen in the scans, in turns on the spot (1 when all is well, negative
   /// when the scans are mirrored); nothing when there are too few such turns.
   std::optional<double> rotation_ratio;
+};
+
+/// A time at which odometry does not change at all.
+struct OdometryStandstill {
+  double from = 0, seconds = 0;  ///< s
+  double scan_change_m = 0;  ///< mean difference per beam of the scans at its end to those at its beginning
+};
+
+struct OdometrySummary {
+  double path_length_m = 0;
+  double turn_rad = 0;  ///< sum of the turns, without sign
+  int jumps = 0;        ///< steps that no robot in a room can do
+  double first_jump_time = 0, largest_jump_m = 0, largest_jump_rad = 0;
+  std::optional<OdometryStandstill> standstill;  ///< that in which the scans change most
 };
 
 struct SensorReport {
@@ -81,6 +116,7 @@ struct SensorReport {
   int invalid_times = 0;
   int out_of_order = 0;                  ///< records older than the one before them of the same sensor
   int first_out_of_order = -1;           ///< number of the record among the sensor's own
+  int repeated_stamps = 0;               ///< records with the stamp of the one before
   double first_time = 0, last_time = 0;  ///< s
   double rate_hz = 0;
   double median_interval_s = 0;
@@ -90,8 +126,7 @@ struct SensorReport {
   bool pose_changes = false;
   std::optional<ImageSummary> images;
   std::optional<ScanSummary> scans;
-  std::optional<double> path_length_m;  ///< odometry
-  double odometry_turn_rad = 0;         ///< sum of the turns, without sign
+  std::optional<OdometrySummary> odometry;
 };
 
 struct RawlogReport {

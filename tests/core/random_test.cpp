@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random streams: independence, repeatability and normal variance.
-#include "random.h"
+#include "roomgraph/core/random.h"
 
 #include <gtest/gtest.h>
 

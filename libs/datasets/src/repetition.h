@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records in a row whose content is the same: a sensor that hangs.
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <string_view>
+
+#include "roomgraph/datasets/rawlog_report.h"
+
+namespace roomgraph {
+
+/// Finds runs of records in a row with the same content. Real sensors have noise: even before a wall no two
+/// of their records are the same.
+class Repetition {
+ public:
+  /// A record at time t (s); `content` is what tells it from others.
+  void add(double t, std::string_view content);
+  /// The run that lasts longest; of two with one length the first.
+  const SameRecords& longest() const { return longest_; }
+  /// Whether the last record is at least the third of a run, each with a stamp of its own.
+  bool hangs() const { return current_.records > 2 && current_.seconds > 0; }
+
+ private:
+  SameRecords longest_, current_;
+  std::size_t hash_ = 0;
+};
+
+/// Every n-th pixel of an image along both axes, all channels.
+std::string samplesOf(const cv::Mat& image);
+
+/// What tells records from others: all ranges and whether they are valid; samples of colour and depth, which
+/// must be loaded.
+std::string contentOf(const mrpt::obs::CObservation2DRangeScan& scan);
+std::string contentOf(const mrpt::obs::CObservation3DRangeScan& images);
+
+}  // namespace roomgraph

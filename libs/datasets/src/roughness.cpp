@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Second differences of neighbouring ranges, and outliers among their medians.
+#include "roughness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "roomgraph/core/order_statistics.h"
+
+namespace roomgraph {
+
+double roughnessOf(const std::vector<float>& ranges_m) {
+  constexpr std::size_t kLeast = 20;
+  std::vector<double> bends;
+  for (std::size_t i = 1; i + 1 < ranges_m.size(); ++i) {
+    const float a = ranges_m[i - 1], b = ranges_m[i], c = ranges_m[i + 1];
+    if (a > 0 && b > 0 && c > 0) bends.push_back(std::abs(static_cast<double>(a) - 2.0 * b + c));
+  }
+  return bends.size() < kLeast ? 0 : median(std::move(bends));
+}
+
+PoorRecords RoughnessWatch::noisy() const {
+  constexpr double kTimes = 4, kLeast_m = 0.08;
+  std::vector<double> all;
+  for (const auto& record : records_) all.push_back(record.roughness_m);
+  const double limit = std::max(kTimes * median(all), kLeast_m);
+  PoorRecords out;
+  for (const auto& record : records_)
+    if (record.roughness_m > limit && out.count++ == 0) out.first_time = record.t;
+  return out;
+}
+
+}  // namespace roomgraph
