@@ -20,7 +20,7 @@ std::vector<double> outcomeOf(ResultStore* results) {
   };
   SemanticSlam slam(
       setupWith("[tracking]\nenabled = false\n[detection]\nenabled = false\n"
-                "[backend]\noptimize_every_nodes = 8\n"));
+                "[backend]\noptimize_every_nodes = 6\n"));
   if (results) slam.setResultStore(*results);
   const auto live = std::make_shared<Live>();
   slam.addSink(live);
