@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <opencv2/core.hpp>
 #include <sstream>
 
 #include "errors_of.h"
