@@ -192,18 +192,23 @@ TEST(Repetition, FindsTheLongestRunByTime) {
   EXPECT_EQ(repetition.longest().seconds, 4);
 }
 
-TEST(Repetition, HangsFromTheThirdOnUnlessTheStampsAreOne) {
-  Repetition repetition;
+TEST(HangingSensor, FromTheFifthRecordOnIfTheWheelsTurn) {
+  HangingSensor sensor;
   std::vector<bool> hangs;
-  for (const double t : {1.0, 2.0, 3.0, 4.0}) {
-    repetition.add(t, "a");
-    hangs.push_back(repetition.hangs());
+  for (int i = 0; i < 6; ++i) hangs.push_back(sensor.hangs(i, "a", Pose2{0.1 * i, 0, 0}));
+  hangs.push_back(sensor.hangs(6, "b", Pose2{0.6, 0, 0}));
+  EXPECT_EQ(hangs, (std::vector<bool>{false, false, false, false, true, true, false}));
+  for (int i = 0; i < 6; ++i) EXPECT_FALSE(sensor.hangs(7, "c", Pose2{0.7 + 0.1 * i, 0, 0})) << "one stamp";
+  HangingSensor turning;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(turning.hangs(i, "a", Pose2{0, 0, 3.1 + 0.05 * i}), i > 3);
+}
+
+TEST(HangingSensor, ARobotThatStandsIsSeenTheSame) {
+  HangingSensor sensor, blind;
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_FALSE(sensor.hangs(i, "a", Pose2{1, 2, 0.001 * i}));
+    EXPECT_FALSE(blind.hangs(i, "a", std::nullopt)) << "no wheels say that it moves";
   }
-  repetition.add(5, "b");
-  hangs.push_back(repetition.hangs());
-  EXPECT_EQ(hangs, (std::vector<bool>{false, false, true, true, false}));
-  for (int i = 0; i < 4; ++i) repetition.add(6, "c");
-  EXPECT_FALSE(repetition.hangs());
 }
 
 TEST(Repetition, ContentIsWhatWasMeasured) {
@@ -230,12 +235,12 @@ TEST_F(DriveWithFaults, AReaderLeavesOutWhatASensorThatHangsRepeats) {
   std::vector<double> times;
   while (const auto record = reader.next())
     if (std::holds_alternative<Scan>(*record)) times.push_back(timeOf(*record));
-  EXPECT_EQ(times.size(), 41u);
-  EXPECT_EQ(std::count_if(times.begin(), times.end(), [](double t) { return t > 104.1 && t < 105.9; }), 0);
+  EXPECT_EQ(times.size(), 43u);
+  EXPECT_EQ(std::count_if(times.begin(), times.end(), [](double t) { return t > 104.5 && t < 105.9; }), 0);
   const auto& statistics = reader.statistics();
   for (const std::string name : {"CObservation2DRangeScan", "CObservation3DRangeScan"}) {
-    EXPECT_EQ(statistics.used.at(name), 41);
-    EXPECT_EQ(statistics.skipped.at(name + ": the same as the two before it, the sensor hangs"), 9);
+    EXPECT_EQ(statistics.used.at(name), 43);
+    EXPECT_EQ(statistics.skipped.at(name + ": the same as the four before it while the wheels turn, the sensor hangs"), 7);
   }
 }
 

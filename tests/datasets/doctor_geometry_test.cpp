@@ -38,6 +38,11 @@ double distanceToRoom(const Eigen::Vector3d& from, const Eigen::Vector3d& ray) {
 
 constexpr double kHeight_m = 0.8, kPitch_rad = 0.2;
 
+// No two records of a real sensor are the same.
+int flicker(double t) {
+  return static_cast<int>(std::lround(10 * t)) % 2;
+}
+
 /// Depth image of the room from a camera 0.8 m above the floor that looks down a little; in millimetres.
 mrpt::obs::CObservation3DRangeScan::Ptr roomImages(double t, bool along_rays = false) {
   auto images = makeImages(t, 64, 48);
@@ -53,6 +58,7 @@ mrpt::obs::CObservation3DRangeScan::Ptr roomImages(double t, bool along_rays = f
       const double range = along_rays ? depth * ray.norm() : depth;
       images->rangeImage(v, u) = static_cast<std::uint16_t>(std::lround(1000 * range));
     }
+  images->rangeImage(0, 0) += static_cast<std::uint16_t>(flicker(t));
   return images;
 }
 
@@ -64,6 +70,7 @@ mrpt::obs::CObservation2DRangeScan::Ptr roomScan(double t) {
     const Eigen::Vector3d ray(std::cos(angle), std::sin(angle), 0);
     scan->setScanRange(static_cast<std::size_t>(i), static_cast<float>(distanceToRoom({0, 0, 0.25}, ray)));
   }
+  scan->setScanRange(0, scan->getScanRange(0) + 0.001F * static_cast<float>(flicker(t)));
   return scan;
 }
 

@@ -26,8 +26,7 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
-// It would say that the robot stands still.
-constexpr const char* kSensorHangs = "the sensor hangs";
+constexpr const char* kSensorHangs = ": the same as the four before it while the wheels turn, the sensor hangs";
 
 struct RawlogReader::Impl {
   Impl(const std::filesystem::path& file, const ReadOptions& read_options)
@@ -45,8 +44,6 @@ struct RawlogReader::Impl {
   std::optional<Record> convert(const CObservation::Ptr& observation);
   std::optional<Record> convertFrame(CObservation3DRangeScan& observation);
   std::string groupedReason(const std::string& reason);
-  /// Whether a scan repeats those before it.
-  bool hangs(const CObservation2DRangeScan& scan);
 
   RecordSource source;
   ReadOptions options;
@@ -60,7 +57,8 @@ struct RawlogReader::Impl {
   bool source_ended = false;
   std::int64_t frame_count = 0;
   OneCamera camera;
-  Repetition same_images, same_scans;
+  HangingSensor hanging_camera, hanging_lidar;
+  std::optional<Pose2> wheels;  ///< the latest reading
   std::string missing_image;  ///< reason of the first frame whose image is missing
 };
 
@@ -131,22 +129,12 @@ std::optional<Record> RawlogReader::Impl::convertFrame(CObservation3DRangeScan& 
                          ": not the camera of the first image: several cameras have this label"];
     return std::nullopt;
   }
-  same_images.add(frame->t, contentOf(observation));
-  if (same_images.hangs()) {
-    ++statistics
-          .skipped["CObservation3DRangeScan: the same as the two before it, " + std::string(kSensorHangs)];
+  if (hanging_camera.hangs(frame->t, contentOf(observation), wheels)) {
+    ++statistics.skipped[std::string("CObservation3DRangeScan") + kSensorHangs];
     return std::nullopt;
   }
   frame->id = FrameId{frame_count++};
   return std::move(*frame);
-}
-
-bool RawlogReader::Impl::hangs(const CObservation2DRangeScan& scan) {
-  same_scans.add(mrpt::Clock::toDouble(scan.timestamp), contentOf(scan));
-  if (same_scans.hangs())
-    ++statistics
-          .skipped["CObservation2DRangeScan: the same as the two before it, " + std::string(kSensorHangs)];
-  return same_scans.hangs();
 }
 
 // Of the kinds that are wanted, one sensor each.
@@ -175,13 +163,15 @@ std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& obser
     if (wanted && !(record = convertFrame(*images))) return std::nullopt;
   } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     wanted = options.scans;
-    if (wanted && hangs(*scan)) return std::nullopt;
+    if (wanted && hanging_lidar.hangs(mrpt::Clock::toDouble(scan->timestamp), contentOf(*scan), wheels)) {
+      ++statistics.skipped[name + kSensorHangs];
+      return std::nullopt;
+    }
     if (wanted) record = toScan(*scan);
-  } else if (const auto wheels = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
+  } else if (const auto reading = std::dynamic_pointer_cast<CObservationOdometry>(observation)) {
     wanted = options.odometry;
-    if (wanted)
-      record = OdometryReading{mrpt::Clock::toDouble(wheels->timestamp),
-                               {wheels->odometry.x(), wheels->odometry.y(), wheels->odometry.phi()}};
+    wheels = {reading->odometry.x(), reading->odometry.y(), reading->odometry.phi()};
+    if (wanted) record = OdometryReading{mrpt::Clock::toDouble(reading->timestamp), *wheels};
   } else if (const auto detections = std::dynamic_pointer_cast<CObservationDetections>(observation)) {
     record = detections;
   }
@@ -212,6 +202,7 @@ std::optional<Record> RawlogReader::Impl::next() {
     } else if (entry->stamp_is_wrong) {
       ++statistics.skipped[entry->sensor.substr(0, entry->sensor.find(' ')) + ": " + kStampIsWrong];
     } else if (const auto* reading = std::get_if<OdometryReading>(&entry->record)) {
+      wheels = reading->odom_from_robot;
       if (options.odometry && choices.odometry.takes("")) {
         ++statistics.used["CActionCollection"];
         return *reading;

@@ -2,6 +2,7 @@
 // Comparison of neighbouring records by a hash of their content.
 #include "repetition.h"
 
+#include <cmath>
 #include <functional>
 
 namespace roomgraph {
@@ -13,6 +14,17 @@ void Repetition::add(double t, std::string_view content) {
   ++current_.records;
   current_.seconds = t - current_.from;
   if (longest_.records == 0 || current_.seconds > longest_.seconds) longest_ = current_;
+}
+
+bool HangingSensor::hangs(double t, std::string_view content, const std::optional<Pose2>& wheels) {
+  constexpr int kLeastRecords = 5;
+  constexpr double kMoved_m = 0.02, kTurned_rad = 0.02;
+  same_.add(t, content);
+  const SameRecords& run = same_.current();
+  if (run.records < 2) wheels_before_ = wheels;
+  if (run.records < kLeastRecords || run.seconds <= 0 || !wheels || !wheels_before_) return false;
+  return std::hypot(wheels->x - wheels_before_->x, wheels->y - wheels_before_->y) > kMoved_m ||
+         std::abs(wrapAngle(wheels->yaw - wheels_before_->yaw)) > kTurned_rad;
 }
 
 std::string samplesOf(const cv::Mat& image) {

@@ -7,10 +7,12 @@
 
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/geometry/pose.h"
 
 namespace roomgraph {
 
@@ -22,12 +24,24 @@ class Repetition {
   void add(double t, std::string_view content);
   /// The run that lasts longest; of two with one length the first.
   const SameRecords& longest() const { return longest_; }
-  /// Whether the last record is at least the third of a run, each with a stamp of its own.
-  bool hangs() const { return current_.records > 2 && current_.seconds > 0; }
+  /// Of the run that the last record belongs to.
+  const SameRecords& current() const { return current_; }
 
  private:
   SameRecords longest_, current_;
   std::size_t hash_ = 0;
+};
+
+/// Tells when a sensor hangs: the same record for at least the fifth time, while the wheels say that the robot moves.
+/// A simulated sensor without noise repeats itself wherever the robot stands.
+class HangingSensor {
+ public:
+  /// A record at time t (s), and where the wheels have the robot then, if they say so; whether the sensor hangs.
+  bool hangs(double t, std::string_view content, const std::optional<Pose2>& wheels);
+
+ private:
+  Repetition same_;
+  std::optional<Pose2> wheels_before_;  ///< at the first record of the run
 };
 
 /// Every n-th pixel of an image along both axes, all channels.
