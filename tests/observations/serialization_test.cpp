@@ -149,7 +149,7 @@ TEST(Serialization, DetectionsAreWrittenAsARowOfText) {
   EXPECT_EQ(CObservationDetections().exportTxtDataRow(), "0");
 }
 
-// The picture is 1 m wide, 1 m away, upright.
+// The picture is 10 m wide, u along x and v against z.
 TEST(Serialization, DetectionsAreDrawnWhereTheyAre) {
   auto seen = detections();
   seen.items.resize(1);
@@ -160,14 +160,14 @@ TEST(Serialization, DetectionsAreDrawnWhereTheyAre) {
   const auto drawn = seen.getVisualization();
   const auto frame = drawn->getByName("image"), box = drawn->getByName("chair");
   ASSERT_TRUE(frame && box);
-  EXPECT_NEAR(frame->getBoundingBox().min.y, -0.5, 1e-6);
-  EXPECT_NEAR(frame->getBoundingBox().max.y, 0.5, 1e-6);
-  EXPECT_NEAR(frame->getBoundingBox().max.z, 0.375, 1e-6);
-  EXPECT_NEAR(box->getBoundingBox().min.y, -0.5, 1e-6) << "the right half";
-  EXPECT_NEAR(box->getBoundingBox().max.y, 0, 1e-6);
-  EXPECT_NEAR(box->getBoundingBox().max.z, 0.375, 1e-6);
-  EXPECT_NEAR(box->getBoundingBox().min.z, 0.1875, 1e-6) << "the upper quarter";
-  EXPECT_NEAR(box->getBoundingBox().min.x, 1, 1e-6);
+  EXPECT_NEAR(frame->getBoundingBox().min.x, -5, 1e-6);
+  EXPECT_NEAR(frame->getBoundingBox().max.x, 5, 1e-6);
+  EXPECT_NEAR(frame->getBoundingBox().max.z, 3.75, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().min.x, 0, 1e-6) << "the right half";
+  EXPECT_NEAR(box->getBoundingBox().max.x, 5, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().max.z, 3.75, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().min.z, 1.875, 1e-6) << "the upper quarter";
+  EXPECT_NEAR(box->getBoundingBox().min.y, 0, 1e-6);
 }
 
 // As it was written before boxes had 64 bits and masks.

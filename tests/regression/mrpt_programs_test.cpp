@@ -172,6 +172,14 @@ TEST_F(MrptTools, RoundTripsKeepEveryField) {
   EXPECT_EQ(detectionsOf(inside), detectionsOf(boxes));
 }
 
+// In a virtual display.
+TEST_F(MrptTools, ViewerDrawsBoxes) {
+  const Ended ended =
+      shell("python3 -B tests/regression/rawlogviewer_test.py " + kLibrary + " " + boxes.string());
+  if (ended.code == 77) GTEST_SKIP() << ended.text;
+  EXPECT_EQ(ended.code, 0) << ended.text;
+}
+
 /// The shipped ini with other values of some keys.
 std::string shippedIni(const std::map<std::string, std::string>& values) {
   std::ifstream in(kSources / "share" / "mrpt" / "pf-localization.ini");
@@ -203,14 +211,22 @@ double localisationError(const TemporaryFolder& folder, bool scans, bool objects
   return std::accumulate(half, errors.end(), 0.0) / static_cast<double>(errors.end() - half);
 }
 
-// The filter draws other random numbers every time: limits are far from what it reaches
-// (bench/pf_localization.py).
+// The filter draws other random numbers every time, and one run in twenty stays in a wrong place
+// (bench/pf_localization.py): the best of a few counts.
+double leastError(bool scans, bool objects) {
+  double least = 1e9;
+  for (int run = 0; run < 3 && least > 0.4; ++run) {
+    const TemporaryFolder folder;
+    least = std::min(least, localisationError(folder, scans, objects));
+  }
+  return least;
+}
+
 TEST(MrptParticleFilter, FindsItsPlaceWithObjects) {
   if (!hasProgram("pf-localization")) GTEST_SKIP() << "pf-localization is not installed (package mrpt-apps)";
-  const TemporaryFolder both, objects, neither;
-  EXPECT_LT(localisationError(both, true, true), 0.2);
-  EXPECT_LT(localisationError(objects, false, true), 1.0);
-  EXPECT_GT(localisationError(neither, false, false), 1.5) << "without the map the robot may be anywhere";
+  EXPECT_LT(leastError(true, true), 0.1);
+  EXPECT_LT(leastError(false, true), 0.4);
+  EXPECT_GT(leastError(false, false), 1.5) << "without the map the robot may be anywhere";
 }
 
 // A .simplemap of the tiny room: true poses, scans and detections.

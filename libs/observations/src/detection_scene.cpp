@@ -19,6 +19,8 @@ using mrpt::img::TColor;
 constexpr TColor kBoxColors[] = {{230, 159, 0}, {86, 180, 233}, {0, 158, 115},
                                  {0, 114, 178}, {213, 94, 0},   {204, 121, 167}};
 
+constexpr double kDrawnWidth_m = 10;
+
 // The same label has the same colour in every image: FNV-1a, as std::hash differs between libraries.
 TColor colorOfLabel(const std::string& label) {
   std::uint32_t hash = 0x811c9dc5U;
@@ -26,11 +28,12 @@ TColor colorOfLabel(const std::string& label) {
   return kBoxColors[hash % std::size(kBoxColors)];
 }
 
-// From pixels to the picture of 1 m width that stands 1 m before the origin.
+// From pixels to an upright picture, as wide as the first view of RawLogViewer shows it.
 struct Picture {
   double width_px, height_px;
   mrpt::math::TPoint3D at(double u, double v) const {
-    return {1, (width_px / 2 - u) / width_px, (height_px / 2 - v) / width_px};
+    const double scale = kDrawnWidth_m / width_px;
+    return {(u - width_px / 2) * scale, 0, (height_px / 2 - v) * scale};
   }
 };
 
@@ -54,7 +57,7 @@ void CObservationDetections::getVisualizationInto(mrpt::opengl::CSetOfObjects& o
     if (image_height == 0) height = std::max(height, item.v_max);
   }
   const Picture picture{std::max(width, 1.0), std::max(height, 1.0)};
-  auto frame = rectangle(picture, 0, 0, picture.width_px, picture.height_px, {60, 60, 60});
+  auto frame = rectangle(picture, 0, 0, picture.width_px, picture.height_px, {160, 160, 160});
   frame->setName("image");
   out.insert(frame);
   for (const Item& item : items) {

@@ -40,8 +40,8 @@ class CObservationDetections : public mrpt::obs::CObservation, public mrpt::open
   void setSensorPose(const mrpt::poses::CPose3D& pose) override { sensor_pose_ = pose; }
   void getDescriptionAsText(std::ostream& out) const override;
 
-  /// The image's frame and the boxes with label and score, each label in a colour of its own. The image is 1
-  /// m wide and stands upright 1 m before the origin (x forward, y left, z up), its middle on the x axis.
+  /// The image's frame and the boxes with label and score, each label in a colour of its own: u along
+  /// x, v against z, the image's middle in the origin, 10 m wide.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
 
   bool exportTxtSupported() const override { return true; }
