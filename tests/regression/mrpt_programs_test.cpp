@@ -72,7 +72,9 @@ class MrptTools : public ::testing::Test {
     ASSERT_EQ(made.damaged, 0U);
   }
   std::string edit(const std::string& arguments, const fs::path& input) {
-    const Ended ended = shell("rawlog-edit -w -p " + kLibrary + " -i " + input.string() + " " + arguments);
+    // In the input's folder: MRPT 2.5 loses the slash between folder and name of the texts that it writes.
+    const Ended ended = shell("cd " + input.parent_path().string() + " && rawlog-edit -w -p " + kLibrary +
+                              " -i " + input.filename().string() + " " + arguments);
     EXPECT_EQ(ended.code, 0) << ended.text;
     EXPECT_THAT(ended.text, ::testing::Not(HasSubstr("xception"))) << arguments;
     return ended.text;
