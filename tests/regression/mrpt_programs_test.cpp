@@ -265,8 +265,9 @@ TEST(MrptMapBuilder, MapsScansAndObjects) {
       "[map_semanticMap_00_likelihoodOpts]\ncamera_width = 320\ncamera_height = 240\ncamera_fx = 262.5\n"
       "camera_fy = 262.5\ncamera_cx = 159.5\ncamera_cy = 119.5\ncamera_x = 0.05\ncamera_z = 0.8\n"
       "camera_pitch_deg = 12\n");
-  const Ended ended = shell("LD_PRELOAD=" + kLibrary + " observations2map " + ini.string() + " " +
-                            folder.file("tiny.simplemap").string() + " " + folder.file("made").string());
+  const Ended ended =
+      shell("LD_PRELOAD=" + kLibrary + " observations2map " + ini.string() + " " +
+            folder.file("tiny.simplemap").string() + " " + folder.file("made").string() + " -s map");
   ASSERT_TRUE(fs::exists(folder.file("made_roomgraph__CSemanticMap_00.rgmap"))) << ended.text;
   const CSemanticMap made = loadMap(folder.file("made_roomgraph__CSemanticMap_00.rgmap"));
   ASSERT_TRUE(made.occupancy);
