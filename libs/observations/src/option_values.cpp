@@ -78,7 +78,7 @@ void readOptions(const mrpt::config::CConfigFileBase& source, const std::string&
         if (!source.keyExists(section, key)) return std::nullopt;
         return withoutComment(source.read_string(section, key, ""));
       },
-      "[" + section + "]");
+      "section " + section + ",");
   options.declareParameters(reader);
 }
 
