@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "roomgraph/bags/bag_export.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/datasets/detection_records.h"
 #include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/datasets/tum_export.h"
 
@@ -51,6 +52,29 @@ void exportFolder(const ExportArguments& arguments) {
             << formatPose(result.robot_from_camera) << "\n";
 }
 
+void exportMrpt(const ExportArguments& arguments) {
+  ShareProgress progress("export", arguments.output.string());
+  const auto result = exportDetectionRecords(arguments.input, arguments.output, progress.function());
+  progress.finish();
+  if (result.damaged > 0)
+    warnOf({std::to_string(result.damaged) + " damaged comments were copied as they are"});
+  std::cout << arguments.output.string() << ": " << result.records << " records, " << result.detections
+            << " of them roomgraph::CObservationDetections\n";
+}
+
+void addMrptExport(CLI::App& command, const std::shared_ptr<ExportArguments>& a) {
+  auto* mrpt = command.add_subcommand(
+      "mrpt", "Rawlog with boxes as records of their own class, for RawLogViewer and rawlog-edit");
+  mrpt->add_option("INPUT", a->input, "X.rawlog")->required();
+  mrpt->add_option("-o,--output", a->output, "rawlog to write")->required();
+  mrpt->footer(
+      "Examples:\n"
+      "  roomgraph export mrpt lab.rawlog -o lab_boxes.rawlog\n"
+      "  rawlog-edit -p libroomgraph_observations.so --describe -i lab_boxes.rawlog\n"
+      "MRPT's programs read it only with that library. More: docs/mrpt.md.");
+  mrpt->callback([a] { exportMrpt(*a); });
+}
+
 }  // namespace
 
 void addExportCommand(CLI::App& app) {
@@ -60,7 +84,8 @@ void addExportCommand(CLI::App& app) {
       "Examples:\n"
       "  roomgraph export rosbag lab.rawlog -o lab.bag\n"
       "  roomgraph export rosbag out/lab -o map.bag\n"
-      "  roomgraph export tum lab.rawlog -o lab_tum");
+      "  roomgraph export tum lab.rawlog -o lab_tum\n"
+      "  roomgraph export mrpt lab.rawlog -o lab_boxes.rawlog");
   auto a = std::make_shared<ExportArguments>();
   auto* bag = command->add_subcommand(
       "rosbag", "Bag of ROS 1 of a rawlog, or of a run's map, path and objects (for RViz)");
@@ -79,6 +104,7 @@ void addExportCommand(CLI::App& app) {
   tum->footer(
       "Example:\n  roomgraph export tum lab.rawlog -o lab_tum   # import tum makes the same records of it");
   tum->callback([a] { exportFolder(*a); });
+  addMrptExport(*command, a);
 }
 
 }  // namespace roomgraph

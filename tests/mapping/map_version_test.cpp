@@ -11,6 +11,7 @@
 #include <random>
 
 #include "errors_of.h"
+#include "option_values.h"
 #include "roomgraph/core/checksum.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/mapping/map_files.h"
@@ -32,23 +33,34 @@ std::string archived(const Values&... values) {
           static_cast<std::size_t>(memory.getTotalBytesCount())};
 }
 
-/// Version 0 as it was written: the same fields up to the trajectory, no checksum; plain bytes are read as
-/// gzipped ones.
-std::string bytesOfVersion0(const CSemanticMap& map) {
-  const std::string empty;
-  const std::string added = archived(std::uint32_t{0}, empty, empty, empty, std::vector<std::string>(),
-                                     std::uint32_t{0}, std::uint32_t{0});
+/// A map as an earlier version wrote it: without the fields at the end that it did not have. No checksum;
+/// plain bytes are read as gzipped ones.
+std::string bytesOfVersion(char version, const CSemanticMap& map, const std::vector<std::string>& missing) {
   std::string bytes = archived(map);
   const char end_of_object = bytes.back();
-  bytes.resize(bytes.size() - 1 - added.size());
-  bytes[1 + std::string(map.GetRuntimeClass()->className).size()] = 0;
+  bytes.pop_back();
+  for (const std::string& field : missing) bytes.resize(bytes.size() - field.size());
+  bytes[1 + std::string(map.GetRuntimeClass()->className).size()] = version;
   return bytes + end_of_object;
+}
+
+// As they stand in a map without spans, provenance, views and weights.
+std::string provenanceFields() {
+  const std::string empty;
+  return archived(std::uint32_t{0}, empty, empty, empty, std::vector<std::string>());
+}
+std::string viewFields() {
+  return archived(std::uint32_t{0}, std::uint32_t{0});
+}
+std::string optionFields(const CSemanticMap& map) {
+  return archived(map.genericMapParams, valuesOf(map.insertion), valuesOf(map.likelihood));
 }
 
 TEST(MapVersions, Version0Loads) {
   const TemporaryFolder folder;
   const CSemanticMap map = test::sampleMap();
-  const CSemanticMap old = loadMap(folder.write("old.rgmap", bytesOfVersion0(map)));
+  const CSemanticMap old = loadMap(folder.write(
+      "old.rgmap", bytesOfVersion(0, map, {provenanceFields(), viewFields(), optionFields(map)})));
   EXPECT_EQ(old.origin, map.origin);
   EXPECT_EQ(old.occupancy->getRawMap(), map.occupancy->getRawMap());
   ASSERT_EQ(old.landmarks.size(), 3u);
@@ -65,16 +77,53 @@ TEST(MapVersions, Version1Loads) {
   const TemporaryFolder folder;
   CSemanticMap map = test::sampleMap();
   map.provenance.history = {"run of a"};
-  std::string bytes = archived(map);
-  const char end_of_object = bytes.back();
-  bytes.resize(bytes.size() - 1 - 2 * sizeof(std::uint32_t));
-  bytes[1 + std::string(map.GetRuntimeClass()->className).size()] = 1;
-  bytes += end_of_object;
+  std::string bytes = bytesOfVersion(1, map, {viewFields(), optionFields(map)});
   bytes += "roomgraph map sha256 " + sha256Of(bytes);
   const CSemanticMap old = loadMap(folder.write("old.rgmap", bytes));
   EXPECT_EQ(old.landmarks.size(), 3u);
   EXPECT_THAT(old.provenance.history, ::testing::ElementsAre("run of a"));
   EXPECT_TRUE(old.views.empty() && old.weights.empty());
+}
+
+// Version 2 had no options; the map that the repository ships was written by it.
+TEST(MapVersions, Version2Loads) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  map.weights[map.landmarks[0].id] = 7.25;
+  map.likelihood.box_sigma = 0.5;
+  map.genericMapParams.enableObservationInsertion = false;
+  std::string bytes = bytesOfVersion(2, map, {optionFields(map)});
+  bytes += "roomgraph map sha256 " + sha256Of(bytes);
+  const CSemanticMap old = loadMap(folder.write("old.rgmap", bytes));
+  EXPECT_EQ(old.weights, map.weights);
+  EXPECT_EQ(old.likelihood.box_sigma, MapLikelihoodOptions().box_sigma);
+  EXPECT_TRUE(old.genericMapParams.enableObservationInsertion);
+
+  const std::filesystem::path shipped = ROOMGRAPH_SOURCE_DIR "/rawlogs/tiny_room.rgmap";
+  const auto pipe = "gzip -dc " + shipped.string() + " > " + folder.file("plain").string();
+  ASSERT_EQ(std::system(pipe.c_str()), 0);
+  const std::string name = "roomgraph::CSemanticMap";
+  EXPECT_EQ(folder.read("plain").substr(1, name.size() + 1), name + std::string(1, 2)) << "of version 2";
+  const CSemanticMap tiny = loadMap(shipped);
+  EXPECT_EQ(tiny.landmarks.size(), 3u);
+  EXPECT_EQ(tiny.occupancy->getSizeX(), 128u);
+  EXPECT_EQ(tiny.world_from_robot.size(), 81u);
+}
+
+TEST(MapVersions, OptionsComeBack) {
+  const TemporaryFolder folder;
+  CSemanticMap map = test::sampleMap();
+  map.likelihood.camera_fx = 1 / 3.0;
+  map.likelihood.use_grid = false;
+  map.insertion.gate_sigma = 2.5;
+  map.genericMapParams.enableObservationLikelihood = false;
+  saveMap(map, folder.file("map.rgmap"));
+  const CSemanticMap again = loadMap(folder.file("map.rgmap"));
+  EXPECT_EQ(valuesOf(again.likelihood), valuesOf(map.likelihood));
+  EXPECT_EQ(again.likelihood.camera_fx, 1 / 3.0) << "bit by bit";
+  EXPECT_EQ(valuesOf(again.insertion), valuesOf(map.insertion));
+  EXPECT_FALSE(again.genericMapParams.enableObservationLikelihood);
+  EXPECT_EQ(archived(again), archived(map));
 }
 
 TEST(MapVersions, ViewsAndWeightsComeBack) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <mrpt/core/Clock.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -135,6 +136,38 @@ TEST(Serialization, DetectionsKeepEveryField) {
   EXPECT_EQ(back->items[1].mask.width, 3u);
   EXPECT_EQ(back->items[1].mask.runs, original.items[1].mask.runs);
   EXPECT_THAT(describe(*back), ::testing::HasSubstr("chair 0.75 [1, 2, 30.5, 40] track 7"));
+}
+
+TEST(Serialization, DetectionsAreWrittenAsARowOfText) {
+  auto seen = detections();
+  EXPECT_TRUE(seen.exportTxtSupported());
+  EXPECT_EQ(seen.exportTxtDataRow(), "2 chair 0.75 1 2 30.5 40 door 0.1 -3 0 0.333333 20");
+  seen.items[0].label = "office chair";
+  seen.items[1].label = "";
+  EXPECT_EQ(seen.exportTxtDataRow(), "2 office_chair 0.75 1 2 30.5 40 - 0.1 -3 0 0.333333 20")
+      << "columns stay columns";
+  EXPECT_EQ(CObservationDetections().exportTxtDataRow(), "0");
+}
+
+// The picture is 10 m wide, u along x and v against z.
+TEST(Serialization, DetectionsAreDrawnWhereTheyAre) {
+  auto seen = detections();
+  seen.items.resize(1);
+  seen.items[0].u_min = 320;
+  seen.items[0].u_max = 640;
+  seen.items[0].v_min = 0;
+  seen.items[0].v_max = 120;
+  const auto drawn = seen.getVisualization();
+  const auto frame = drawn->getByName("image"), box = drawn->getByName("chair");
+  ASSERT_TRUE(frame && box);
+  EXPECT_NEAR(frame->getBoundingBox().min.x, -5, 1e-6);
+  EXPECT_NEAR(frame->getBoundingBox().max.x, 5, 1e-6);
+  EXPECT_NEAR(frame->getBoundingBox().max.z, 3.75, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().min.x, 0, 1e-6) << "the right half";
+  EXPECT_NEAR(box->getBoundingBox().max.x, 5, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().max.z, 3.75, 1e-6);
+  EXPECT_NEAR(box->getBoundingBox().min.z, 1.875, 1e-6) << "the upper quarter";
+  EXPECT_NEAR(box->getBoundingBox().min.y, 0, 1e-6);
 }
 
 // As it was written before boxes had 64 bits and masks.

@@ -23,4 +23,8 @@ inline std::string imageFolderOf(std::filesystem::path file) {
   return (file.parent_path() / "Images").string();
 }
 
+/// Makes the external images of a rawlog those of its copy, by a link beside it; nothing where there are
+/// none, or the copy finds them itself. Throws RunError.
+void linkImages(const std::filesystem::path& input, const std::filesystem::path& output);
+
 }  // namespace roomgraph

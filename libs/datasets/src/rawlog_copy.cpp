@@ -54,17 +54,6 @@ bool isDetections(const CSerializable::Ptr& object) {
                  : std::dynamic_pointer_cast<CObservationDetections>(object) != nullptr;
 }
 
-void linkImages(const fs::path& input, const fs::path& output) {
-  const fs::path images = imageFolderOf(input), expected = imageFolderOf(output);
-  std::error_code error;
-  if (!fs::is_directory(images, error) || fs::equivalent(images, expected, error)) return;
-  const fs::path link = withoutEndings(fs::absolute(output)).string() + "_Images";
-  fs::create_directory_symlink(fs::canonical(images), link, error);
-  if (error)
-    throw RunError(link.string() + ": no link to the external images in " + images.string() + ": " +
-                   error.message());
-}
-
 }  // namespace
 
 struct RawlogCopy::Impl {

@@ -5,7 +5,10 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
 
+#include <algorithm>
+#include <cctype>
 #include <ostream>
+#include <sstream>
 
 namespace roomgraph {
 
@@ -59,6 +62,23 @@ void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
     out << "  " << item.label << " " << item.score << " [" << item.u_min << ", " << item.v_min << ", "
         << item.u_max << ", " << item.v_max << "]" << (item.mask.runs.empty() ? "" : " with mask")
         << (item.track < 0 ? "" : " track " + std::to_string(item.track)) << "\n";
+}
+
+std::string CObservationDetections::exportTxtHeader() const {
+  return "boxes, then of each: label score u_min v_min u_max v_max";
+}
+
+std::string CObservationDetections::exportTxtDataRow() const {
+  std::ostringstream out;
+  out << items.size();
+  for (const auto& item : items) {
+    std::string label = item.label.empty() ? "-" : item.label;
+    std::replace_if(
+        label.begin(), label.end(), [](unsigned char c) { return std::isspace(c) != 0; }, '_');
+    out << " " << label << " " << item.score << " " << item.u_min << " " << item.v_min << " " << item.u_max
+        << " " << item.v_max;
+  }
+  return out.str();
 }
 
 }  // namespace roomgraph

@@ -5,6 +5,8 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
 
+#include "option_values.h"
+
 namespace roomgraph {
 namespace {
 
@@ -103,10 +105,10 @@ std::map<LandmarkId, double> readWeights(CArchive& in) {
 
 }  // namespace
 
-IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::serialization::CSerializable, roomgraph)
+IMPLEMENTS_SERIALIZABLE(CSemanticMap, mrpt::maps::CMetricMap, roomgraph)
 
 std::uint8_t CSemanticMap::serializeGetVersion() const {
-  return 2;
+  return 3;
 }
 
 void CSemanticMap::serializeTo(CArchive& out) const {
@@ -124,10 +126,11 @@ void CSemanticMap::serializeTo(CArchive& out) const {
   out.WriteAs<std::uint32_t>(views.size());
   for (const auto& view : views) writeView(out, view);
   writeWeights(out, weights);
+  out << genericMapParams << valuesOf(insertion) << valuesOf(likelihood);
 }
 
 void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
-  if (version > 2) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 3) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> origin;
   planar = in.ReadAs<std::uint8_t>() != 0;  // as bytes: in a damaged file they may be neither 0 nor 1
   const bool has_occupancy = in.ReadAs<std::uint8_t>() != 0;
@@ -147,6 +150,9 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
   provenance = {};
   views.clear();
   weights.clear();
+  genericMapParams = {};
+  insertion = {};
+  likelihood = {};
   if (version == 0) return;
   seen = readSeen(in);
   in >> provenance.program >> provenance.config >> provenance.objects >> provenance.history;
@@ -154,6 +160,11 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
   views.resize(in.ReadAs<std::uint32_t>());
   for (auto& view : views) view = readView(in);
   weights = readWeights(in);
+  if (version == 2) return;
+  std::map<std::string, std::string> inserting, likely;
+  in >> genericMapParams >> inserting >> likely;
+  setValues(inserting, insertion);
+  setValues(likely, likelihood);
 }
 
 }  // namespace roomgraph

@@ -4,10 +4,10 @@
 
 namespace roomgraph {
 
-/// Version of the interfaces that plug-ins implement and of the structs they exchange. To be raised whenever a
-/// public header changes the layout of a struct or the virtual functions of a class: a plug-in compiled with
-/// the old header would read wrong memory without any error.
-inline constexpr int kPluginInterfaceVersion = 1;
+/// Version of the interfaces that plug-ins implement and of the structs they exchange. To be raised whenever
+/// a public header changes the layout of a struct or the virtual functions of a class: a plug-in compiled
+/// with the old header would read wrong memory without any error.
+inline constexpr int kPluginInterfaceVersion = 2;
 
 /// Signature and name of the function that a plug-in exports (ROOMGRAPH_PLUGIN).
 using PluginInterfaceVersion = int();
@@ -16,7 +16,7 @@ inline constexpr const char* kPluginVersionSymbol = "roomgraphPluginInterfaceVer
 }  // namespace roomgraph
 
 /// Stands once in one source file of every plug-in: exports the version of the headers it was compiled with.
-#define ROOMGRAPH_PLUGIN()                         \
+#define ROOMGRAPH_PLUGIN()                           \
   extern "C" int roomgraphPluginInterfaceVersion() { \
-    return roomgraph::kPluginInterfaceVersion;     \
+    return roomgraph::kPluginInterfaceVersion;       \
   }

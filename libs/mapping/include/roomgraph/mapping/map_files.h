@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading and writing of map files: map.rgmap, landmarks.json, ROS occupancy map.
+// Reading and writing of map files: landmarks.json, ROS occupancy map; map.rgmap comes with map_file.h.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,13 @@
 #include <string>
 
 #include "roomgraph/observations/CSemanticMap.h"
+#include "roomgraph/observations/map_file.h"
 #include "roomgraph/observations/seen_span.h"
 
 namespace roomgraph {
 
-// Every writer replaces the file atomically and throws RunError naming file and cause; every reader throws InputError
-// naming file, place and cause. Coordinates are in world: m, rad.
-
-/// Writes / reads map.rgmap: an MRPT archive and its SHA-256, gzipped. Maps of every earlier version load:
-/// version 0 had neither checksum nor provenance.
-void saveMap(const CSemanticMap& map, const std::filesystem::path& file);
-CSemanticMap loadMap(const std::filesystem::path& file);
+// Every writer replaces the file atomically and throws RunError naming file and cause; every reader throws
+// InputError naming file, place and cause. Coordinates are in world: m, rad.
 
 /// Where the objects of a landmarks.json come from.
 struct LandmarksOrigin {

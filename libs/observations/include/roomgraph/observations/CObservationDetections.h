@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/opengl/Visualizable.h>
 
 #include <string>
 #include <vector>
@@ -11,9 +12,14 @@
 
 namespace roomgraph {
 
+#pragma GCC diagnostic push
+// MRPT's Visualizable has no virtual destructor; nobody owns an observation by a pointer to it.
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
+
 /// Boxes of a 2D object detector for one image, as a record of a rawlog. Refers to the image by time stamp
-/// and label.
-class CObservationDetections : public mrpt::obs::CObservation {
+/// and label. Programs of MRPT describe it, draw it (RawLogViewer) and export it as text (rawlog-edit
+/// --export-txt).
+class CObservationDetections : public mrpt::obs::CObservation, public mrpt::opengl::Visualizable {
   DEFINE_SERIALIZABLE(CObservationDetections, roomgraph)
  public:
   struct Item {
@@ -34,8 +40,19 @@ class CObservationDetections : public mrpt::obs::CObservation {
   void setSensorPose(const mrpt::poses::CPose3D& pose) override { sensor_pose_ = pose; }
   void getDescriptionAsText(std::ostream& out) const override;
 
+  /// The image's frame and the boxes with label and score, each label in a colour of its own: u along
+  /// x, v against z, the image's middle in the origin, 10 m wide.
+  void getVisualizationInto(mrpt::opengl::CSetOfObjects& out) const override;
+
+  bool exportTxtSupported() const override { return true; }
+  std::string exportTxtHeader() const override;
+  /// Number of boxes, then label (without blanks), score and the four sides of each, px.
+  std::string exportTxtDataRow() const override;
+
  private:
   mrpt::poses::CPose3D sensor_pose_;
 };
+
+#pragma GCC diagnostic pop
 
 }  // namespace roomgraph

@@ -14,7 +14,7 @@
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
-#include "roomgraph/mapping/map_files.h"
+#include "roomgraph/observations/map_file.h"
 #include "roomgraph/observations/register_classes.h"
 
 namespace roomgraph {
