@@ -11,6 +11,7 @@ namespace roomgraph {
 void addImportCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addCalibrateCommand(CLI::App& app);
 
 void addOptimizeCommand(CLI::App& app);
 void addRunCommand(CLI::App& app);

@@ -64,6 +64,7 @@ void addCommands(CLI::App& app) {
   addImportCommand(app);
   addExportCommand(app);
   addInfoCommand(app);
+  addCalibrateCommand(app);
   addOptimizeCommand(app);
   addRunCommand(app);
   addEvaluateCommand(app);

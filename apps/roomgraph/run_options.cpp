@@ -44,6 +44,9 @@ void declareRunOptions(CLI::App& command, RunOptions& options) {
   command.add_option("--pose", options.poses,
                      "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
                      "recorded one; may be repeated");
+  command.add_option("--calibration", options.calibration,
+                     "file of 'roomgraph calibrate': sensor poses, time offsets, wheels and depth in place of the "
+                     "recorded ones; --pose goes before it");
   command.add_option("--map", options.map,
                      "map.rgmap of an earlier run, which this one continues once objects, scans or images "
                      "tell where in it the "
@@ -109,6 +112,7 @@ RunOptions withWordsOf(const std::vector<std::string>& words, const RunOptions& 
   for (const auto& [before, said] : std::initializer_list<std::pair<std::string*, const std::string*>>{
            {&out.config, &now.config},
            {&out.map, &now.map},
+           {&out.calibration, &now.calibration},
            {&out.recording, &now.recording},
            {&out.detections, &now.detections},
            {&out.pictures, &now.pictures},

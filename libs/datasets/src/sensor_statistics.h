@@ -14,6 +14,7 @@
 #include "range_agreement.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
+#include "wall_agreement.h"
 
 namespace roomgraph {
 
@@ -32,7 +33,10 @@ class ImageStatistics {
  public:
   void add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder);
   /// Something else to compare the depth with. In the order of the file, between the images.
-  void addScan(const Scan& scan) { agreement_.addScan(scan); }
+  void addScan(const Scan& scan) {
+    agreement_.addScan(scan);
+    walls_.addScan(scan);
+  }
   ImageSummary report() const;
 
  private:
@@ -42,6 +46,7 @@ class ImageStatistics {
   PointGridMaker grids_;
   FloorStatistics floor_;
   RangeAgreement agreement_;
+  WallAgreement walls_;
   std::vector<float> depths_m_;  ///< samples of the valid ones
   std::size_t samples_ = 0;
   int seen_ = 0;

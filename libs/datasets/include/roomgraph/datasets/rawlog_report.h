@@ -57,6 +57,7 @@ struct ImageSummary {
   int external_present = 0, external_missing = 0;  ///< records with images in files outside the rawlog
   std::string first_missing;                       ///< file
   std::optional<FloorSummary> floor;       ///< nothing when it is not seen, or not always at one place
+  std::optional<double> walls_off_m;  ///< median distance of surfaces at the lidar's height from its own
   std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
 };
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From recordings to a calibration: what is asked for, where it starts, and what it changes.
+#include "roomgraph/calibration/calibrate.h"
+
+#include <mrpt/poses/CPose3D.h>
+
+#include "estimate_calibration.h"
+#include "read_evidence.h"
+#include "roomgraph/core/errors.h"
+
+namespace roomgraph {
+namespace {
+
+void setPose(const Pose3& robot_from_camera, ParameterVector& out) {
+  Pose3 forward = robot_from_camera;
+  forward.linear() = robot_from_camera.linear() * bodyFromOptical().transpose();
+  const auto pose = toMrpt(forward).asTPose();
+  out.segment<6>(kCameraX) << pose.x, pose.y, pose.z, pose.yaw, pose.pitch, pose.roll;
+}
+
+ParameterVector startOf(const SensorsBefore& sensors) {
+  ParameterVector out = ParameterVector::Zero();
+  out[kWheelScale] = out[kTurnScale] = out[kDepthScale] = 1;
+  if (sensors.robot_from_lidar) {
+    const Pose2 lidar = planarPart(*sensors.robot_from_lidar);
+    out.segment<3>(kLidarX) << lidar.x, lidar.y, lidar.yaw;
+  }
+  if (sensors.robot_from_camera) setPose(*sensors.robot_from_camera, out);
+  return out;
+}
+
+std::bitset<kParameterCount> heldOf(const SensorsBefore& sensors) {
+  std::bitset<kParameterCount> held;
+  const auto hold = [&](int from, int to) {
+    for (int i = from; i <= to; ++i) held.set(static_cast<std::size_t>(i));
+  };
+  const bool lidar = sensors.robot_from_lidar.has_value(), wheels = sensors.wheels;
+  if (!lidar || !wheels) hold(kLidarX, kLidarYaw);
+  if (!lidar || !wheels) hold(kWheelTime, kWheelTime);
+  if (!lidar) hold(kDepthScale, kDepthScale);  // else all lengths might shrink together
+  if (!wheels) hold(kWheelScale, kHeadingDrift);
+  if (!sensors.depth) {
+    hold(kCameraX, kCameraTime);
+    hold(kDepthScale, kDepthBias);
+    if (!lidar) hold(kWheelScale, kHeadingDrift);
+  }
+  if (!lidar && !wheels) {
+    hold(kCameraX, kCameraY);
+    hold(kCameraYaw, kCameraYaw);
+    hold(kCameraTime, kCameraTime);
+  }
+  return held;
+}
+
+std::string frameOf(const SensorsBefore& sensors) {
+  if (sensors.robot_from_lidar && sensors.wheels)
+    return "the robot's frame is that of the wheel odometry on the floor; the clock is that of the lidar, whose height, "
+           "pitch and roll are taken as recorded";
+  if (sensors.robot_from_lidar)
+    return "without wheel odometry, the lidar's recorded place says where the robot's frame is; the clock is that of the "
+           "lidar";
+  if (sensors.wheels) return "the robot's frame and the clock are those of the wheel odometry; lengths are those of the depth images";
+  return "without lidar and wheel odometry only the floor says something: height, pitch and roll of the camera";
+}
+
+Pose3 cameraPose(const ParameterVector& p) {
+  Pose3 out = poseFromYpr(p[kCameraX], p[kCameraY], p[kCameraZ], p[kCameraYaw], p[kCameraPitch], p[kCameraRoll]);
+  out.linear() *= bodyFromOptical();
+  return out;
+}
+
+Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimate& estimate) {
+  Calibration out;
+  const ParameterVector& p = estimate.after;
+  if (sensors.robot_from_lidar) {
+    const Pose2 before = planarPart(*sensors.robot_from_lidar);
+    const Pose3 step = toPose3(Pose2{p[kLidarX], p[kLidarY], p[kLidarYaw]} * before.inverse());
+    out.poses[sensors.lidar_label] = normalized(step * *sensors.robot_from_lidar);
+  }
+  auto& corrections = out.corrections;
+  if (sensors.robot_from_camera) {
+    out.poses[sensors.camera_label] =
+        normalized(cameraPose(p) * sensors.robot_from_camera->inverse() * sensors.robot_from_depth);
+    corrections.time_offsets_s[sensors.camera_label] = p[kCameraTime];
+    corrections.depth = {p[kDepthScale], p[kDepthBias]};
+  }
+  if (sensors.wheels) {
+    corrections.wheels_time_offset_s = p[kWheelTime];
+    corrections.wheels = {p[kWheelScale], p[kTurnScale], p[kHeadingDrift]};
+  }
+  return out;
+}
+
+}  // namespace
+
+CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
+                            const CalibrationProgress& progress) {
+  CalibrationReport out;
+  CalibrationTask task;
+  for (const auto& recording : recordings)
+    task.evidence.push_back(readEvidence(recording, read, out.sensors, [&](double share) {
+      if (progress) progress("read " + recording.filename().string(), share);
+    }));
+  if (!out.sensors.robot_from_camera && !out.sensors.robot_from_lidar)
+    throw InputError(recordings.front().string() + ": no camera with depth and no lidar: nothing to calibrate");
+  task.before = startOf(out.sensors);
+  task.held = heldOf(out.sensors);
+  if (out.sensors.robot_from_lidar) task.lidar_z_m = out.sensors.robot_from_lidar->translation().z();
+  out.estimate = estimateCalibration(task, [&](double share) {
+    if (progress) progress("estimate", share);
+  });
+  out.calibration = calibrationOf(out.sensors, out.estimate);
+  out.frame = frameOf(out.sensors);
+  return out;
+}
+
+}  // namespace roomgraph
