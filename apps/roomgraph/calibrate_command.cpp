@@ -11,6 +11,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/core/suggest.h"
 #include "roomgraph/datasets/corrected_rawlog.h"
 #include "roomgraph/geometry/degree.h"
 
@@ -90,8 +91,10 @@ void printTable(const CalibrationReport& report) {
                 factor * estimate.before[i], factor * estimate.after[i], sigma, unit, nameOf(knowledge));
   }
   for (const auto& text : estimate.unfixed) std::printf("not fixed by this motion: %s\n", text.c_str());
-  std::printf("-: held; %s\nused:", report.frame.c_str());
-  for (const auto& [kind, count] : estimate.measurements) std::printf(" %d %s%s", count, kind.c_str(), kind == "walls" ? "\n" : ",");
+  std::printf("-: held; %s\n", report.frame.c_str());
+  std::vector<std::string> used;
+  for (const auto& [kind, count] : estimate.measurements) used.push_back(std::to_string(count) + " " + kind);
+  std::printf("used: %s\n", join(used).c_str());
 }
 
 void writeJson(const CalibrationReport& report, const std::filesystem::path& file) {

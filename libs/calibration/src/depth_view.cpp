@@ -6,15 +6,17 @@
 #include <cmath>
 
 #include "roomgraph/core/order_statistics.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr int kBlocksAcross = 80;
 constexpr double kLeastValid = 0.6;                          // share of a block's pixels
-constexpr double kEdge_m = 0.03, kEdgeShare = 0.1;           // spread of depth within a block, and share of its depth
-constexpr double kFloorThick_m = 0.02, kFloorThickPerM = 0.005;  // the latter times squared depth
-constexpr double kFarthestFloor_m = 4.5;
+constexpr double kEdge_m = 0.03, kEdgeShare = 0.12;           // spread of depth within a block, and share of its depth
+constexpr double kFloorThick_m = 0.02, kFloorThickPerM = 0.003;  // the latter times squared depth
+constexpr double kFarthestFloor_m = 4.2;
+const double kFloorFacing = std::cos(15 * kDegree);  // of its normal: feet of walls and furniture are no floor
 constexpr double kMostSlope = 0.4;  // of the normal of an upright surface
 constexpr std::size_t kLeastBlocks = 15;
 constexpr int kColumns = 3, kBands = 3;
@@ -93,6 +95,8 @@ std::vector<DepthPatch> floorPatches(const BlockGrid& grid, const Plane& floor) 
       if (!block.valid || z > kFarthestFloor_m ||
           std::abs(floor.distance(block.patch.point)) > kFloorThick_m + kFloorThickPerM * z * z)
         continue;
+      const auto normal = normalAt(grid, column, row);
+      if (!normal || normal->dot(floor.normal) < kFloorFacing) continue;
       int band = 0;
       for (const double end : kBandEnds_m) band += z > end;
       const auto i = static_cast<std::size_t>(band * kColumns + column * kColumns / grid.columns);

@@ -14,7 +14,7 @@
 #include "range_agreement.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
-#include "wall_agreement.h"
+#include "scan_agreement.h"
 
 namespace roomgraph {
 
@@ -46,7 +46,7 @@ class ImageStatistics {
   PointGridMaker grids_;
   FloorStatistics floor_;
   RangeAgreement agreement_;
-  WallAgreement walls_;
+  ScanAgreement walls_;
   std::vector<float> depths_m_;  ///< samples of the valid ones
   std::size_t samples_ = 0;
   int seen_ = 0;

@@ -12,7 +12,7 @@ namespace roomgraph {
 
 /// How far points of the depth images, about as high as the lidar, lie from the surfaces that it saw at nearly the same
 /// time. In the order of the file.
-class WallAgreement {
+class ScanAgreement {
  public:
   void addScan(const Scan& scan);
   void addImage(double t, const PointGrid& grid, const Pose3& robot_from_sensor);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest piece between neighbouring returns for every depth point at the lidar's height.
-#include "wall_agreement.h"
+#include "scan_agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +27,12 @@ double toSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen
 
 }  // namespace
 
-void WallAgreement::addScan(const Scan& scan) {
+void ScanAgreement::addScan(const Scan& scan) {
   scan_ = {scan.t, scan.robot_from_lidar.translation().z(), scan.pointsInRobot()};
   compare();
 }
 
-void WallAgreement::addImage(double t, const PointGrid& grid, const Pose3& robot_from_sensor) {
+void ScanAgreement::addImage(double t, const PointGrid& grid, const Pose3& robot_from_sensor) {
   image_ = SeenPoints{t, 0, {}};
   for (const auto& point : grid.points)
     if (!point.isZero()) image_->points.push_back(robot_from_sensor * point);
@@ -40,7 +40,7 @@ void WallAgreement::addImage(double t, const PointGrid& grid, const Pose3& robot
 }
 
 // An image is compared once, with whichever scan is near enough in time first.
-void WallAgreement::compare() {
+void ScanAgreement::compare() {
   if (!scan_ || !image_ || std::abs(scan_->t - image_->t) > kSameTime_s) return;
   for (const auto& point : image_->points) {
     const Eigen::Vector2d p = point.head<2>();
@@ -57,7 +57,7 @@ void WallAgreement::compare() {
   image_.reset();
 }
 
-std::optional<double> WallAgreement::distance() const {
+std::optional<double> ScanAgreement::distance() const {
   if (distances_.size() < kLeastCompared) return std::nullopt;
   return median(distances_);
 }
