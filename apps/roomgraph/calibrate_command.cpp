@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `roomgraph calibrate`: places of sensors, time offsets, wheels and depth from recordings of ordinary driving.
+// `roomgraph calibrate`: places of sensors, time offsets, wheels and depth from recordings of ordinary
+// driving.
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -80,7 +81,8 @@ const char* nameOf(Knowledge knowledge) {
 
 void printTable(const CalibrationReport& report) {
   const CalibrationEstimate& estimate = report.estimate;
-  std::printf("%-20s %12s %12s %10s %-6s %s\n", "parameter", "before", "after", "+-", "unit", "fixed by this motion");
+  std::printf("%-20s %12s %12s %10s %-6s %s\n", "parameter", "before", "after", "+-", "unit",
+              "fixed by this motion");
   for (int i = 0; i < kParameterCount; ++i) {
     const Knowledge knowledge = estimate.knowledge[static_cast<std::size_t>(i)];
     const auto [factor, unit] = shownAs(i);
@@ -118,7 +120,8 @@ void writeJson(const CalibrationReport& report, const std::filesystem::path& fil
   writeFileAtomically(file, out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-void correct(const CalibrateArguments& arguments, const std::filesystem::path& calibration, StageProgress& progress) {
+void correct(const CalibrateArguments& arguments, const std::filesystem::path& calibration,
+             StageProgress& progress) {
   if (arguments.rawlog.empty()) throw ConfigError("--apply needs --rawlog, the recording to write");
   writeCorrectedRawlog(arguments.recordings.front(), arguments.rawlog, readCalibration(calibration),
                        arguments.jpeg_quality, [&](double share) { progress.update("write", share); });
@@ -130,7 +133,8 @@ void runCalibrate(CalibrateArguments& arguments) {
   for (const auto& written : {arguments.output, arguments.json, arguments.rawlog})
     if (!written.empty()) requireOther(written, arguments.recordings);
   if (!arguments.rawlog.empty() && arguments.recordings.size() != 1)
-    throw ConfigError("--rawlog corrects one recording; " + std::to_string(arguments.recordings.size()) + " are given");
+    throw ConfigError("--rawlog corrects one recording; " + std::to_string(arguments.recordings.size()) +
+                      " are given");
   for (const auto& text : arguments.poses)
     for (const auto& [label, pose] : parseSensorPoses(text, "--pose " + text))
       arguments.read.sensor_poses.insert_or_assign(label, pose);
@@ -156,19 +160,24 @@ void addCalibrateCommand(CLI::App& app) {
   auto a = std::make_shared<CalibrateArguments>();
   command->add_option("RAWLOG", a->recordings, "recordings of one robot, used together")->required();
   command->add_option("-o,--output", a->output, "calibration file to write");
-  command->add_option("--apply", a->apply, "estimate nothing: write --rawlog with this calibration file applied");
+  command->add_option("--apply", a->apply,
+                      "estimate nothing: write --rawlog with this calibration file applied");
   command->add_option("--json", a->json, "also write all parameters and their covariance to this file");
   command->add_option("--rawlog", a->rawlog, "also write the recording, corrected (gzip inside)");
-  command->add_option("--jpeg", a->jpeg_quality, "colour of --rawlog as JPEG of this quality (default: without loss)")
+  command
+      ->add_option("--jpeg", a->jpeg_quality,
+                   "colour of --rawlog as JPEG of this quality (default: without loss)")
       ->check(CLI::Range(1, 100));
   command
       ->add_option("--pose", a->poses,
-                   "place of a sensor to begin with, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the recorded one; "
+                   "place of a sensor to begin with, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
+                   "recorded one; "
                    "may be repeated")
       ->allow_extra_args(false);
   command->add_option("--camera", a->read.rgbd_label, "label of the RGB-D camera (default: the first)");
   command->add_option("--lidar", a->read.lidar_label, "label of the lidar (default: the first)");
-  command->add_option("--odometry", a->read.odometry_label, "label of the wheel odometry (default: the first)");
+  command->add_option("--odometry", a->read.odometry_label,
+                      "label of the wheel odometry (default: the first)");
   command->add_flag("--quiet", a->quiet, "no progress");
   command->footer(
       "Examples:\n"

@@ -53,24 +53,36 @@ class CalibrateCommand : public ::testing::Test {
 };
 
 TEST_F(CalibrateCommand, FindsWhereSensorsSitAndWritesIt) {
-  const auto simulated = call(folder.path(), {"simulate", write("world.json", kWorld), "-o", at("true"), "--quiet"});
+  const auto simulated =
+      call(folder.path(), {"simulate", write("world.json", kWorld), "-o", at("true"), "--quiet"});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   const std::string wrong = at("wrong.rawlog");
-  const auto applied =
-      calibrate({at("true/room.rawlog"), "--apply", write("wrong.ini", kWrong), "--rawlog", wrong, "--jpeg", "95"});
+  const auto applied = calibrate(
+      {at("true/room.rawlog"), "--apply", write("wrong.ini", kWrong), "--rawlog", wrong, "--jpeg", "95"});
   ASSERT_EQ(applied.exit_code, 0) << applied.err;
   EXPECT_THAT(call(folder.path(), {"info", wrong}).out, HasSubstr("roomgraph calibrate"));
 
-  const auto done =
-      calibrate({wrong, "-o", at("found.ini"), "--json", at("found.json"), "--rawlog", at("mended.rawlog"), "--jpeg", "95"});
+  const auto done = calibrate({wrong, "-o", at("found.ini"), "--json", at("found.json"), "--rawlog",
+                               at("mended.rawlog"), "--jpeg", "95"});
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_THAT(done.out, AllOf(HasSubstr("camera yaw"), HasSubstr("fixed by this motion"), HasSubstr("wheel movements")));
+  EXPECT_THAT(done.out, AllOf(HasSubstr("camera yaw"), HasSubstr("fixed by this motion"),
+                              HasSubstr("wheel movements")));
   const auto found = nlohmann::json::parse(contentOf(folder.file("found.json")));
-  const std::map<std::string, double> truth{
-      {"lidar x", 0.05},      {"lidar y", 0},    {"lidar yaw", 0},   {"camera x", 0.06},
-      {"camera y", 0.01},     {"camera z", 0.7}, {"camera yaw", 0},  {"camera pitch", 12 * kDegree},
-      {"camera roll", 0},     {"depth bias", 0}, {"depth scale", 1}, {"camera time offset", -0.03},
-      {"wheel time offset", 0.03}, {"wheel scale", 1 / 1.03}, {"wheel turn scale", 1 / 0.98}};
+  const std::map<std::string, double> truth{{"lidar x", 0.05},
+                                            {"lidar y", 0},
+                                            {"lidar yaw", 0},
+                                            {"camera x", 0.06},
+                                            {"camera y", 0.01},
+                                            {"camera z", 0.7},
+                                            {"camera yaw", 0},
+                                            {"camera pitch", 12 * kDegree},
+                                            {"camera roll", 0},
+                                            {"depth bias", 0},
+                                            {"depth scale", 1},
+                                            {"camera time offset", -0.03},
+                                            {"wheel time offset", 0.03},
+                                            {"wheel scale", 1 / 1.03},
+                                            {"wheel turn scale", 1 / 0.98}};
   std::map<std::string, double> limits{{"m", 0.012}, {"rad", 0.5 * kDegree}, {"s", 0.005}, {"", 0.012}};
   for (const auto& parameter : found.at("parameters")) {
     const auto expected = truth.find(parameter.at("name"));
@@ -85,8 +97,9 @@ TEST_F(CalibrateCommand, FindsWhereSensorsSitAndWritesIt) {
   EXPECT_NEAR(file.corrections.time_offsets_s.at("KINECT"), -0.03, 0.005);
   EXPECT_THAT(contentOf(folder.file("found.ini")), AllOf(HasSubstr("# lidar x +-"), HasSubstr("# Frame: ")));
   EXPECT_THAT(call(folder.path(), {"info", at("mended.rawlog")}).out, Not(HasSubstr("roomgraph calibrate")));
-  const auto run = call(folder.path(), {"run", wrong, "-o", at("out"), "--calibration", at("found.ini"), "--quiet",
-                                        "--no-report", "--no-snapshot", "--set", "detection.enabled=false"});
+  const auto run =
+      call(folder.path(), {"run", wrong, "-o", at("out"), "--calibration", at("found.ini"), "--quiet",
+                           "--no-report", "--no-snapshot", "--set", "detection.enabled=false"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
@@ -96,9 +109,11 @@ TEST_F(CalibrateCommand, ErrorsAreOneLineWithTheirCode) {
   expectOneLine(calibrate({at("none.rawlog"), "-o", at("c.ini")}), 3, HasSubstr("none.rawlog"));
   expectOneLine(calibrate({room, "-o", room}), 2, HasSubstr("tiny_room.rawlog"));
   expectOneLine(calibrate({room, "-o", at("c.ini"), "--lidar", "LIDRA"}), 2, HasSubstr("did you mean"));
-  expectOneLine(calibrate({room, room, "-o", at("c.ini"), "--rawlog", at("x.rawlog")}), 2, HasSubstr("one recording"));
-  expectOneLine(calibrate({room, "--apply", write("c.ini", "[wheels]\nsize = 1\n"), "--rawlog", at("x.rawlog")}), 2,
-                HasSubstr("c.ini:2"));
+  expectOneLine(calibrate({room, room, "-o", at("c.ini"), "--rawlog", at("x.rawlog")}), 2,
+                HasSubstr("one recording"));
+  expectOneLine(
+      calibrate({room, "--apply", write("c.ini", "[wheels]\nsize = 1\n"), "--rawlog", at("x.rawlog")}), 2,
+      HasSubstr("c.ini:2"));
   expectOneLine(calibrate({room, "--apply", at("c.ini")}), 2, HasSubstr("--rawlog"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.rawlog")));
 }

@@ -11,7 +11,8 @@
 namespace roomgraph::test {
 namespace {
 
-// A wall 3 m ahead of the robot and a box of 0.5 m before it, on the floor, as a camera on the robot sees them.
+// A wall 3 m ahead of the robot and a box of 0.5 m before it, on the floor, as a camera on the robot sees
+// them.
 class DepthViewTest : public ::testing::Test {
  protected:
   static constexpr double kWall_m = 3, kBox_m = 2, kBoxHeight_m = 0.5;
@@ -33,12 +34,14 @@ class DepthViewTest : public ::testing::Test {
     return frame;
   }
   static double depthOf(const Frame& frame, const Eigen::Vector3d& ray) {
-    const Eigen::Vector3d from = frame.robot_from_camera.translation(), d = frame.robot_from_camera.linear() * ray;
+    const Eigen::Vector3d from = frame.robot_from_camera.translation(),
+                          d = frame.robot_from_camera.linear() * ray;
     double z = (kWall_m - from.x()) / d.x();
     if (d.z() < 0) z = std::min(z, -from.z() / d.z());
     const double to_box = (kBox_m - from.x()) / d.x();
     const Eigen::Vector3d on_box = from + to_box * d;
-    return on_box.z() > 0 && on_box.z() < kBoxHeight_m && std::abs(on_box.y()) < 0.4 ? std::min(z, to_box) : z;
+    return on_box.z() > 0 && on_box.z() < kBoxHeight_m && std::abs(on_box.y()) < 0.4 ? std::min(z, to_box)
+                                                                                     : z;
   }
 };
 
@@ -77,7 +80,8 @@ TEST_F(DepthViewTest, FeetOfWallsAndFurnitureAreNoFloor) {
   const Frame frame = frameOf(0.001);
   const DepthView view = makeDepthView(frame, groundInCamera(frame.robot_from_camera), std::nullopt);
   ASSERT_FALSE(view.floor.empty());
-  for (const DepthPatch& patch : view.floor) EXPECT_NEAR((frame.robot_from_camera * patch.point).z(), 0, 4e-3);
+  for (const DepthPatch& patch : view.floor)
+    EXPECT_NEAR((frame.robot_from_camera * patch.point).z(), 0, 4e-3);
 }
 
 TEST_F(DepthViewTest, UprightCellsAreThoseAtTheHeightOfTheLidar) {
@@ -94,7 +98,7 @@ TEST_F(DepthViewTest, UprightCellsAreThoseAtTheHeightOfTheLidar) {
     EXPECT_LT(normal.x(), 0) << "towards the camera";
     const bool is_box = std::abs(at.x() - kBox_m) < 0.05;
     (is_box ? on_box : on_wall)++;
-    if (!is_box) EXPECT_NEAR(at.x(), kWall_m, 0.05);
+    EXPECT_NEAR(at.x(), is_box ? kBox_m : kWall_m, 0.05);
   }
   EXPECT_GT(on_box, 50);
   EXPECT_GT(on_wall, 50);

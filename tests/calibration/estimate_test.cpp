@@ -13,8 +13,14 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 DriveNoise usualNoise() {
-  return {.lidar_m = 0.003, .lidar_rad = 0.001, .range_m = 0.015, .depth_per_m2 = 0.0015, .wheels_m = 0.01,
-          .wheels_rad = 0.02, .step_rad = 0.002, .step_m = 0.004};
+  return {.lidar_m = 0.003,
+          .lidar_rad = 0.001,
+          .range_m = 0.015,
+          .depth_per_m2 = 0.0015,
+          .wheels_m = 0.01,
+          .wheels_rad = 0.02,
+          .step_rad = 0.002,
+          .step_m = 0.004};
 }
 
 double tolerance(int parameter) {
@@ -31,23 +37,23 @@ TEST(EstimateCalibration, FindsTheTruthInExactData) {
   const ParameterVector truth = trueParameters();
   for (int i = 0; i < kParameterCount; ++i) {
     EXPECT_TRUE(is(estimate, i, Knowledge::kFixed)) << parameterTraits()[static_cast<std::size_t>(i)].name;
-    EXPECT_NEAR(estimate.after[i], truth[i], 0.05 * tolerance(i)) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_NEAR(estimate.after[i], truth[i], 0.05 * tolerance(i))
+        << parameterTraits()[static_cast<std::size_t>(i)].name;
   }
 }
 
 TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
   constexpr int kSeeds = 12;
   const ParameterVector truth = trueParameters();
-  ParameterVector squares = ParameterVector::Zero(), sigmas = squares, means = squares;
+  ParameterVector squares = ParameterVector::Zero();
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     MadeUpDrive drive({.seconds = 60, .noise = usualNoise(), .seed = seed});
     const auto estimate = estimateCalibration(drive.task());
     for (int i = 0; i < kParameterCount; ++i) {
       const double off = estimate.after[i] - truth[i];
-      sigmas[i] += estimate.sigma(i) / kSeeds;
-      means[i] += off / estimate.sigma(i) / kSeeds;
       squares[i] += off * off / estimate.covariance(i, i) / kSeeds;
-      EXPECT_LT(std::abs(off), 5 * estimate.sigma(i) + 1e-9) << parameterTraits()[static_cast<std::size_t>(i)].name;
+      EXPECT_LT(std::abs(off), 5 * estimate.sigma(i) + 1e-9)
+          << parameterTraits()[static_cast<std::size_t>(i)].name;
     }
     EXPECT_LT((estimate.after - truth).segment<2>(kLidarX).norm(), 0.006) << seed;
     EXPECT_LT((estimate.after - truth).segment<3>(kCameraX).norm(), 0.008) << seed;
@@ -55,10 +61,10 @@ TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
     EXPECT_NEAR(estimate.after[kCameraTime], truth[kCameraTime], 0.003) << seed;
   }
   for (int i = 0; i < kParameterCount; ++i) {
-    std::printf("%-20s %.2f %g %.2f\n", parameterTraits()[static_cast<std::size_t>(i)].name, squares[i], sigmas[i], means[i]);
-    // Mean of chi squares over 12 seeds: 0.3 to 2.4 holds in more than 999 of 1000 cases.
+    // The mean of twelve chi squares is below 2.75 in 999 of 1000 cases. The covariance is on the safe side
+    // where errors of neighbouring measurements cancel, so that the lower bound is loose.
     EXPECT_GT(squares[i], 0.1) << parameterTraits()[static_cast<std::size_t>(i)].name;
-    EXPECT_LT(squares[i], 2.5) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_LT(squares[i], 2.75) << parameterTraits()[static_cast<std::size_t>(i)].name;
   }
 }
 
@@ -66,15 +72,11 @@ TEST(EstimateCalibration, WithoutTurnsPlacesStayAsTheyWere) {
   MadeUpDrive drive({.seconds = 20, .turns = false, .noise = usualNoise()});
   const auto task = drive.task();
   const auto estimate = estimateCalibration(task);
-  for (const int i : {kLidarX, kTurnScale})
+  for (const int i : {kLidarX, kTurnScale, kWheelTime})
     EXPECT_FALSE(is(estimate, i, Knowledge::kFixed)) << parameterTraits()[static_cast<std::size_t>(i)].name;
   EXPECT_TRUE(is(estimate, kTurnScale, Knowledge::kUnfixed));
   EXPECT_EQ(estimate.after[kTurnScale], task.before[kTurnScale]);
   EXPECT_THAT(estimate.unfixed, Contains(HasSubstr("wheel turn scale")));
-  for (int i = 0; i < kParameterCount; ++i)
-    std::printf("%-20s %g %g %g %d\n", parameterTraits()[static_cast<std::size_t>(i)].name, trueParameters()[i],
-                estimate.after[i], estimate.sigma(i), static_cast<int>(estimate.knowledge[static_cast<std::size_t>(i)]));
-  for (const auto& text : estimate.unfixed) std::printf("%s\n", text.c_str());
   // Straight ahead shows where ahead is, and the floor is seen all the same.
   EXPECT_TRUE(is(estimate, kLidarYaw, Knowledge::kFixed));
   EXPECT_NEAR(estimate.after[kLidarYaw], trueParameters()[kLidarYaw], 0.3 * kDegree);
@@ -101,10 +103,12 @@ TEST(EstimateCalibration, WithoutLidarWheelsAndCameraAreCalibrated) {
   truth[kDepthScale] = 1;
   MadeUpDrive drive({.lidar = false}, truth);
   auto task = drive.task(before);
-  for (const int i : {kLidarX, kLidarY, kLidarYaw, kWheelTime, kDepthScale}) task.held.set(static_cast<std::size_t>(i));
+  for (const int i : {kLidarX, kLidarY, kLidarYaw, kWheelTime, kDepthScale})
+    task.held.set(static_cast<std::size_t>(i));
   const auto estimate = estimateCalibration(task);
   for (const int i : {kCameraYaw, kCameraPitch, kCameraRoll, kCameraTime, kWheelScale, kTurnScale, kCameraZ})
-    EXPECT_NEAR(estimate.after[i], truth[i], 0.2 * tolerance(i)) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_NEAR(estimate.after[i], truth[i], 0.2 * tolerance(i))
+        << parameterTraits()[static_cast<std::size_t>(i)].name;
 }
 
 TEST(EstimateCalibration, NothingSaysNothing) {

@@ -13,7 +13,8 @@
 namespace roomgraph::test {
 
 struct DriveNoise {
-  double lidar_m = 0, lidar_rad = 0, range_m = 0, depth_per_m2 = 0;  ///< standard deviations; the last times squared depth
+  double lidar_m = 0, lidar_rad = 0, range_m = 0,
+         depth_per_m2 = 0;              ///< standard deviations; the last times squared depth
   double wheels_m = 0, wheels_rad = 0;  ///< per root of a metre, per root of a radian
   double step_rad = 0, step_m = 0;
 };
@@ -115,7 +116,8 @@ class MadeUpDrive {
     for (double t = 0; t <= options_.seconds; t += 0.1) {
       const Pose2 lidar = robotAt(t) * lidarOnRobot();
       const auto& n = options_.noise;
-      out.lidar.back().add(t, {lidar.x + normal(n.lidar_m), lidar.y + normal(n.lidar_m), lidar.yaw + normal(n.lidar_rad)});
+      out.lidar.back().add(
+          t, {lidar.x + normal(n.lidar_m), lidar.y + normal(n.lidar_m), lidar.yaw + normal(n.lidar_rad)});
       std::vector<Eigen::Vector2d> returns;
       for (int i = 0; i < 360; ++i) {
         const double angle = i * kDegree;
@@ -142,8 +144,8 @@ class MadeUpDrive {
       const Pose2 step = robotAt(t).inverse() * robotAt(t + kStep_s);
       const double length = std::hypot(step.x, step.y);
       const double turned = (step.yaw - truth_[kHeadingDrift] * length) / truth_[kTurnScale];
-      read = read * Pose2{length / truth_[kWheelScale] + normal(options_.noise.wheels_m * std::sqrt(length)), 0,
-                          turned + normal(options_.noise.wheels_rad * std::sqrt(std::abs(turned)))};
+      read = read * Pose2{length / truth_[kWheelScale] + normal(options_.noise.wheels_m * std::sqrt(length)),
+                          0, turned + normal(options_.noise.wheels_rad * std::sqrt(std::abs(turned)))};
     }
     out.wheels.back().smooth();
   }

@@ -126,7 +126,9 @@ TEST(ScanWalls, NeedLengthAndReturns) {
 
 TEST(TurnRates, TellTheOffsetBetweenClocks) {
   const auto rate = [](double t) { return 0.4 * std::sin(t) + 0.3 * std::sin(2.7 * t + 1); };
-  const TurnRate reference = [&](double t) { return t < 0 || t > 60 ? std::nullopt : std::optional(rate(t)); };
+  const TurnRate reference = [&](double t) {
+    return t < 0 || t > 60 ? std::nullopt : std::optional(rate(t));
+  };
   for (const double late : {0.0, 0.083, -0.21}) {
     const TurnRate moved = [&](double t) -> std::optional<double> { return 1.1 * rate(t + late); };
     const auto offset = turnRateOffset(reference, moved, 0, 60);
@@ -195,7 +197,8 @@ std::vector<double> listed(const ParameterVector& p) {
 WheelMovement movementOf(const RecordingEvidence& evidence, std::size_t from, std::size_t to) {
   const PlanarPath& wheels = evidence.wheels[0];
   WheelMovement out{&evidence.lidar[0], wheels.time(from), wheels.time(to), {}};
-  for (std::size_t i = from; i < to; ++i) out.read.push_back(planarBetween(wheels.values(i), wheels.values(i + 1)));
+  for (std::size_t i = from; i < to; ++i)
+    out.read.push_back(planarBetween(wheels.values(i), wheels.values(i + 1)));
   return out;
 }
 
@@ -208,20 +211,22 @@ TEST(SensorCosts, DerivativesAreThoseOfFiniteDifferences) {
   expectDerivatives(ceres::AutoDiffCostFunction<WallCost, 1, kParameterCount>(
                         new WallCost{&evidence.lidar[0], matches[matches.size() / 2], 0.01}),
                     {wrong});
-  expectDerivatives(
-      ceres::AutoDiffCostFunction<FloorCost, 1, kParameterCount>(new FloorCost{evidence.views[3].floor.at(1), 0.01}),
-      {wrong});
-  expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
-                        new CameraStepCost{&evidence.lidar[0], false, evidence.steps[4], 0.1, 0.1}),
+  expectDerivatives(ceres::AutoDiffCostFunction<FloorCost, 1, kParameterCount>(
+                        new FloorCost{evidence.views[3].floor.at(1), 0.01}),
                     {wrong});
   expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
-                        new CameraStepCost{&evidence.wheels[0], true, evidence.steps[4], 0.1, 0.1}),
+                        new CameraStepCost{&evidence.lidar[0], false, evidence.steps[4], 0.02, 0.1, 0.1}),
+                    {wrong});
+  expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
+                        new CameraStepCost{&evidence.wheels[0], true, evidence.steps[4], 0.02, 0.1, 0.1}),
                     {wrong});
   const WheelMovement movement = movementOf(evidence, 40, 64);
-  expectDerivatives(
-      ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(new WheelMoveCost{movement, 0.1, 0.1}), {wrong});
-  expectDerivatives(ceres::AutoDiffCostFunction<WheelTurnCost, 1, kParameterCount>(new WheelTurnCost{movement, 0.1}),
+  expectDerivatives(ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(
+                        new WheelMoveCost{movement, 0.02, 0.1, 0.1}),
                     {wrong});
+  expectDerivatives(
+      ceres::AutoDiffCostFunction<WheelTurnCost, 1, kParameterCount>(new WheelTurnCost{movement, 0.1}),
+      {wrong});
 }
 
 // At the truth nothing is left of exact data.
@@ -242,11 +247,12 @@ TEST(SensorCosts, AreZeroAtTheTruth) {
     }
   for (const auto& step : evidence.steps) {
     std::array<double, 6> off{};
-    CameraStepCost{&evidence.lidar[0], false, step, 1, 1}(p.data(), off.data());
+    CameraStepCost{&evidence.lidar[0], false, step, p[kCameraTime], 1, 1}(p.data(), off.data());
     for (const double value : off) EXPECT_NEAR(value, 0, 1e-3);
   }
   for (std::size_t i = 10; i + 34 < evidence.wheels[0].size(); i += 6)
-    for (const double value : movementOf(evidence, i, i + 24).difference(p.data())) EXPECT_NEAR(value, 0, 2e-3);
+    for (const double value : movementOf(evidence, i, i + 24).difference(p.data(), p[kWheelTime]))
+      EXPECT_NEAR(value, 0, 2e-3);
 }
 
 }  // namespace

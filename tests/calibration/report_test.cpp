@@ -72,7 +72,8 @@ class CalibrationText : public ::testing::Test {
     report.estimate.covariance = 1e-6 * ParameterMatrix::Identity();
     report.calibration.poses = {{"KINECT", poseFromYpr(0.0812, -0.0123, 0.9, 0.01, 0.2, -0.003)},
                                 {"LASER", poseFromYpr(0.2, 0, 0.3, -0.05, 0, 0)}};
-    report.calibration.corrections = {{{"KINECT", -0.0312}}, 0.0211, {1.021, 0.983, -0.0071}, {1.004, 0.0123}};
+    report.calibration.corrections = {
+        {{"KINECT", -0.0312}}, 0.0211, {1.021, 0.983, -0.0071}, {1.004, 0.0123}};
   }
   Calibration readBack(const std::string& text) {
     std::ofstream(folder.file("c.ini")) << text;
@@ -84,7 +85,8 @@ class CalibrationText : public ::testing::Test {
 
 TEST_F(CalibrationText, ComesBackAsItWas) {
   const Calibration back = readBack(calibrationText(report));
-  for (const auto& [label, pose] : report.calibration.poses) EXPECT_TRUE(back.poses.at(label).isApprox(pose, 1e-5));
+  for (const auto& [label, pose] : report.calibration.poses)
+    EXPECT_TRUE(back.poses.at(label).isApprox(pose, 1e-5));
   EXPECT_NEAR(back.corrections.time_offsets_s.at("KINECT"), -0.0312, 1e-7);
   EXPECT_EQ(back.corrections.time_offsets_s.size(), 1u) << "the lidar's clock is the reference";
   EXPECT_NEAR(back.corrections.wheels_time_offset_s, 0.0211, 1e-7);

@@ -99,8 +99,9 @@ TEST_F(CalibrationFileTest, StampsAndDepthsAreCorrected) {
   EXPECT_NEAR(frame.t, 1.5, 1e-6);
   EXPECT_EQ(frame.depthAt(0, 0), 0) << "what was not measured is not measured afterwards";
   EXPECT_NEAR(frame.depthAt(3, 2), 1.1 * 1.03 - 0.05, 1e-6);
-  EXPECT_EQ(counts, (std::map<std::string, int>{
-                        {"depth of 'KINECT'", 2}, {"stamp of 'KINECT' -0.5000 s", 2}, {"stamp of 'LASER' +0.2500 s", 1}}));
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"depth of 'KINECT'", 2},
+                                                {"stamp of 'KINECT' -0.5000 s", 2},
+                                                {"stamp of 'LASER' +0.2500 s", 1}}));
   records({makeScan(1)}, {}, &counts);
   EXPECT_THAT(counts, IsEmpty());
 }
@@ -140,7 +141,8 @@ TEST_F(CalibrationFileTest, ACorrectedCopyIsWhatTheFileSays) {
       const auto& same = std::get<Frame>(*other);
       EXPECT_TRUE(same.robot_from_camera.isApprox(frame->robot_from_camera, 1e-9));
       EXPECT_EQ(cv::norm(same.color, frame->color, cv::NORM_INF), 0) << "without loss";
-      for (int u = 1; u < 16; ++u) EXPECT_NEAR(same.depthAt(u, 2), frame->depthAt(u, 2), 0.00063) << "half a unit";
+      for (int u = 1; u < 16; ++u)
+        EXPECT_NEAR(same.depthAt(u, 2), frame->depthAt(u, 2), 0.00063) << "half a unit";
       EXPECT_EQ(same.depthAt(0, 0), 0);
       ++frames;
     } else if (const auto* reading = std::get_if<OdometryReading>(&*record)) {
@@ -158,8 +160,10 @@ TEST_F(CalibrationFileTest, ACorrectedCopyIsWhatTheFileSays) {
 
 TEST_F(CalibrationFileTest, ACorrectedCopyIsWholeOrNotThere) {
   writeRawlog(folder.file("x.rawlog"), {makeScan(1), makeImages(2)});
-  const auto write = [&](const Calibration& calibration, const std::function<void(double)>& progress = nullptr) {
-    writeCorrectedRawlog(folder.file("x.rawlog"), folder.file("y.rawlog"), calibration, std::nullopt, progress);
+  const auto write = [&](const Calibration& calibration,
+                         const std::function<void(double)>& progress = nullptr) {
+    writeCorrectedRawlog(folder.file("x.rawlog"), folder.file("y.rawlog"), calibration, std::nullopt,
+                         progress);
   };
   EXPECT_THROW(write({}, [](double) { throw Interrupted("x"); }), Interrupted);
   EXPECT_THROW(write(read("[sensor LASRE]\ntime_offset_s = 1\n")), ConfigError);

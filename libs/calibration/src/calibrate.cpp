@@ -7,6 +7,7 @@
 #include "estimate_calibration.h"
 #include "read_evidence.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
@@ -54,17 +55,23 @@ std::bitset<kParameterCount> heldOf(const SensorsBefore& sensors) {
 
 std::string frameOf(const SensorsBefore& sensors) {
   if (sensors.robot_from_lidar && sensors.wheels)
-    return "the robot's frame is that of the wheel odometry on the floor; the clock is that of the lidar, whose height, "
+    return "the robot's frame is that of the wheel odometry on the floor; the clock is that of the lidar, "
+           "whose height, "
            "pitch and roll are taken as recorded";
   if (sensors.robot_from_lidar)
-    return "without wheel odometry, the lidar's recorded place says where the robot's frame is; the clock is that of the "
+    return "without wheel odometry, the lidar's recorded place says where the robot's frame is; the clock is "
+           "that of the "
            "lidar";
-  if (sensors.wheels) return "the robot's frame and the clock are those of the wheel odometry; lengths are those of the depth images";
-  return "without lidar and wheel odometry only the floor says something: height, pitch and roll of the camera";
+  if (sensors.wheels)
+    return "the robot's frame and the clock are those of the wheel odometry; lengths are those of the depth "
+           "images";
+  return "without lidar and wheel odometry only the floor says something: height, pitch and roll of the "
+         "camera";
 }
 
 Pose3 cameraPose(const ParameterVector& p) {
-  Pose3 out = poseFromYpr(p[kCameraX], p[kCameraY], p[kCameraZ], p[kCameraYaw], p[kCameraPitch], p[kCameraRoll]);
+  Pose3 out =
+      poseFromYpr(p[kCameraX], p[kCameraY], p[kCameraZ], p[kCameraYaw], p[kCameraPitch], p[kCameraRoll]);
   out.linear() *= bodyFromOptical();
   return out;
 }
@@ -91,6 +98,19 @@ Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimat
   return out;
 }
 
+// What the model leaves out does not scatter: a floor that is not quite even, depth that is rounded.
+void addModelErrors(CalibrationEstimate& estimate) {
+  constexpr double kLength_m = 0.001, kAngle_rad = 0.02 * kDegree, kTime_s = 0.0002, kShare = 0.0005;
+  for (int i = 0; i < kParameterCount; ++i) {
+    const std::string unit = parameterTraits()[static_cast<std::size_t>(i)].unit;
+    const double sigma = unit == "m"     ? kLength_m
+                         : unit == "rad" ? kAngle_rad
+                         : unit == "s"   ? kTime_s
+                                         : kShare;
+    if (estimate.covariance(i, i) > 0) estimate.covariance(i, i) += sigma * sigma;
+  }
+}
+
 }  // namespace
 
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
@@ -102,13 +122,15 @@ CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings
       if (progress) progress("read " + recording.filename().string(), share);
     }));
   if (!out.sensors.robot_from_camera && !out.sensors.robot_from_lidar)
-    throw InputError(recordings.front().string() + ": no camera with depth and no lidar: nothing to calibrate");
+    throw InputError(recordings.front().string() +
+                     ": no camera with depth and no lidar: nothing to calibrate");
   task.before = startOf(out.sensors);
   task.held = heldOf(out.sensors);
   if (out.sensors.robot_from_lidar) task.lidar_z_m = out.sensors.robot_from_lidar->translation().z();
   out.estimate = estimateCalibration(task, [&](double share) {
     if (progress) progress("estimate", share);
   });
+  addModelErrors(out.estimate);
   out.calibration = calibrationOf(out.sensors, out.estimate);
   out.frame = frameOf(out.sensors);
   return out;

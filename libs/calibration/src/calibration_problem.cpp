@@ -15,16 +15,16 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kRobust = 2.5;           // standard deviations
-constexpr double kPathMargin_s = 0.3;     // as much as times may move while solving
+constexpr double kRobust = 2.5;        // standard deviations
+constexpr double kPathMargin_s = 0.3;  // as much as times may move while solving
 constexpr double kShortWheels_s = 0.3, kLongWheels_s = 1.2, kStandsStill = 0.02;  // the last in m + rad
 constexpr double kTurnSigma_rad = 0.002, kMoveSigma_m = 0.004;  // of visual odometry between two images
-constexpr double kBin_s = 0.5;            // of gradients that are added up
-constexpr int kLags = 4;                  // bins over which errors may hang together
+constexpr std::size_t kLeastResiduals = 8;                      // of fewer the scatter says nothing
+constexpr double kBin_s = 0.5;                                  // of gradients that are added up
+constexpr int kLags = 4;                                        // bins over which errors may hang together
 
 double sigmaOf(const WallMatch& match) {
-  const double z = match.patch.point.z();
-  return std::hypot(match.wall.sigma_m * 1.5, patchSigma(z));
+  return std::hypot(match.wall_sigma_m, patchSigma(match.patch.point.z()));
 }
 
 double lengthOf(const WheelMovement& movement) {
@@ -39,8 +39,8 @@ double turnOf(const WheelMovement& movement) {
   return out;
 }
 
-std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, const PlanarPath& wheels, double offset,
-                                          double seconds) {
+std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, const PlanarPath& wheels,
+                                          double offset, double seconds) {
   std::vector<WheelMovement> out;
   WheelMovement now{nullptr, wheels.time(0), 0, {}};
   for (std::size_t i = 1; i < wheels.size(); ++i) {
@@ -69,8 +69,8 @@ ParameterMatrix inverseOnFree(const ParameterMatrix& matrix, const std::bitset<k
 }  // namespace
 
 CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise,
-                                       const std::vector<FormerBelief>& beliefs, const ParameterVector& parameters,
-                                       const MatchGate& gate)
+                                       const std::vector<FormerBelief>& beliefs,
+                                       const ParameterVector& parameters, const MatchGate& gate)
     : task_(task), noise_(noise), parameters_(parameters) {
   problem_.AddParameterBlock(parameters_.data(), kParameterCount);
   std::vector<int> constant;
@@ -82,7 +82,8 @@ CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseF
     problem_.SetManifold(parameters_.data(), new ceres::SubsetManifold(kParameterCount, constant));
   for (const auto& belief : beliefs)
     if (belief.directions.rows() > 0)
-      problem_.AddResidualBlock(new ceres::NormalPrior(belief.directions, task.before), nullptr, parameters_.data());
+      problem_.AddResidualBlock(new ceres::NormalPrior(belief.directions, task.before), nullptr,
+                                parameters_.data());
   for (std::size_t i = 0; i < task.evidence.size(); ++i) {
     const int index = static_cast<int>(i);
     addWheels(task.evidence[i], index);
@@ -91,7 +92,8 @@ CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseF
   }
 }
 
-void CalibrationProblem::add(ceres::CostFunction* cost, int recording, double t, std::vector<NoiseKind> kinds) {
+void CalibrationProblem::add(ceres::CostFunction* cost, int recording, double t,
+                             std::vector<NoiseKind> kinds) {
   const auto id = problem_.AddResidualBlock(cost, new ceres::CauchyLoss(kRobust), parameters_.data());
   blocks_.push_back({id, recording, t, std::move(kinds)});
 }
@@ -104,9 +106,9 @@ void CalibrationProblem::addWheels(const RecordingEvidence& recording, int index
               new WheelTurnCost{m, sigma(NoiseKind::kWheelTurn, turnSigma(lengthOf(m), turnOf(m)))}),
           index, m.t_b, {NoiseKind::kWheelTurn});
     for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kLongWheels_s))
-      add(new ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(
-              new WheelMoveCost{m, sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
-                                sigma(NoiseKind::kWheelSide, sideSigma(lengthOf(m), turnOf(m)))}),
+      add(new ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(new WheelMoveCost{
+              m, parameters_[kWheelTime], sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
+              sigma(NoiseKind::kWheelSide, sideSigma(lengthOf(m), turnOf(m)))}),
           index, m.t_b, {NoiseKind::kWheelForward, NoiseKind::kWheelSide});
   }
 }
@@ -131,7 +133,7 @@ void CalibrationProblem::addSteps(const RecordingEvidence& recording, int index)
         pathAt(by_wheels ? recording.wheels : recording.lidar, step.t_a + offset, kPathMargin_s);
     if (!reference || !reference->covers(step.t_b + offset, kPathMargin_s)) continue;
     add(new ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(new CameraStepCost{
-            reference, by_wheels, step, sigma(NoiseKind::kCameraTurn, kTurnSigma_rad),
+            reference, by_wheels, step, offset, sigma(NoiseKind::kCameraTurn, kTurnSigma_rad),
             sigma(NoiseKind::kCameraMove, kMoveSigma_m)}),
         index, step.t_b,
         {NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraMove,
@@ -161,7 +163,7 @@ NoiseFactors CalibrationProblem::scatter() const {
   }
   NoiseFactors out{};
   for (std::size_t k = 0; k < kNoiseKinds; ++k)
-    out[k] = sizes[k].size() < 20 ? 1 : std::clamp(1.4826 * median(sizes[k]), 0.05, 50.0);
+    out[k] = sizes[k].size() < kLeastResiduals ? 1 / noise_[k] : 1.4826 * median(sizes[k]);
   return out;
 }
 

@@ -20,8 +20,8 @@ struct CalibrationTask {
   double lidar_z_m = 0;               ///< above the floor, as recorded
 };
 
-/// Belief that the parameters are near their former values along some directions: the rows of `directions` times the
-/// difference to these have standard deviation 1.
+/// Belief that the parameters are near their former values along some directions: the rows of `directions`
+/// times the difference to these have standard deviation 1.
 struct FormerBelief {
   Eigen::MatrixXd directions;
 };
@@ -29,18 +29,20 @@ struct FormerBelief {
 /// The problem at given matches and noise. `parameters` is where it starts, and where the solution is found.
 class CalibrationProblem {
  public:
-  CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise, const std::vector<FormerBelief>& beliefs,
-                     const ParameterVector& parameters, const MatchGate& gate);
+  CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise,
+                     const std::vector<FormerBelief>& beliefs, const ParameterVector& parameters,
+                     const MatchGate& gate);
 
   /// Levenberg-Marquardt. Throws RunError when it fails.
   void solve();
   const ParameterVector& parameters() const { return parameters_; }
-  /// Factors on the standard deviations of the kinds by which the residuals scatter more, or less, than assumed.
+  /// Factors on the standard deviations of the kinds by which the residuals scatter more, or less, than
+  /// assumed; back to the nominal ones for kinds of which there are few.
   NoiseFactors scatter() const;
   /// Inverse information of the parameters; zero for held ones.
   ParameterMatrix inverseInformation();
-  /// The same with the scatter of gradients over time in place of assumed independence (sandwich estimator; Newey and
-  /// West 1987).
+  /// The same with the scatter of gradients over time in place of assumed independence (sandwich estimator;
+  /// Newey and West 1987).
   ParameterMatrix covariance();
   /// Used measurements of a kind.
   int count(NoiseKind kind) const;
@@ -49,7 +51,7 @@ class CalibrationProblem {
   struct Block {
     ceres::ResidualBlockId id;
     int recording;
-    double t;  ///< s
+    double t;                      ///< s
     std::vector<NoiseKind> kinds;  ///< of its residuals
   };
   void addWheels(const RecordingEvidence& recording, int index);

@@ -62,10 +62,11 @@ std::string cameraText(const CalibrationReport& report) {
   out += sigmas(estimate, {kCameraX, kCameraY, kCameraZ});
   out += sigmas(estimate, {kCameraYaw, kCameraPitch, kCameraRoll});
   out += "pose = " + poseText(calibration.poses.at(camera.camera_label)) + "\n";
-  out += sigmas(estimate, {kCameraTime}) + "time_offset_s = " +
-         number(calibration.corrections.time_offsets_s.at(camera.camera_label)) + "\n";
-  out += "\n[depth]\n" + sigmas(estimate, {kDepthScale}) + "scale = " + number(calibration.corrections.depth.scale) +
-         "\n" + sigmas(estimate, {kDepthBias}) + "bias_m = " + number(calibration.corrections.depth.bias_m) + "\n";
+  out += sigmas(estimate, {kCameraTime}) +
+         "time_offset_s = " + number(calibration.corrections.time_offsets_s.at(camera.camera_label)) + "\n";
+  out += "\n[depth]\n" + sigmas(estimate, {kDepthScale}) +
+         "scale = " + number(calibration.corrections.depth.scale) + "\n" + sigmas(estimate, {kDepthBias}) +
+         "bias_m = " + number(calibration.corrections.depth.bias_m) + "\n";
   return out;
 }
 
@@ -73,8 +74,9 @@ std::string cameraText(const CalibrationReport& report) {
 
 std::string calibrationText(const CalibrationReport& report) {
   const auto& [sensors, estimate, calibration, frame] = report;
-  std::string out = "# Calibration by `roomgraph calibrate`, for `roomgraph run --calibration`.\n# Frame: " + frame +
-                    ".\n# Poses: x, y, z (m), yaw, pitch, roll (deg). +-: one standard deviation.\n";
+  std::string out =
+      "# Calibration by `roomgraph calibrate`, for `roomgraph run --calibration`.\n# Frame: " + frame +
+      ".\n# Poses: x, y, z (m), yaw, pitch, roll (deg). +-: one standard deviation.\n";
   if (sensors.robot_from_lidar)
     out += "\n[sensor " + sensors.lidar_label + "]\n" + sigmas(estimate, {kLidarX, kLidarY, kLidarYaw}) +
            "pose = " + poseText(calibration.poses.at(sensors.lidar_label)) + "\n";

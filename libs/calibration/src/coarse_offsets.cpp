@@ -32,7 +32,8 @@ TurnRate ratesOf(const std::vector<CameraStep>& steps, const ParameterVector& va
   return [rates](double t) -> std::optional<double> {
     constexpr double kGap_s = 1;
     const auto after = std::lower_bound(rates.begin(), rates.end(), std::make_pair(t, -1e9));
-    if (after == rates.begin() || after == rates.end() || after->first - (after - 1)->first > kGap_s) return std::nullopt;
+    if (after == rates.begin() || after == rates.end() || after->first - (after - 1)->first > kGap_s)
+      return std::nullopt;
     const auto& [t_a, rate_a] = *(after - 1);
     return rate_a + (after->second - rate_a) * (t - t_a) / (after->first - t_a);
   };

@@ -12,11 +12,12 @@ namespace roomgraph {
 namespace {
 
 constexpr int kBlocksAcross = 80;
-constexpr double kLeastValid = 0.6;                          // share of a block's pixels
-constexpr double kEdge_m = 0.03, kEdgeShare = 0.12;           // spread of depth within a block, and share of its depth
+constexpr double kLeastValid = 0.6;                  // share of a block's pixels
+constexpr double kEdge_m = 0.03, kEdgeShare = 0.12;  // spread of depth within a block, and share of its depth
 constexpr double kFloorThick_m = 0.02, kFloorThickPerM = 0.003;  // the latter times squared depth
 constexpr double kFarthestFloor_m = 4.2;
-const double kFloorFacing = std::cos(15 * kDegree);  // of its normal: feet of walls and furniture are no floor
+const double kFloorFacing =
+    std::cos(15 * kDegree);         // of its normal: feet of walls and furniture are no floor
 constexpr double kMostSlope = 0.4;  // of the normal of an upright surface
 constexpr std::size_t kLeastBlocks = 15;
 constexpr int kColumns = 3, kBands = 3;
@@ -75,8 +76,8 @@ bool isWhole(const Block& block) {
 
 std::optional<Eigen::Vector3d> normalAt(const BlockGrid& grid, int column, int row) {
   if (column < 1 || row < 1 || column + 1 >= grid.columns || row + 1 >= grid.rows) return std::nullopt;
-  const Block &left = grid.at(column - 1, row), &right = grid.at(column + 1, row), &above = grid.at(column, row - 1),
-              &below = grid.at(column, row + 1);
+  const Block &left = grid.at(column - 1, row), &right = grid.at(column + 1, row),
+              &above = grid.at(column, row - 1), &below = grid.at(column, row + 1);
   for (const Block* block : {&left, &right, &above, &below})
     if (!isWhole(*block)) return std::nullopt;
   const Eigen::Vector3d normal =
@@ -113,7 +114,8 @@ std::vector<DepthPatch> floorPatches(const BlockGrid& grid, const Plane& floor) 
 
 }  // namespace
 
-DepthView makeDepthView(const Frame& frame, const std::optional<Plane>& floor, const std::optional<HeightBand>& band) {
+DepthView makeDepthView(const Frame& frame, const std::optional<Plane>& floor,
+                        const std::optional<HeightBand>& band) {
   const BlockGrid grid = blocksOf(frame);
   DepthView out;
   out.t = frame.t;

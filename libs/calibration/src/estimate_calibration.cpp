@@ -13,15 +13,17 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kBeliefWidth = 15;   // of the former value, in units of what counts as unknown
-constexpr double kFrozen = 1e-3;      // of a direction that is not fixed, in the same units
+constexpr double kBeliefWidth = 15;  // of the former value, in units of what counts as unknown
+constexpr double kFrozen = 1e-3;     // of a direction that is not fixed, in the same units
+constexpr double kFirstFactor = 15;  // what the wrong calibration misses must not look like an outlier
 constexpr double kLeastFactor = 0.1, kMostFactor = 50;  // on nominal standard deviations
-constexpr double kPartly = 0.15, kUnfixed = 0.5;  // share of a parameter's axis that is not fixed
+constexpr double kPartly = 0.15, kUnfixed = 0.5;        // share of a parameter's axis that is not fixed
 const std::vector<MatchGate> kGates{{0.35, 0.35}, {0.2, 0.3}, {0.12, 0.25}, {0.08, 0.2}, {0.08, 0.2}};
 
 ParameterVector unknownFrom() {
   ParameterVector out;
-  for (int i = 0; i < kParameterCount; ++i) out[i] = parameterTraits()[static_cast<std::size_t>(i)].unknown_from;
+  for (int i = 0; i < kParameterCount; ++i)
+    out[i] = parameterTraits()[static_cast<std::size_t>(i)].unknown_from;
   return out;
 }
 
@@ -38,7 +40,8 @@ FormerBelief weakBelief(const CalibrationTask& task) {
 // Directions in units of what counts as unknown, unit vectors in columns.
 Eigen::MatrixXd unfixedDirections(const ParameterMatrix& covariance) {
   const ParameterVector unit = unknownFrom();
-  const ParameterMatrix scaled = unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
+  const ParameterMatrix scaled =
+      unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<ParameterMatrix> axes(scaled);
   int first = kParameterCount;
   while (first > 0 && axes.eigenvalues()[first - 1] > 1) --first;
@@ -52,7 +55,8 @@ FormerBelief frozen(const Eigen::MatrixXd& directions) {
 std::string inWords(const Eigen::VectorXd& direction) {
   std::string out;
   for (int i = 0; i < kParameterCount; ++i)
-    if (std::abs(direction[i]) > 0.3) out += (out.empty() ? "" : " with ") + std::string(parameterTraits()[static_cast<std::size_t>(i)].name);
+    if (std::abs(direction[i]) > 0.3)
+      out += (out.empty() ? "" : " with ") + std::string(parameterTraits()[static_cast<std::size_t>(i)].name);
   return out;
 }
 
@@ -72,20 +76,21 @@ void report(const CalibrationProblem& problem, const NoiseFactors& noise, Calibr
                       {"floor patches", problem.count(NoiseKind::kFloor)},
                       {"camera movements", problem.count(NoiseKind::kCameraTurn)},
                       {"wheel movements", problem.count(NoiseKind::kWheelForward)}};
-  const char* const names[kNoiseKinds] = {"wall",          "floor",      "camera turn", "camera movement",
+  const char* const names[kNoiseKinds] = {"wall",           "floor",       "camera turn", "camera movement",
                                           "wheels forward", "wheels side", "wheels turn"};
   for (std::size_t k = 0; k < kNoiseKinds; ++k) out.noise[names[k]] = noise[k];
 }
 
 }  // namespace
 
-CalibrationEstimate estimateCalibration(const CalibrationTask& task, const std::function<void(double)>& progress) {
+CalibrationEstimate estimateCalibration(const CalibrationTask& task,
+                                        const std::function<void(double)>& progress) {
   CalibrationEstimate out;
   out.before = task.before;
   ParameterVector values = task.before;
   addCoarseOffsets(task, values);
   NoiseFactors noise;
-  noise.fill(1);
+  noise.fill(kFirstFactor);
   const FormerBelief weak = weakBelief(task);
   for (std::size_t round = 0; round < kGates.size(); ++round) {
     if (progress) progress(static_cast<double>(round) / static_cast<double>(kGates.size() + 1));
@@ -93,11 +98,13 @@ CalibrationEstimate estimateCalibration(const CalibrationTask& task, const std::
     problem.solve();
     values = problem.parameters();
     const auto scatter = problem.scatter();
-    for (std::size_t k = 0; k < kNoiseKinds; ++k) noise[k] = std::clamp(noise[k] * scatter[k], kLeastFactor, kMostFactor);
+    for (std::size_t k = 0; k < kNoiseKinds; ++k)
+      noise[k] = std::clamp(noise[k] * scatter[k], kLeastFactor, kMostFactor);
   }
   CalibrationProblem problem(task, noise, {weak}, values, kGates.back());
   report(problem, noise, out);
-  if (std::all_of(out.measurements.begin(), out.measurements.end(), [](const auto& kind) { return kind.second == 0; }))
+  if (std::all_of(out.measurements.begin(), out.measurements.end(),
+                  [](const auto& kind) { return kind.second == 0; }))
     throw RunError("nothing in the recording says anything about the calibration");
   problem.solve();
   const ParameterMatrix covariance = problem.covariance();

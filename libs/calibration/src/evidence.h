@@ -10,14 +10,14 @@
 
 namespace roomgraph {
 
-/// Straight piece of wall in a scan: normal . p = distance for p in the lidar's horizontal frame, the normal towards the
-/// lidar.
+/// Straight piece of wall in a scan: normal . p = distance for p in the lidar's horizontal frame, the normal
+/// towards the lidar.
 struct ScanWall {
-  Eigen::Vector2d normal, along;       ///< unit vectors; along: normal turned by +90 deg
-  double distance_m = 0;               ///< not positive
-  double from_m = 0, to_m = 0;         ///< extent, as along . p
-  double middle_m = 0;                 ///< mean of along . p of the returns
-  double sigma_m = 0, spread_m = 0;    ///< of the distance at the middle; standard deviation of along . p
+  Eigen::Vector2d normal, along;         ///< unit vectors; along: normal turned by +90 deg
+  double distance_m = 0;                 ///< not positive
+  double from_m = 0, to_m = 0;           ///< extent, as along . p
+  double middle_m = 0;                   ///< mean of along . p of the returns
+  double sigma_m = 0, spread_m = 0;      ///< of the distance at the middle; standard deviation of along . p
   double sigmaAt(double along_m) const;  ///< of the distance there
 };
 
@@ -48,13 +48,13 @@ struct DepthView {
 
 /// Movement of the camera between two images by visual odometry.
 struct CameraStep {
-  double t_a = 0, t_b = 0;               ///< s
-  Pose3 a_from_b = Pose3::Identity();    ///< optical frames, in units of the recorded depth
-  double depth_m = 1;                    ///< of what was seen, median
+  double t_a = 0, t_b = 0;             ///< s
+  Pose3 a_from_b = Pose3::Identity();  ///< optical frames, in units of the recorded depth
+  double depth_m = 1;                  ///< of what was seen, median
 };
 
-/// The evidence of one recording. Paths: an unbroken stretch each. Those of the lidar are of its horizontal frame (its
-/// planar pose on the robot, as recorded) in the scan matcher's.
+/// The evidence of one recording. Paths: an unbroken stretch each. Those of the lidar are of its horizontal
+/// frame (its planar pose on the robot, as recorded) in the scan matcher's.
 struct RecordingEvidence {
   std::vector<PlanarPath> lidar, wheels;
   std::vector<WallScan> scans;

@@ -13,8 +13,8 @@ inline constexpr std::size_t kNoiseKinds = 7;
 /// On nominal standard deviations.
 using NoiseFactors = std::array<double, kNoiseKinds>;
 
-/// Of a movement by wheels against scan matching, forward and sideways (m) and of the turn (rad): of the latter a constant,
-/// of the former what grows like a random walk.
+/// Of a movement by wheels against scan matching, forward and sideways (m) and of the turn (rad): of the
+/// latter a constant, of the former what grows like a random walk.
 inline double forwardSigma(double length_m) {
   return std::hypot(0.003, 0.02 * std::sqrt(length_m));
 }

@@ -26,7 +26,8 @@ void PlanarPath::smooth() {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < size(); ++i) intervals.push_back(times_[i] - times_[i - 1]);
   spacing_s_ = std::max(kLeastSpacing_s, kSpacingPerPose * median(intervals));
-  const auto pieces = static_cast<std::size_t>(std::ceil((times_.back() - times_.front()) / spacing_s_ + 1e-9));
+  const auto pieces =
+      static_cast<std::size_t>(std::ceil((times_.back() - times_.front()) / spacing_s_ + 1e-9));
   controls_.assign(std::max<std::size_t>(1, pieces) + 3, {});
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX3d right = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(controls_.size()), 3);

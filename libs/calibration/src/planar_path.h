@@ -42,9 +42,9 @@ double scalarOf(const ceres::Jet<T, N>& value) {
   return value.a;
 }
 
-/// One unbroken stretch of a source of planar poses, and a smooth curve through it: a uniform cubic B-spline (Furgale,
-/// Barfoot and Sibley 2012). A curve that went through every pose would follow their noise, differently so between poses
-/// than at them, which would draw time offsets to one of the two.
+/// One unbroken stretch of a source of planar poses, and a smooth curve through it: a uniform cubic B-spline
+/// (Furgale, Barfoot and Sibley 2012). A curve that went through every pose would follow their noise,
+/// differently so between poses than at them, which would draw time offsets to one of the two.
 class PlanarPath {
  public:
   /// False when t is not after the last one. The angle is unwrapped.
@@ -75,8 +75,8 @@ class PlanarPath {
   template <class T>
   static std::array<T, 4> basis(const T& u) {
     const T v = 1.0 - u;
-    return {v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0, (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0,
-            u * u * u / 6.0};
+    return {v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
+            (3.0 * v * v * v - 6.0 * v * v + 4.0) / 6.0, u * u * u / 6.0};
   }
   std::size_t pieceOf(double t) const {
     const double piece = std::floor((t - times_.front()) / spacing_s_);

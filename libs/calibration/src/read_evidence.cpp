@@ -29,8 +29,8 @@ constexpr double kStepLeast_m = 0.02, kStepLeast_rad = 0.02;  // less is standin
 constexpr double kBand_m = 0.5;                               // of heights around the lidar's
 constexpr double kSamePose = 1e-4;
 
-// Walls alone place a scan: a movement that was expected would carry over its own lag. The floor may be far from where the
-// recorded pose has it.
+// Walls alone place a scan: a movement that was expected would carry over its own lag. The floor may be far
+// from where the recorded pose has it.
 const char* const kStageSettings =
     "[lidar]\nprior_per_m2 = 0\nprior_per_rad2 = 0\nweak_prior_per_m2 = 0\n"
     "[ground]\nmax_angle_error_rad = 0.2\nmax_height_error_m = 0.35\n";
@@ -45,7 +45,8 @@ std::shared_ptr<Interface> makeStage(const std::string& name, const std::string&
 
 class EvidenceReader {
  public:
-  EvidenceReader(const std::filesystem::path& file, SensorsBefore& sensors) : file_(file), sensors_(sensors) {}
+  EvidenceReader(const std::filesystem::path& file, SensorsBefore& sensors)
+      : file_(file), sensors_(sensors) {}
 
   void add(const Scan& scan) {
     keep(sensors_.robot_from_lidar, scan.robot_from_lidar, sensors_.lidar_label, scan.sensor_label, "lidar");
@@ -66,7 +67,8 @@ class EvidenceReader {
   }
 
   void add(const Frame& frame) {
-    keep(sensors_.robot_from_camera, frame.robot_from_camera, sensors_.camera_label, frame.sensor_label, "camera");
+    keep(sensors_.robot_from_camera, frame.robot_from_camera, sensors_.camera_label, frame.sensor_label,
+         "camera");
     if (!frame.hasDepth()) return;
     sensors_.depth = true;
     tracker_->track(frame, {});
@@ -86,8 +88,8 @@ class EvidenceReader {
   }
 
  private:
-  void keep(std::optional<Pose3>& known, const Pose3& pose, std::string& known_label, const std::string& label,
-            const std::string& kind) {
+  void keep(std::optional<Pose3>& known, const Pose3& pose, std::string& known_label,
+            const std::string& label, const std::string& kind) {
     if (!known) {
       known = pose;
       known_label = label;
@@ -108,7 +110,8 @@ class EvidenceReader {
       return std::hypot(step.x, step.y) > kViewSpacing_m || std::abs(step.yaw) > kViewSpacing_rad;
     };
     const bool known = !evidence_.lidar.empty() || !evidence_.wheels.empty();
-    if (view_t_ && known && !moved(view_lidar_, lidar_now_) && !moved(view_wheels_, wheels_now_)) return false;
+    if (view_t_ && known && !moved(view_lidar_, lidar_now_) && !moved(view_wheels_, wheels_now_))
+      return false;
     view_t_ = t;
     view_lidar_ = lidar_now_;
     view_wheels_ = wheels_now_;
@@ -164,8 +167,8 @@ Pose3 depthPoseOf(const std::filesystem::path& file, const std::string& label) {
 
 }  // namespace
 
-RecordingEvidence readEvidence(const std::filesystem::path& recording, const ReadOptions& read, SensorsBefore& sensors,
-                               const std::function<void(double)>& progress) {
+RecordingEvidence readEvidence(const std::filesystem::path& recording, const ReadOptions& read,
+                               SensorsBefore& sensors, const std::function<void(double)>& progress) {
   lidar::registerClasses();
   tracking::registerClasses();
   proposals::registerClasses();

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t kLeastReturns = 8;
 constexpr double kLeastLength_m = 0.4;
-constexpr double kGap_m = 0.12, kGapShare = 0.12;       // between neighbours: of the range, but no less
+constexpr double kGap_m = 0.12, kGapShare = 0.12;      // between neighbours: of the range, but no less
 constexpr double kThick_m = 0.05, kThickShare = 0.04;  // farthest return from a line that is one piece
-constexpr std::size_t kLeftOut = 1;                     // returns at each end, which may be on two surfaces
+constexpr std::size_t kLeftOut = 1;                    // returns at each end, which may be on two surfaces
 
 using Points = std::vector<Eigen::Vector2d>;
 using Range = std::pair<std::size_t, std::size_t>;  // from, to (not included)
@@ -96,7 +96,8 @@ std::vector<ScanWall> findScanWalls(const std::vector<Eigen::Vector2d>& returns)
 std::vector<Eigen::Vector2d> horizontalReturns(const Scan& scan) {
   const Pose2 lidar_from_robot = planarPart(scan.robot_from_lidar).inverse();
   std::vector<Eigen::Vector2d> out;
-  for (const auto& point : scan.pointsInRobot()) out.push_back(lidar_from_robot * Eigen::Vector2d(point.head<2>()));
+  for (const auto& point : scan.pointsInRobot())
+    out.push_back(lidar_from_robot * Eigen::Vector2d(point.head<2>()));
   return out;
 }
 

@@ -13,32 +13,35 @@
 
 namespace roomgraph {
 
-/// Movement of the robot by its wheels from one reading over others to a last one, against that of the lidar. The times
-/// are those of readings: of movements with independent errors, those in between would share some.
+/// Movement of the robot by its wheels from one reading over others to a last one, against that of the lidar.
+/// The times are those of readings: of movements with independent errors, those in between would share some.
 struct WheelMovement {
   const PlanarPath* lidar;
   double t_a, t_b;
   std::vector<PlanarValues<double>> read;  ///< from reading to reading
 
-  /// Lidar minus wheels: forward, sideways, turn.
+  /// Lidar minus wheels: forward, sideways, turn. `offset_s` is added to the stamps of the wheels.
   template <class T>
-  PlanarValues<T> difference(const T* p) const {
+  PlanarValues<T> difference(const T* p, const T& offset_s) const {
     const PlanarValues<T> by_lidar =
-        robotMovement(p, planarBetween(lidar->at(T(t_a + p[kWheelTime])), lidar->at(T(t_b + p[kWheelTime]))));
+        robotMovement(p, planarBetween(lidar->at(T(t_a + offset_s)), lidar->at(T(t_b + offset_s))));
     PlanarValues<T> by_wheels{T(0), T(0), T(0)};
     for (const auto& step : read)
-      by_wheels = planarProduct(by_wheels, correctedMovement(p, PlanarValues<T>{T(step[0]), T(step[1]), T(step[2])}));
+      by_wheels =
+          planarProduct(by_wheels, correctedMovement(p, PlanarValues<T>{T(step[0]), T(step[1]), T(step[2])}));
     return {by_lidar[0] - by_wheels[0], by_lidar[1] - by_wheels[1], by_lidar[2] - by_wheels[2]};
   }
 };
 
+/// The time offset is the one found so far: of the speed that the curve has at an instant, noise is too large
+/// a part to tell it from.
 struct WheelMoveCost {
   WheelMovement movement;
-  double sigma_forward_m, sigma_side_m;
+  double offset_s, sigma_forward_m, sigma_side_m;
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    const auto off = movement.difference(p);
+    const auto off = movement.difference(p, T(offset_s));
     residuals[0] = off[0] / sigma_forward_m;
     residuals[1] = off[1] / sigma_side_m;
     return true;
@@ -51,7 +54,7 @@ struct WheelTurnCost {
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    residuals[0] = movement.difference(p)[2] / sigma_rad;
+    residuals[0] = movement.difference(p, p[kWheelTime])[2] / sigma_rad;
     return true;
   }
 };
@@ -69,7 +72,8 @@ struct WallCost {
     const PlanarValues<T> moved = planarBetween(scan, lidar->at(T(match.view_t + p[kCameraTime])));
     const Eigen::Matrix<T, 2, 1> in_view = inLidar(p, patchOnRobot(p, match.patch));
     const T c = cos(moved[2]), s = sin(moved[2]);
-    const T x = moved[0] + c * in_view.x() - s * in_view.y(), y = moved[1] + s * in_view.x() + c * in_view.y();
+    const T x = moved[0] + c * in_view.x() - s * in_view.y(),
+            y = moved[1] + s * in_view.x() + c * in_view.y();
     residuals[0] = (match.wall.normal.x() * x + match.wall.normal.y() * y - match.wall.distance_m) / sigma_m;
     return true;
   }
@@ -87,23 +91,30 @@ struct FloorCost {
   }
 };
 
-/// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that of the robot
-/// by the lidar, or by the wheels where there is no lidar. Turn (3), then movement (3), in the earlier camera's frame.
+/// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
+/// of the robot by the lidar, or by the wheels where there is no lidar. Turn (3), then movement (3), in the
+/// earlier camera's frame. Only the angle depends on the time offset, as in WheelMoveCost.
 struct CameraStepCost {
   const PlanarPath* reference;
   bool by_wheels;
   CameraStep step;
+  double offset_s;  ///< found so far
   double sigma_rad, sigma_m;
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    PlanarValues<T> robot =
-        planarBetween(reference->at(T(step.t_a + p[kCameraTime])), reference->at(T(step.t_b + p[kCameraTime])));
+    const PlanarValues<double> before = reference->at(step.t_a + offset_s),
+                               after = reference->at(step.t_b + offset_s);
+    PlanarValues<T> robot = planarBetween(PlanarValues<T>{T(before[0]), T(before[1]), T(before[2])},
+                                          PlanarValues<T>{T(after[0]), T(after[1]), T(after[2])});
+    robot[2] =
+        reference->at(T(step.t_b + p[kCameraTime]))[2] - reference->at(T(step.t_a + p[kCameraTime]))[2];
     robot = by_wheels ? correctedMovement(p, robot) : robotMovement(p, robot);
     const Matrix3T<T> mounted = cameraRotation(p);
     const Vector3T<T> place = cameraPlace(p), moved(robot[0], robot[1], T(0));
     const Matrix3T<T> turn = Eigen::AngleAxis<T>(robot[2], Vector3T<T>::UnitZ()).toRotationMatrix();
-    const Matrix3T<T> off = step.a_from_b.linear().transpose().cast<T>() * mounted.transpose() * turn * mounted;
+    const Matrix3T<T> off =
+        step.a_from_b.linear().transpose().cast<T>() * mounted.transpose() * turn * mounted;
     const T scale = p[kDepthScale] + p[kDepthBias] / step.depth_m;
     const Vector3T<T> gap =
         mounted.transpose() * (turn * place + moved - place) - scale * step.a_from_b.translation().cast<T>();

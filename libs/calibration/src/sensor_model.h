@@ -53,7 +53,8 @@ template <class T>
 Eigen::Matrix<T, 2, 1> inLidar(const T* p, const Vector3T<T>& on_robot) {
   using std::cos;
   using std::sin;
-  const T c = cos(p[kLidarYaw]), s = sin(p[kLidarYaw]), x = on_robot.x() - p[kLidarX], y = on_robot.y() - p[kLidarY];
+  const T c = cos(p[kLidarYaw]), s = sin(p[kLidarYaw]), x = on_robot.x() - p[kLidarX],
+          y = on_robot.y() - p[kLidarY];
   return {c * x + s * y, c * y - s * x};
 }
 
@@ -78,7 +79,8 @@ PlanarValues<T> correctedMovement(const T* p, const PlanarValues<T>& read) {
   using std::cos;
   using std::sin;
   const T half = read[2] / 2.0;
-  const T along = cos(half) * read[0] + sin(half) * read[1], aside = cos(half) * read[1] - sin(half) * read[0];
+  const T along = cos(half) * read[0] + sin(half) * read[1],
+          aside = cos(half) * read[1] - sin(half) * read[0];
   const T length = p[kWheelScale] * along / chordShare(read[2]);
   const T turn = p[kTurnScale] * read[2] + p[kHeadingDrift] * length;
   const T chord = length * chordShare(turn), new_aside = p[kWheelScale] * aside;

@@ -36,7 +36,8 @@ Likeness likeness(const TurnRate& reference, const TurnRate& moved, double from,
 
 }  // namespace
 
-std::optional<double> turnRateOffset(const TurnRate& reference, const TurnRate& moved, double from, double to) {
+std::optional<double> turnRateOffset(const TurnRate& reference, const TurnRate& moved, double from,
+                                     double to) {
   const int steps = static_cast<int>(std::lround(kLargest_s / kStep_s));
   std::vector<Likeness> found;
   std::size_t best = 0;
@@ -44,10 +45,12 @@ std::optional<double> turnRateOffset(const TurnRate& reference, const TurnRate& 
     found.push_back(likeness(reference, moved, from, to, i * kStep_s));
     if (found.back().correlation > found[best].correlation) best = found.size() - 1;
   }
-  if (found[best].correlation < kLeastCorrelation || found[best].rate_rad_s < kLeastRate_rad_s) return std::nullopt;
+  if (found[best].correlation < kLeastCorrelation || found[best].rate_rad_s < kLeastRate_rad_s)
+    return std::nullopt;
   double offset = (static_cast<int>(best) - steps) * kStep_s;
   if (best > 0 && best + 1 < found.size()) {
-    const double a = found[best - 1].correlation, b = found[best].correlation, c = found[best + 1].correlation;
+    const double a = found[best - 1].correlation, b = found[best].correlation,
+                 c = found[best + 1].correlation;
     if (a - 2 * b + c < 0) offset += kStep_s * 0.5 * (a - c) / (a - 2 * b + c);
   }
   return offset;

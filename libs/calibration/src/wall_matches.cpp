@@ -14,59 +14,69 @@ namespace {
 
 constexpr double kLongestWait_s = 0.15;
 constexpr double kViewMargin_s = 0.3;
-constexpr double kSameHeight_m = 0.25;         // of heights around the lidar's
+constexpr double kSameHeight_m = 0.25;   // of heights around the lidar's
 constexpr double kGatePerM2 = 0.004;     // by which gates are wider at depth z, times squared z
 constexpr double kEnd_m = 0.05;          // of a wall's extent that is left out at each end
 constexpr std::size_t kLeastCells = 12;  // of a match
-constexpr double kTwoParts_m = 0.5;   // from which on a wall gives two matches
-constexpr double kOutlierCell = 3;           // deviations
+constexpr double kTwoParts_m = 0.5;      // from which on a wall gives two matches
+constexpr double kOutlierCell = 3;       // deviations
 
 struct SeenCell {
   const DepthCell* cell;
   double off_m, along_m;
 };
 
+// Mean of cells on a wall.
+struct WallPart {
+  DepthPatch patch;
+  double along_m = 0;
+};
+
 // Keeps the cells that are about as far off as the others.
-std::optional<DepthPatch> meanOf(const std::vector<SeenCell>& cells) {
+std::optional<WallPart> meanOf(const std::vector<SeenCell>& cells) {
   if (cells.size() < kLeastCells) return std::nullopt;
   std::vector<double> off, deviations;
   for (const auto& cell : cells) off.push_back(cell.off_m);
   const double middle = median(off);
   for (const double value : off) deviations.push_back(std::abs(value - middle));
   const double most = std::max(0.01, kOutlierCell * 1.4826 * median(deviations));
-  DepthPatch out;
+  WallPart out;
   double count = 0;
   for (const auto& cell : cells) {
     if (std::abs(cell.off_m - middle) > most) continue;
-    out.point += cell.cell->patch.point;
-    out.ray += cell.cell->patch.ray;
+    out.patch.point += cell.cell->patch.point;
+    out.patch.ray += cell.cell->patch.ray;
+    out.along_m += cell.along_m;
     ++count;
   }
   if (count < static_cast<double>(kLeastCells)) return std::nullopt;
-  out.point /= count;
-  out.ray /= count;
+  out.patch.point /= count;
+  out.patch.ray /= count;
+  out.along_m /= count;
   return out;
 }
 
-std::vector<DepthPatch> partsOf(std::vector<SeenCell> cells) {
-  std::vector<DepthPatch> out;
+std::vector<WallPart> partsOf(std::vector<SeenCell> cells) {
+  std::vector<WallPart> out;
   if (cells.empty()) return out;
   std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.along_m < b.along_m; });
   const double length = cells.back().along_m - cells.front().along_m;
   const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
   const bool halves = length >= kTwoParts_m;
-  for (const auto& part : halves ? std::vector<std::vector<SeenCell>>{{cells.begin(), middle}, {middle, cells.end()}}
-                                 : std::vector<std::vector<SeenCell>>{cells})
+  for (const auto& part :
+       halves ? std::vector<std::vector<SeenCell>>{{cells.begin(), middle}, {middle, cells.end()}}
+              : std::vector<std::vector<SeenCell>>{cells})
     if (const auto mean = meanOf(part)) out.push_back(*mean);
   return out;
 }
 
 const WallScan* nearestScan(const std::vector<WallScan>& scans, double t) {
-  const auto after =
-      std::lower_bound(scans.begin(), scans.end(), t, [](const WallScan& scan, double at) { return scan.t < at; });
+  const auto after = std::lower_bound(scans.begin(), scans.end(), t,
+                                      [](const WallScan& scan, double at) { return scan.t < at; });
   const WallScan* best = nullptr;
   for (auto it = after == scans.begin() ? after : after - 1; it != scans.end() && it <= after; ++it)
-    if (std::abs(it->t - t) < kLongestWait_s && (!best || std::abs(it->t - t) < std::abs(best->t - t))) best = &*it;
+    if (std::abs(it->t - t) < kLongestWait_s && (!best || std::abs(it->t - t) < std::abs(best->t - t)))
+      best = &*it;
   return best;
 }
 
@@ -97,9 +107,10 @@ void matchView(const DepthView& view, const WallScan& scan, const PlanarValues<d
     SeenCell seen{&cell, gate.distance_m + kGatePerM2 * z * z, 0};
     for (std::size_t i = 0; i < scan.walls.size(); ++i) {
       const ScanWall& wall = scan.walls[i];
-      const double off = wall.normal.dot(placed.point) - wall.distance_m, along = wall.along.dot(placed.point);
-      if (std::abs(off) >= std::abs(seen.off_m) || along < wall.from_m + kEnd_m || along > wall.to_m - kEnd_m ||
-          wall.normal.dot(placed.normal) < least_cosine)
+      const double off = wall.normal.dot(placed.point) - wall.distance_m,
+                   along = wall.along.dot(placed.point);
+      if (std::abs(off) >= std::abs(seen.off_m) || along < wall.from_m + kEnd_m ||
+          along > wall.to_m - kEnd_m || wall.normal.dot(placed.normal) < least_cosine)
         continue;
       seen.off_m = off;
       seen.along_m = along;
@@ -108,7 +119,8 @@ void matchView(const DepthView& view, const WallScan& scan, const PlanarValues<d
     if (best) of_wall[*best].push_back(seen);
   }
   for (std::size_t i = 0; i < of_wall.size(); ++i)
-    for (const DepthPatch& patch : partsOf(of_wall[i])) out.push_back({0, scan.t, view.t, scan.walls[i], patch});
+    for (const WallPart& part : partsOf(of_wall[i]))
+      out.push_back({0, scan.t, view.t, scan.walls[i], scan.walls[i].sigmaAt(part.along_m), part.patch});
 }
 
 }  // namespace
@@ -122,7 +134,8 @@ std::vector<WallMatch> matchWalls(const RecordingEvidence& evidence, const Param
     const PlanarPath* path = scan ? pathAt(evidence.lidar, t, kViewMargin_s) : nullptr;
     if (!path || !path->covers(scan->t, 0)) continue;
     const std::size_t before = out.size();
-    matchView(view, *scan, planarBetween(path->at(scan->t), path->at(t)), parameters.data(), lidar_z_m, gate, out);
+    matchView(view, *scan, planarBetween(path->at(scan->t), path->at(t)), parameters.data(), lidar_z_m, gate,
+              out);
     for (std::size_t i = before; i < out.size(); ++i)
       out[i].path = static_cast<std::size_t>(path - evidence.lidar.data());
   }

@@ -51,7 +51,8 @@ void readSensor(const IniEntry& entry, const std::string& label, Calibration& ou
   }
   double unused = 0;
   const ParameterInfo offset = within(-kLongestOffset_s, kLongestOffset_s);
-  if (entry.key != "time_offset_s") readNumber(entry, {{"pose", {&unused, {}}}, {"time_offset_s", {&unused, offset}}});
+  if (entry.key != "time_offset_s")
+    readNumber(entry, {{"pose", {&unused, {}}}, {"time_offset_s", {&unused, offset}}});
   readNumber(entry, {{"time_offset_s", {&out.corrections.time_offsets_s[label], offset}}});
 }
 
@@ -82,7 +83,8 @@ Calibration readCalibration(const std::filesystem::path& file) {
   return out;
 }
 
-// On an arc the chord keeps its direction relative to half the turn; both follow from the arc's own length and angle.
+// On an arc the chord keeps its direction relative to half the turn; both follow from the arc's own length
+// and angle.
 Pose2 corrected(const Pose2& movement, const WheelCorrection& correction) {
   const auto chordShare = [](double angle) {
     return std::abs(angle) < 1e-6 ? 1 : std::sin(angle / 2) / (angle / 2);

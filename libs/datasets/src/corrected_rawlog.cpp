@@ -32,7 +32,8 @@ using mrpt::obs::CObservation3DRangeScan;
 class ImageCompression {
  public:
   explicit ImageCompression(std::optional<int> jpeg_quality)
-      : off_(mrpt::img::CImage::DISABLE_JPEG_COMPRESSION()), quality_(mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY()) {
+      : off_(mrpt::img::CImage::DISABLE_JPEG_COMPRESSION()),
+        quality_(mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY()) {
     mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(!jpeg_quality);
     if (jpeg_quality) mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(*jpeg_quality);
   }
@@ -55,16 +56,20 @@ void embedImages(CObservation3DRangeScan& images) {
   if (images.hasRangeImage && rangeImageIsInAFile(images)) images.rangeImage_forceResetExternalStorage();
 }
 
-void correctDepth(CObservation3DRangeScan& images, const DepthCorrection& depth, const std::filesystem::path& input) {
+void correctDepth(CObservation3DRangeScan& images, const DepthCorrection& depth,
+                  const std::filesystem::path& input) {
   if (!images.hasRangeImage || depth == DepthCorrection{}) return;
   if (!images.range_is_depth && depth.bias_m != 0)
-    throw RunError(input.string() + ": '" + images.sensorLabel +
-                   "' recorded ranges along rays, to which a bias of depth cannot be added; use the calibration file");
+    throw RunError(
+        input.string() + ": '" + images.sensorLabel +
+        "' recorded ranges along rays, to which a bias of depth cannot be added; use the calibration file");
   images.rangeUnits *= static_cast<float>(depth.scale);
   const auto step = static_cast<int>(std::lround(depth.bias_m / images.rangeUnits));
-  for (auto* value = images.rangeImage.data(); value != images.rangeImage.data() + images.rangeImage.size(); ++value)
+  for (auto* value = images.rangeImage.data(); value != images.rangeImage.data() + images.rangeImage.size();
+       ++value)
     if (*value > 0)
-      *value = static_cast<std::uint16_t>(std::clamp(*value + step, 0, int{std::numeric_limits<std::uint16_t>::max()}));
+      *value = static_cast<std::uint16_t>(
+          std::clamp(*value + step, 0, int{std::numeric_limits<std::uint16_t>::max()}));
   images.hasPoints3D = false;
 }
 

@@ -11,9 +11,9 @@ namespace roomgraph {
 namespace {
 
 constexpr double kSameTime_s = 0.05;
-constexpr double kHeight_m = 0.1;         // above and below the lidar's
+constexpr double kHeight_m = 0.1;  // above and below the lidar's
 constexpr double kAboveFloor_m = 0.1;
-constexpr double kFarthestPoint_m = 3.5;   // farther depth is too noisy
+constexpr double kFarthestPoint_m = 3.5;  // farther depth is too noisy
 constexpr double kOtherSurface_m = 0.5;   // what is so far off is something that the lidar did not see
 constexpr double kNeighbours_m = 0.3;     // between returns on one surface
 constexpr std::size_t kLeastCompared = 200;
@@ -50,7 +50,8 @@ void ScanAgreement::compare() {
     double nearest = kOtherSurface_m;
     for (std::size_t i = 1; i < scan_->points.size(); ++i) {
       const Eigen::Vector2d a = scan_->points[i - 1].head<2>(), b = scan_->points[i].head<2>();
-      if ((a - b).squaredNorm() < kNeighbours_m * kNeighbours_m) nearest = std::min(nearest, toSegment(p, a, b));
+      if ((a - b).squaredNorm() < kNeighbours_m * kNeighbours_m)
+        nearest = std::min(nearest, toSegment(p, a, b));
     }
     if (nearest < kOtherSurface_m) distances_.push_back(nearest);
   }

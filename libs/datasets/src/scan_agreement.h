@@ -10,8 +10,8 @@
 
 namespace roomgraph {
 
-/// How far points of the depth images, about as high as the lidar, lie from the surfaces that it saw at nearly the same
-/// time. In the order of the file.
+/// How far points of the depth images, about as high as the lidar, lie from the surfaces that it saw at
+/// nearly the same time. In the order of the file.
 class ScanAgreement {
  public:
   void addScan(const Scan& scan);

@@ -17,7 +17,8 @@ namespace roomgraph {
 /// Sensors of the recordings, as they were recorded.
 struct SensorsBefore {
   std::string camera_label, lidar_label;
-  std::optional<Pose3> robot_from_lidar, robot_from_camera;  ///< the latter of the colour camera, optical axes
+  std::optional<Pose3> robot_from_lidar,
+      robot_from_camera;                       ///< the latter of the colour camera, optical axes
   Pose3 robot_from_depth = Pose3::Identity();  ///< MRPT's sensorPose of the camera's records, x forward
   bool depth = false, wheels = false;
 };
@@ -32,9 +33,10 @@ struct CalibrationReport {
 /// What is being done, and the share of it that is done.
 using CalibrationProgress = std::function<void(const std::string& what, double share)>;
 
-/// Reads the recordings, which must be of the same sensors in the same places. `read`: chosen sensors, and poses to begin
-/// with. Throws InputError or ConfigError like RawlogReader, InputError when a recording has other sensors or moves
-/// them on the robot, RunError when nothing in the recordings says anything. `progress` may throw to end it.
+/// Reads the recordings, which must be of the same sensors in the same places. `read`: chosen sensors, and
+/// poses to begin with. Throws InputError or ConfigError like RawlogReader, InputError when a recording has
+/// other sensors or moves them on the robot, RunError when nothing in the recordings says anything.
+/// `progress` may throw to end it.
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
                             const CalibrationProgress& progress = nullptr);
 

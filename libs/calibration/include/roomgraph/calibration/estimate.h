@@ -13,10 +13,10 @@
 namespace roomgraph {
 
 enum class Knowledge {
-  kFixed,     ///< by the data
-  kPartly,    ///< only together with other parameters
-  kUnfixed,   ///< nothing in the data says it: as it was before
-  kHeld       ///< not asked for, or given by the choice of frame: as it was before
+  kFixed,    ///< by the data
+  kPartly,   ///< only together with other parameters
+  kUnfixed,  ///< nothing in the data says it: as it was before
+  kHeld      ///< not asked for, or given by the choice of frame: as it was before
 };
 
 struct CalibrationEstimate {
@@ -26,8 +26,8 @@ struct CalibrationEstimate {
   std::array<Knowledge, kParameterCount> knowledge{};
   /// Combinations of parameters about which the data say nothing, in words.
   std::vector<std::string> unfixed;
-  std::map<std::string, int> measurements;   ///< used, by kind
-  std::map<std::string, double> noise;       ///< by kind: scatter over what is usual
+  std::map<std::string, int> measurements;  ///< used, by kind
+  std::map<std::string, double> noise;      ///< by kind: scatter over what is usual
   double sigma(int parameter) const { return std::sqrt(covariance(parameter, parameter)); }
 };
 

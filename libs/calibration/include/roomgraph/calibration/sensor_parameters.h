@@ -8,9 +8,9 @@
 
 namespace roomgraph {
 
-/// Places in the vector of parameters. Poses are robot_from_sensor, of the camera with x forward (MRPT's axes, at the
-/// optical centre of the colour camera): m, rad. Time offsets are added to stamps, s; that of the lidar (of the wheels
-/// where there is no lidar) is zero.
+/// Places in the vector of parameters. Poses are robot_from_sensor, of the camera with x forward (MRPT's
+/// axes, at the optical centre of the colour camera): m, rad. Time offsets are added to stamps, s; that of
+/// the lidar (of the wheels where there is no lidar) is zero.
 enum ParameterIndex {
   kLidarX,
   kLidarY,

@@ -10,8 +10,8 @@
 
 namespace roomgraph {
 
-/// Correction of wheel odometry. Of a movement along an arc of length s (m) and angle a (rad), the length becomes
-/// scale * s and the angle turn_scale * a + drift_rad_m * scale * s.
+/// Correction of wheel odometry. Of a movement along an arc of length s (m) and angle a (rad), the length
+/// becomes scale * s and the angle turn_scale * a + drift_rad_m * scale * s.
 struct WheelCorrection {
   double scale = 1, turn_scale = 1;
   double drift_rad_m = 0;  ///< wheels of unequal size
@@ -39,9 +39,10 @@ struct Calibration {
   RecordCorrections corrections;
 };
 
-/// Reads an INI file with sections [sensor LABEL] (pose = x,y,z,yaw,pitch,roll in m and deg; time_offset_s), [wheels]
-/// (scale, turn_scale, drift_rad_m, time_offset_s) and [depth] (scale, bias_m), all optional. Throws InputError when it
-/// cannot be read, ConfigError with file and line for an unknown section or key and for a value out of range.
+/// Reads an INI file with sections [sensor LABEL] (pose = x,y,z,yaw,pitch,roll in m and deg; time_offset_s),
+/// [wheels] (scale, turn_scale, drift_rad_m, time_offset_s) and [depth] (scale, bias_m), all optional. Throws
+/// InputError when it cannot be read, ConfigError with file and line for an unknown section or key and for a
+/// value out of range.
 Calibration readCalibration(const std::filesystem::path& file);
 
 /// A movement of the robot by wheel odometry, corrected.
