@@ -43,7 +43,7 @@ TEST(EstimateCalibration, FindsTheTruthInExactData) {
 }
 
 TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
-  constexpr int kSeeds = 12;
+  constexpr int kSeeds = 8;
   const ParameterVector truth = trueParameters();
   ParameterVector squares = ParameterVector::Zero();
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -61,10 +61,10 @@ TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
     EXPECT_NEAR(estimate.after[kCameraTime], truth[kCameraTime], 0.003) << seed;
   }
   for (int i = 0; i < kParameterCount; ++i) {
-    // The mean of twelve chi squares is below 2.75 in 999 of 1000 cases. The covariance is on the safe side
+    // The mean of eight chi squares is below 3.3 in 999 of 1000 cases. The covariance is on the safe side
     // where errors of neighbouring measurements cancel, so that the lower bound is loose.
     EXPECT_GT(squares[i], 0.1) << parameterTraits()[static_cast<std::size_t>(i)].name;
-    EXPECT_LT(squares[i], 2.75) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_LT(squares[i], 3.3) << parameterTraits()[static_cast<std::size_t>(i)].name;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(EstimateCalibration, WithoutTurnsPlacesStayAsTheyWere) {
   EXPECT_THAT(estimate.unfixed, Contains(HasSubstr("wheel turn scale")));
   // Straight ahead shows where ahead is, and the floor is seen all the same.
   EXPECT_TRUE(is(estimate, kLidarYaw, Knowledge::kFixed));
-  EXPECT_NEAR(estimate.after[kLidarYaw], trueParameters()[kLidarYaw], 0.3 * kDegree);
+  EXPECT_NEAR(estimate.after[kLidarYaw], trueParameters()[kLidarYaw], 4 * estimate.sigma(kLidarYaw));
   EXPECT_NEAR(estimate.after[kCameraPitch], trueParameters()[kCameraPitch], 0.3 * kDegree);
 }
 
@@ -96,19 +96,21 @@ TEST(EstimateCalibration, WithoutCameraWheelsAndLidarAreCalibrated) {
     EXPECT_NEAR(estimate.after[i], trueParameters()[i], 0.05 * tolerance(i)) << i;
 }
 
-TEST(EstimateCalibration, WithoutLidarWheelsAndCameraAreCalibrated) {
-  // Clock and lengths are those of the wheels and of the depth images.
-  ParameterVector truth = trueParameters(), before = wrongParameters();
-  truth[kWheelTime] = 0;
+TEST(EstimateCalibration, TheFloorAloneGivesHeightPitchAndRoll) {
+  ParameterVector truth = trueParameters();
   truth[kDepthScale] = 1;
-  MadeUpDrive drive({.lidar = false}, truth);
-  auto task = drive.task(before);
-  for (const int i : {kLidarX, kLidarY, kLidarYaw, kWheelTime, kDepthScale})
-    task.held.set(static_cast<std::size_t>(i));
+  MadeUpDrive drive({.lidar = false, .wheels = false, .steps = false}, truth);
+  auto task = drive.task();
+  task.held.set();
+  for (const int i : {kCameraZ, kCameraPitch, kCameraRoll, kDepthBias})
+    task.held.reset(static_cast<std::size_t>(i));
+  // Which way the camera looks is not told by the floor; pitch and roll are those of its recorded direction.
+  task.before[kCameraYaw] = truth[kCameraYaw];
   const auto estimate = estimateCalibration(task);
-  for (const int i : {kCameraYaw, kCameraPitch, kCameraRoll, kCameraTime, kWheelScale, kTurnScale, kCameraZ})
-    EXPECT_NEAR(estimate.after[i], truth[i], 0.2 * tolerance(i))
+  for (const int i : {kCameraZ, kCameraPitch, kCameraRoll})
+    EXPECT_NEAR(estimate.after[i], truth[i], 0.05 * tolerance(i))
         << parameterTraits()[static_cast<std::size_t>(i)].name;
+  EXPECT_EQ(estimate.after[kCameraX], task.before[kCameraX]);
 }
 
 TEST(EstimateCalibration, NothingSaysNothing) {

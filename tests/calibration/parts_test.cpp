@@ -215,10 +215,7 @@ TEST(SensorCosts, DerivativesAreThoseOfFiniteDifferences) {
                         new FloorCost{evidence.views[3].floor.at(1), 0.01}),
                     {wrong});
   expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
-                        new CameraStepCost{&evidence.lidar[0], false, evidence.steps[4], 0.02, 0.1, 0.1}),
-                    {wrong});
-  expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
-                        new CameraStepCost{&evidence.wheels[0], true, evidence.steps[4], 0.02, 0.1, 0.1}),
+                        new CameraStepCost{&evidence.lidar[0], evidence.steps[4], 0.02, 0.1, 0.1}),
                     {wrong});
   const WheelMovement movement = movementOf(evidence, 40, 64);
   expectDerivatives(ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(
@@ -247,7 +244,7 @@ TEST(SensorCosts, AreZeroAtTheTruth) {
     }
   for (const auto& step : evidence.steps) {
     std::array<double, 6> off{};
-    CameraStepCost{&evidence.lidar[0], false, step, p[kCameraTime], 1, 1}(p.data(), off.data());
+    CameraStepCost{&evidence.lidar[0], step, p[kCameraTime], 1, 1}(p.data(), off.data());
     for (const double value : off) EXPECT_NEAR(value, 0, 1e-3);
   }
   for (std::size_t i = 10; i + 34 < evidence.wheels[0].size(); i += 6)

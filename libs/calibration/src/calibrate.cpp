@@ -38,14 +38,14 @@ std::bitset<kParameterCount> heldOf(const SensorsBefore& sensors) {
   const bool lidar = sensors.robot_from_lidar.has_value(), wheels = sensors.wheels;
   if (!lidar || !wheels) hold(kLidarX, kLidarYaw);
   if (!lidar || !wheels) hold(kWheelTime, kWheelTime);
-  if (!lidar) hold(kDepthScale, kDepthScale);  // else all lengths might shrink together
+  if (!lidar) hold(kDepthScale, kDepthScale);  // it would shrink with the camera's height
   if (!wheels) hold(kWheelScale, kHeadingDrift);
   if (!sensors.depth) {
     hold(kCameraX, kCameraTime);
     hold(kDepthScale, kDepthBias);
-    if (!lidar) hold(kWheelScale, kHeadingDrift);
   }
-  if (!lidar && !wheels) {
+  if (!lidar) {  // the floor alone
+    hold(kWheelScale, kHeadingDrift);
     hold(kCameraX, kCameraY);
     hold(kCameraYaw, kCameraYaw);
     hold(kCameraTime, kCameraTime);
@@ -62,10 +62,7 @@ std::string frameOf(const SensorsBefore& sensors) {
     return "without wheel odometry, the lidar's recorded place says where the robot's frame is; the clock is "
            "that of the "
            "lidar";
-  if (sensors.wheels)
-    return "the robot's frame and the clock are those of the wheel odometry; lengths are those of the depth "
-           "images";
-  return "without lidar and wheel odometry only the floor says something: height, pitch and roll of the "
+  return "without lidar only the floor says something: height, pitch and roll of the "
          "camera";
 }
 

@@ -56,16 +56,6 @@ std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, co
   return out;
 }
 
-ParameterMatrix inverseOnFree(const ParameterMatrix& matrix, const std::bitset<kParameterCount>& held) {
-  std::vector<int> free;
-  for (int i = 0; i < kParameterCount; ++i)
-    if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
-  const Eigen::MatrixXd inverse = Eigen::MatrixXd(matrix(free, free)).inverse();
-  ParameterMatrix out = ParameterMatrix::Zero();
-  out(free, free) = inverse;
-  return out;
-}
-
 }  // namespace
 
 CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise,
@@ -80,10 +70,12 @@ CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseF
     problem_.SetParameterBlockConstant(parameters_.data());
   else if (!constant.empty())
     problem_.SetManifold(parameters_.data(), new ceres::SubsetManifold(kParameterCount, constant));
-  for (const auto& belief : beliefs)
-    if (belief.directions.rows() > 0)
-      problem_.AddResidualBlock(new ceres::NormalPrior(belief.directions, task.before), nullptr,
-                                parameters_.data());
+  for (const auto& belief : beliefs) {
+    if (belief.directions.rows() == 0) continue;
+    problem_.AddResidualBlock(new ceres::NormalPrior(belief.directions, task.before), nullptr,
+                              parameters_.data());
+    belief_ += belief.directions.transpose() * belief.directions;
+  }
   for (std::size_t i = 0; i < task.evidence.size(); ++i) {
     const int index = static_cast<int>(i);
     addWheels(task.evidence[i], index);
@@ -126,15 +118,13 @@ void CalibrationProblem::addViews(const RecordingEvidence& recording, int index,
 }
 
 void CalibrationProblem::addSteps(const RecordingEvidence& recording, int index) {
-  const bool by_wheels = recording.lidar.empty();
   for (const CameraStep& step : recording.steps) {
     const double offset = parameters_[kCameraTime];
-    const PlanarPath* reference =
-        pathAt(by_wheels ? recording.wheels : recording.lidar, step.t_a + offset, kPathMargin_s);
+    const PlanarPath* reference = pathAt(recording.lidar, step.t_a + offset, kPathMargin_s);
     if (!reference || !reference->covers(step.t_b + offset, kPathMargin_s)) continue;
-    add(new ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(new CameraStepCost{
-            reference, by_wheels, step, offset, sigma(NoiseKind::kCameraTurn, kTurnSigma_rad),
-            sigma(NoiseKind::kCameraMove, kMoveSigma_m)}),
+    add(new ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
+            new CameraStepCost{reference, step, offset, sigma(NoiseKind::kCameraTurn, kTurnSigma_rad),
+                               sigma(NoiseKind::kCameraMove, kMoveSigma_m)}),
         index, step.t_b,
         {NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraMove,
          NoiseKind::kCameraMove, NoiseKind::kCameraMove});
@@ -181,7 +171,6 @@ ParameterMatrix CalibrationProblem::inverseInformation() {
 
 ParameterMatrix CalibrationProblem::covariance() {
   const ParameterMatrix inverse = inverseInformation();
-  ParameterMatrix of_blocks = ParameterMatrix::Zero();
   std::map<std::pair<int, long>, ParameterVector> gradients;
   for (const Block& block : blocks_) {
     std::array<double, 6> residuals{};
@@ -189,7 +178,6 @@ ParameterMatrix CalibrationProblem::covariance() {
     jacobian.setZero();
     double* rows = jacobian.data();
     problem_.EvaluateResidualBlock(block.id, true, nullptr, residuals.data(), &rows);
-    of_blocks += jacobian.transpose() * jacobian;
     auto [bin, is_new] =
         gradients.try_emplace({block.recording, std::lround(block.t / kBin_s)}, ParameterVector::Zero());
     bin->second += jacobian.transpose() * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(residuals.data());
@@ -202,8 +190,7 @@ ParameterMatrix CalibrationProblem::covariance() {
       const ParameterMatrix product = (1 - lag / (kLags + 1.0)) * gradient * other->second.transpose();
       scattered += lag == 0 ? product : ParameterMatrix(product + product.transpose());
     }
-  const ParameterMatrix information = inverseOnFree(inverse, task_.held);
-  ParameterMatrix out = inverse * (information - of_blocks + scattered) * inverse;
+  ParameterMatrix out = inverse * (belief_ + scattered) * inverse;
   // Few gradients scatter too little by chance: never less than what independent errors would leave.
   ParameterVector factors = ParameterVector::Ones();
   for (int i = 0; i < kParameterCount; ++i)

@@ -65,6 +65,7 @@ class CalibrationProblem {
   const CalibrationTask& task_;
   NoiseFactors noise_;
   ParameterVector parameters_;
+  ParameterMatrix belief_ = ParameterMatrix::Zero();  ///< information of the beliefs
   ceres::Problem problem_;
   std::vector<Block> blocks_;  ///< of measurements
 };

@@ -41,10 +41,10 @@ TurnRate ratesOf(const std::vector<CameraStep>& steps, const ParameterVector& va
 
 }  // namespace
 
-void addCoarseOffsets(const CalibrationTask& task, ParameterVector& values) {
+std::bitset<kParameterCount> addCoarseOffsets(const CalibrationTask& task, ParameterVector& values) {
   std::vector<double> camera, wheels;
   for (const auto& recording : task.evidence) {
-    const auto& reference = recording.lidar.empty() ? recording.wheels : recording.lidar;
+    const auto& reference = recording.lidar;
     if (reference.empty()) continue;
     const double from = reference.front().time(0), to = reference.back().time(reference.back().size() - 1);
     if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(recording.steps, values), from, to))
@@ -52,8 +52,15 @@ void addCoarseOffsets(const CalibrationTask& task, ParameterVector& values) {
     if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(recording.wheels), from, to))
       wheels.push_back(*offset);
   }
-  if (!camera.empty() && !task.held[kCameraTime]) values[kCameraTime] += median(camera);
-  if (!wheels.empty() && !task.held[kWheelTime]) values[kWheelTime] += median(wheels);
+  std::bitset<kParameterCount> unknown;
+  for (const auto& [offsets, parameter] : {std::pair(&camera, kCameraTime), std::pair(&wheels, kWheelTime)}) {
+    if (task.held[static_cast<std::size_t>(parameter)]) continue;
+    if (offsets->empty())
+      unknown.set(static_cast<std::size_t>(parameter));
+    else
+      values[parameter] += median(*offsets);
+  }
+  return unknown;
 }
 
 }  // namespace roomgraph

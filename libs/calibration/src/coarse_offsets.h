@@ -6,7 +6,8 @@
 
 namespace roomgraph {
 
-/// Adds what turn rates say of the time offsets of camera and wheels, where these are asked for.
-void addCoarseOffsets(const CalibrationTask& task, ParameterVector& values);
+/// Adds what turn rates say of the time offsets of camera and wheels, where these are asked for. Returns
+/// those about which they say nothing: too little turning.
+std::bitset<kParameterCount> addCoarseOffsets(const CalibrationTask& task, ParameterVector& values);
 
 }  // namespace roomgraph

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "roomgraph/core/order_statistics.h"
 #include "roomgraph/geometry/degree.h"
@@ -17,8 +18,9 @@ constexpr double kEdge_m = 0.03, kEdgeShare = 0.12;  // spread of depth within a
 constexpr double kFloorThick_m = 0.02, kFloorThickPerM = 0.003;  // the latter times squared depth
 constexpr double kFarthestFloor_m = 4.2;
 const double kFloorFacing =
-    std::cos(15 * kDegree);         // of its normal: feet of walls and furniture are no floor
-constexpr double kMostSlope = 0.4;  // of the normal of an upright surface
+    std::cos(15 * kDegree);  // of its normal: feet of walls and furniture are no floor
+constexpr double kBent_m = 0.02, kBentPerM2 = 0.01;  // of a surface, between blocks at both sides of one
+constexpr double kMostSlope = 0.4;                   // of the normal of an upright surface
 constexpr std::size_t kLeastBlocks = 15;
 constexpr int kColumns = 3, kBands = 3;
 constexpr std::array<double, kBands - 1> kBandEnds_m{1.5, 2.5};
@@ -80,6 +82,10 @@ std::optional<Eigen::Vector3d> normalAt(const BlockGrid& grid, int column, int r
               &above = grid.at(column, row - 1), &below = grid.at(column, row + 1);
   for (const Block* block : {&left, &right, &above, &below})
     if (!isWhole(*block)) return std::nullopt;
+  const Eigen::Vector3d& middle = grid.at(column, row).patch.point;
+  const double most_off = kBent_m + kBentPerM2 * middle.z() * middle.z();
+  for (const auto& [a, b] : {std::pair(&left, &right), std::pair(&above, &below)})
+    if (((a->patch.point + b->patch.point) / 2 - middle).norm() > most_off) return std::nullopt;
   const Eigen::Vector3d normal =
       (right.patch.point - left.patch.point).cross(below.patch.point - above.patch.point).normalized();
   return normal.dot(grid.at(column, row).patch.point) > 0 ? Eigen::Vector3d(-normal) : normal;

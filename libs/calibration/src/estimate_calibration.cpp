@@ -83,12 +83,15 @@ void report(const CalibrationProblem& problem, const NoiseFactors& noise, Calibr
 
 }  // namespace
 
-CalibrationEstimate estimateCalibration(const CalibrationTask& task,
+CalibrationEstimate estimateCalibration(const CalibrationTask& given,
                                         const std::function<void(double)>& progress) {
   CalibrationEstimate out;
-  out.before = task.before;
-  ParameterVector values = task.before;
-  addCoarseOffsets(task, values);
+  out.before = given.before;
+  ParameterVector values = given.before;
+  // Without turns noise alone would seem to tell time offsets.
+  const std::bitset<kParameterCount> unknown = addCoarseOffsets(given, values);
+  CalibrationTask task = given;
+  task.held |= unknown;
   NoiseFactors noise;
   noise.fill(kFirstFactor);
   const FormerBelief weak = weakBelief(task);
@@ -110,6 +113,11 @@ CalibrationEstimate estimateCalibration(const CalibrationTask& task,
   const ParameterMatrix covariance = problem.covariance();
   const Eigen::MatrixXd directions = unfixedDirections(covariance);
   setKnowledge(task, directions, out);
+  for (int i = 0; i < kParameterCount; ++i) {
+    if (!unknown[static_cast<std::size_t>(i)]) continue;
+    out.knowledge[static_cast<std::size_t>(i)] = Knowledge::kUnfixed;
+    out.unfixed.emplace_back(parameterTraits()[static_cast<std::size_t>(i)].name);
+  }
   out.after = problem.parameters();
   out.covariance = covariance;
   if (directions.cols() == 0) return out;

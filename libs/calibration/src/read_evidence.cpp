@@ -79,7 +79,7 @@ class EvidenceReader {
   void add(const std::shared_ptr<CObservationDetections>&) {}
 
   RecordingEvidence finish() {
-    if (!depths_.empty()) addSteps(tracker_->trajectory());
+    if (!depths_.empty() && !evidence_.lidar.empty()) addSteps(tracker_->trajectory());
     std::erase_if(evidence_.lidar, [](const PlanarPath& path) { return path.size() < 3; });
     std::erase_if(evidence_.wheels, [](const PlanarPath& path) { return path.size() < 3; });
     for (auto* paths : {&evidence_.lidar, &evidence_.wheels})

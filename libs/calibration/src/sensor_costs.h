@@ -92,11 +92,10 @@ struct FloorCost {
 };
 
 /// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
-/// of the robot by the lidar, or by the wheels where there is no lidar. Turn (3), then movement (3), in the
+/// of the robot by the lidar. Turn (3), then movement (3), in the
 /// earlier camera's frame. Only the angle depends on the time offset, as in WheelMoveCost.
 struct CameraStepCost {
   const PlanarPath* reference;
-  bool by_wheels;
   CameraStep step;
   double offset_s;  ///< found so far
   double sigma_rad, sigma_m;
@@ -109,7 +108,7 @@ struct CameraStepCost {
                                           PlanarValues<T>{T(after[0]), T(after[1]), T(after[2])});
     robot[2] =
         reference->at(T(step.t_b + p[kCameraTime]))[2] - reference->at(T(step.t_a + p[kCameraTime]))[2];
-    robot = by_wheels ? correctedMovement(p, robot) : robotMovement(p, robot);
+    robot = robotMovement(p, robot);
     const Matrix3T<T> mounted = cameraRotation(p);
     const Vector3T<T> place = cameraPlace(p), moved(robot[0], robot[1], T(0));
     const Matrix3T<T> turn = Eigen::AngleAxis<T>(robot[2], Vector3T<T>::UnitZ()).toRotationMatrix();
