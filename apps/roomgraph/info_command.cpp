@@ -134,6 +134,7 @@ ordered_json toJson(const ImageSummary& images) {
     out["floor_below_sensor_m"] = images.floor->sensor_height_m;
     out["floor_tilt_rad"] = images.floor->tilt_rad;
   }
+  if (images.walls_off_m) out["walls_off_lidar_m"] = *images.walls_off_m;
   if (images.range_over_lidar) out["range_over_lidar"] = *images.range_over_lidar;
   return out;
 }

@@ -65,6 +65,7 @@ void addCommands(CLI::App& app) {
   addExportCommand(app);
   addInfoCommand(app);
   addDamageCommand(app);
+  addCalibrateCommand(app);
   addOptimizeCommand(app);
   addRunCommand(app);
   addEvaluateCommand(app);

@@ -195,6 +195,7 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
 void run(const RunOptions& options) {
   const ThreadLimit limit(options.threads);
   Configuration configuration = readConfiguration(options.config, options.overrides);
+  if (!options.calibration.empty()) useCalibration(configuration.config, options.calibration);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
   check(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);

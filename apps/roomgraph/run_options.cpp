@@ -17,6 +17,16 @@ void addFileOptions(CLI::App& command, RunOptions& options) {
                      "file that holds the share of the replay that is done, for programs that watch");
 }
 
+// What takes the place of the recorded calibration.
+void addCalibrationOptions(CLI::App& command, RunOptions& options) {
+  command.add_option("--pose", options.poses,
+                     "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
+                     "recorded one; may be repeated");
+  command.add_option("--calibration", options.calibration,
+                     "file of 'roomgraph calibrate': sensor poses, time offsets, wheels and depth in place of the "
+                     "recorded ones; --pose goes before it");
+}
+
 // What keeps a run alive, and takes it up again.
 void addCheckpointOptions(CLI::App& command, RunOptions& options) {
   command
@@ -41,9 +51,7 @@ void declareRunOptions(CLI::App& command, RunOptions& options) {
   command.add_option("-o,--output", options.output, "folder for the results");
   command.add_option("--config", options.config, "configuration (default: the installed config.ini)");
   command.add_option("--set", options.overrides, "override: section.key=value; may be repeated");
-  command.add_option("--pose", options.poses,
-                     "place of a sensor on the robot, SENSOR=x,y,z,yaw,pitch,roll (m, deg), instead of the "
-                     "recorded one; may be repeated");
+  addCalibrationOptions(command, options);
   command.add_option("--map", options.map,
                      "map.rgmap of an earlier run, which this one continues once objects, scans or images "
                      "tell where in it the "
@@ -109,6 +117,7 @@ RunOptions withWordsOf(const std::vector<std::string>& words, const RunOptions& 
   for (const auto& [before, said] : std::initializer_list<std::pair<std::string*, const std::string*>>{
            {&out.config, &now.config},
            {&out.map, &now.map},
+           {&out.calibration, &now.calibration},
            {&out.recording, &now.recording},
            {&out.detections, &now.detections},
            {&out.pictures, &now.pictures},

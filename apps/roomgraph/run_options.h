@@ -14,7 +14,7 @@ namespace roomgraph {
 
 /// What `roomgraph run` is asked for; what was not said is empty.
 struct RunOptions {
-  std::string input, output, config, map, recording, detections, progress, pictures, resume;
+  std::string input, output, config, map, recording, detections, progress, pictures, resume, calibration;
   std::vector<std::string> overrides, poses;
   ModelSource networks;
   int threads = 0;

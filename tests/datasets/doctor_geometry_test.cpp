@@ -165,9 +165,33 @@ TEST_F(DoctorGeometry, PoseThatPutsTheFloorElsewhereIsFoundAndMended) {
   }
 }
 
+TEST_F(DoctorGeometry, WallsThatCameraAndLidarSeeInDifferentPlacesAreFound) {
+  const auto inspectWith = [&](const mrpt::poses::CPose3D& camera) {
+    std::vector<Object> objects;
+    for (int i = 0; i < 40; ++i) {
+      const auto scan = roomScan(0.1 * i + 0.02);
+      scan->sensorPose = mrpt::poses::CPose3D(0, 0, 0.25, 0, 0, 0);
+      const auto images = roomImages(0.1 * i + 0.05);
+      images->sensorPose = camera;
+      objects.insert(objects.end(), {makeOdometry(0.1 * i, 0, 0, 0), scan, images});
+    }
+    writeRawlog(folder_.file("x.rawlog"), objects);
+    return inspectRawlog(folder_.file("x.rawlog"));
+  };
+  const auto good = inspectWith({0, 0, kHeight_m, 0, kPitch_rad, 0});
+  ASSERT_TRUE(imagesOf(good).walls_off_m);
+  EXPECT_LT(*imagesOf(good).walls_off_m, 0.02);
+  EXPECT_THAT(good.findings, kNoWorseThanNotes);
+  const auto moved = inspectWith({0.12, 0, kHeight_m, 0, kPitch_rad, 0});
+  EXPECT_NEAR(imagesOf(moved).walls_off_m.value_or(0), 0.12, 0.03);
+  EXPECT_THAT(moved.findings,
+              Contains(AllOf(finding(Severity::kWarning, "walls in the depth images lie 0.1"),
+                             Field(&Finding::hint, HasSubstr("roomgraph calibrate")))));
+}
+
 TEST_F(DoctorGeometry, SmallErrorsOfThePoseAreNoFindings) {
   const auto report = inspect(false, [](Images& images) {
-    images.sensorPose = mrpt::poses::CPose3D(0, 0, kHeight_m + 0.05, 0, kPitch_rad + 0.04, 0.03);
+    images.sensorPose = mrpt::poses::CPose3D(0, 0, kHeight_m + 0.03, 0, kPitch_rad + 0.025, 0.02);
   });
   EXPECT_THAT(report.findings, kNoWorseThanNotes);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Choice of sensors and sensor poses on the command line.
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.h"
 #include "temporary_folder.h"
@@ -121,6 +123,58 @@ TEST_F(Sensors, PoseOnTheCommandLineIsThatOfTheRecords) {
   // The run's own config repeats it.
   EXPECT_EQ(run(plain, "again", {"--config", (folder.file("posed") / "config.ini").string()}).exit_code, 0);
   EXPECT_EQ(result("again", "trajectory.tum"), result("moved", "trajectory.tum"));
+}
+
+TEST_F(Sensors, ACalibrationFileTakesThePlaceOfWhatWasRecorded) {
+  // Recorded with a lidar at the wrong place whose clock is a quarter of a second late, and wheels that count 10 % too much.
+  const auto wrong = write("wrong.rawlog", [](const test::Object& record, auto& all) {
+    if (const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(record)) {
+      scan->sensorPose = mrpt::poses::CPose3D(0.25, 0.125, 0.5, M_PI / 2, 0, 0);
+      scan->timestamp += std::chrono::milliseconds(250);
+    }
+    if (const auto wheels = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(record))
+      wheels->odometry = {1.1 * wheels->odometry.x(), 1.1 * wheels->odometry.y(), wheels->odometry.phi()};
+    all.push_back(record);
+  });
+  const auto plain = writePlain();
+  const mrpt::obs::CObservation2DRangeScan::Ptr scan = [&] {
+    for (const auto& record : recording.records({true, true, true}))
+      if (auto found = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(record)) return found;
+    return mrpt::obs::CObservation2DRangeScan::Ptr();
+  }();
+  ASSERT_TRUE(scan);
+  const auto pose = scan->sensorPose;
+  std::ostringstream text;
+  text << "[sensor LASER]\npose = " << pose.x() << "," << pose.y() << "," << pose.z() << "," << pose.yaw() * 180 / M_PI
+       << ",0,0\ntime_offset_s = -0.25\n[wheels]\nscale = " << std::setprecision(17) << 1 / 1.1 << "\n";
+  writeBytes(folder.file("c.ini"), text.str());
+  const std::vector<std::string> calibrated{"--calibration", folder.file("c.ini").string()};
+  EXPECT_EQ(run(plain, "plain").exit_code, 0);
+  EXPECT_EQ(run(wrong, "wrong").exit_code, 0);
+  const CallResult done = run(wrong, "calibrated", calibrated);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(result("wrong", "map.pgm"), result("plain", "map.pgm"));
+  EXPECT_EQ(result("calibrated", "map.pgm"), result("plain", "map.pgm"));
+  const auto applied = nlohmann::json::parse(result("calibrated", "summary.json")).at("calibration");
+  EXPECT_EQ(applied.at("file"), folder.file("c.ini").string());
+  EXPECT_EQ(applied.at("records_corrected").at("stamp of 'LASER' -0.2500 s"), 12);
+  EXPECT_TRUE(applied.at("records_corrected").contains("odometry"));
+  EXPECT_TRUE(applied.at("poses").contains("LASER"));
+  EXPECT_FALSE(nlohmann::json::parse(result("plain", "summary.json")).contains("calibration"));
+
+  // The run's own config repeats it; --pose goes before the file.
+  EXPECT_EQ(run(wrong, "again", {"--config", (folder.file("calibrated") / "config.ini").string()}).exit_code, 0);
+  EXPECT_EQ(result("again", "map.pgm"), result("plain", "map.pgm"));
+  std::vector<std::string> posed = calibrated;
+  posed.insert(posed.end(), {"--pose", "LASER=0.25,0.125,0.5,90,0,0"});
+  EXPECT_EQ(run(wrong, "posed", posed).exit_code, 0);
+  EXPECT_NE(result("posed", "map.pgm"), result("plain", "map.pgm"));
+
+  writeBytes(folder.file("other.ini"), "[sensor LASRE]\ntime_offset_s = 1\n");
+  expectOneLine(run(plain, "x", {"--calibration", folder.file("other.ini").string()}), 2,
+                AllOf(HasSubstr("'LASRE'"), HasSubstr("did you mean 'LASER'")));
+  expectOneLine(run(plain, "x", {"--calibration", folder.file("none.ini").string()}), 3, HasSubstr("none.ini"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("x")));
 }
 
 TEST_F(Sensors, WrongLabelsAndPosesAreRefusedBeforeTheReplay) {

@@ -146,7 +146,8 @@ bool checkImages(const SensorReport& sensor, Findings& out) {
 }
 
 void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Findings& out) {
-  constexpr double kTiltRad = 0.10, kGapM = 0.12;  // beyond which the floor is not found where it is expected
+  constexpr double kTiltRad = 0.045, kGapM = 0.05;  // more than the floor of a level flat scatters
+  constexpr double kWallsOffM = 0.05;
   if (sensor.pose_changes)
     out.note("the sensor's pose on the robot changes", "each record is used with its own");
   if (!sensor.used || !sensor.robot_from_sensor || !(sensor.images || sensor.scans)) return;
@@ -154,6 +155,11 @@ void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Fi
   const auto* floor = sensor.images && sensor.images->floor ? &*sensor.images->floor : nullptr;
   const double height_m = sensor.robot_from_sensor->translation().z();
   const std::string option = "--pose " + sensor.label + "=";
+  const std::string calibrate = "; 'roomgraph calibrate RAWLOG -o calibration.ini' finds all of it";
+  if (sensor.images && sensor.images->walls_off_m && unit_is_right && *sensor.images->walls_off_m > kWallsOffM)
+    out.warning(format("walls in the depth images lie %.2f m (median) from where the lidar sees them",
+                       *sensor.images->walls_off_m),
+                "camera or lidar sits elsewhere than recorded, or their clocks differ" + calibrate);
   if (floor && unit_is_right && (on_robot || mountedHeight(sensor) > kLeastHeightM) &&
       (floor->tilt_rad > kTiltRad || std::abs(floor->sensor_height_m - height_m) > kGapM))
     out.warning(
@@ -161,7 +167,7 @@ void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Fi
                "be %.2f m below and level",
                floor->sensor_height_m, floor->tilt_rad * kDegreesPerRadian, height_m),
         "place the sensor, e.g. " + option + formatPose(floor->fitting_pose) +
-            " (m, deg), which puts the floor where it belongs");
+            " (m, deg), which puts the floor where it belongs" + calibrate);
   else if (at_origin)
     out.note("the sensor sits at the robot's origin, looking ahead",
              "if this is not so, place it: " + option +

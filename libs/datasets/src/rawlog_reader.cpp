@@ -11,6 +11,7 @@
 #include "image_folder.h"
 #include "odometry_sum.h"
 #include "plausibility.h"
+#include "record_correction.h"
 #include "record_source.h"
 #include "repetition.h"
 #include "roomgraph/observations/detection_comment.h"
@@ -30,11 +31,12 @@ constexpr const char* kSensorHangs = ": the same as the four before it while the
 
 struct RawlogReader::Impl {
   Impl(const std::filesystem::path& file, const ReadOptions& read_options)
-      : source(file), options(read_options), choices(options), image_folder(imageFolderOf(file)) {
+      : source(file), options(read_options), choices(options), correction(options.corrections), image_folder(imageFolderOf(file)) {
     checkLabels(file, options);
     if (!options.frames) source.skipClass("CObservation3DRangeScan");
   }
 
+  std::optional<Record> nextAsRecorded();
   std::optional<Record> next();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeActions(const CActionCollection& actions);
@@ -48,6 +50,7 @@ struct RawlogReader::Impl {
   RecordSource source;
   ReadOptions options;
   SensorChoices choices;
+  RecordCorrection correction;
   std::string image_folder;
   ReadStatistics statistics;
   OdometrySum odometry;
@@ -182,7 +185,7 @@ std::optional<Record> RawlogReader::Impl::convert(const CObservation::Ptr& obser
   return record;
 }
 
-std::optional<Record> RawlogReader::Impl::next() {
+std::optional<Record> RawlogReader::Impl::nextAsRecorded() {
   while (true) {
     const auto entry = waiting.pop(source_ended);
     if (!entry) {
@@ -215,6 +218,12 @@ std::optional<Record> RawlogReader::Impl::next() {
   }
 }
 
+std::optional<Record> RawlogReader::Impl::next() {
+  auto record = nextAsRecorded();
+  if (record) correction.apply(*record);
+  return record;
+}
+
 RawlogReader::RawlogReader(const std::filesystem::path& file, const ReadOptions& options)
     : impl_(std::make_unique<Impl>(file, options)) {}
 RawlogReader::~RawlogReader() = default;
@@ -229,6 +238,7 @@ double RawlogReader::progress() const {
 }
 const ReadStatistics& RawlogReader::statistics() const {
   impl_->statistics.sensor_warnings = impl_->choices.warnings();
+  impl_->statistics.corrected = impl_->correction.counts();
   return impl_->statistics;
 }
 

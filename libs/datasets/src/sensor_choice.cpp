@@ -2,6 +2,7 @@
 // Sensor labels of a rawlog, checked against those asked for.
 #include "sensor_choice.h"
 
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -27,9 +28,10 @@ void addOnce(std::vector<std::string>& list, const std::string& item) {
   if (!contains(list, item)) list.push_back(item);
 }
 
-// Labels in the order in which they appear; `placed`: of cameras and lidars, which have a place on the robot.
+// Labels in the order in which they appear; `placed`: of cameras and lidars, which have a place on the
+// robot; `wheels`: "wheels" when there is odometry of any kind.
 struct Labels {
-  std::vector<std::string> rgbd, lidar, odometry, placed;
+  std::vector<std::string> rgbd, lidar, odometry, placed, wheels;
 
   void add(const CObservation& observation) {
     const std::string& label = observation.sensorLabel;
@@ -38,9 +40,14 @@ struct Labels {
     if (is_camera) addOnce(rgbd, label);
     if (is_lidar) addOnce(lidar, label);
     if (is_camera || is_lidar) addOnce(placed, label);
-    if (dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) addOnce(odometry, label);
+    if (dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) addOdometry(label);
+  }
+  void addOdometry(const std::string& label) {
+    addOnce(odometry, label);
+    addOnce(wheels, "wheels");
   }
   void add(const mrpt::serialization::CSerializable::Ptr& object) {
+    if (std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) addOnce(wheels, "wheels");
     if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
       for (const auto& observation : *frame)
         if (observation) add(*observation);
@@ -66,6 +73,11 @@ std::vector<Request> requestsOf(const ReadOptions& options) {
   ask(options.odometry, "odometry", options.odometry_label, &Labels::odometry);
   for (const auto& [label, pose] : options.sensor_poses)
     requests.push_back({"camera or lidar", label, &Labels::placed});
+  const RecordCorrections& corrections = options.corrections;
+  for (const auto& [label, offset] : corrections.time_offsets_s)
+    requests.push_back({"camera or lidar", label, &Labels::placed});
+  if (corrections.wheels != WheelCorrection{} || corrections.wheels_time_offset_s != 0)
+    requests.push_back({"odometry of", "wheels", &Labels::wheels});
   return requests;
 }
 

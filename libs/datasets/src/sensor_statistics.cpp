@@ -75,6 +75,7 @@ void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observa
   const Pose3 robot_from_sensor = toPose3(observation.sensorPose);
   floor_.add(grid, robot_from_sensor);
   agreement_.addImage(mrpt::Clock::toDouble(observation.timestamp), grid, robot_from_sensor);
+  walls_.addImage(mrpt::Clock::toDouble(observation.timestamp), grid, robot_from_sensor);
 }
 
 void ImageStatistics::add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder) {
@@ -149,6 +150,7 @@ ImageSummary ImageStatistics::report() const {
   out.noisy = roughness_.noisy();
   out.same = repetition_.longest();
   out.range_over_lidar = agreement_.ratio();
+  out.walls_off_m = walls_.distance();
   if (samples_ > 0)
     out.valid_depth_share = static_cast<double>(depths_m_.size()) / static_cast<double>(samples_);
   return out;

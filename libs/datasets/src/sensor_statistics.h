@@ -16,6 +16,7 @@
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
 #include "roughness.h"
+#include "scan_agreement.h"
 
 namespace roomgraph {
 
@@ -34,7 +35,10 @@ class ImageStatistics {
  public:
   void add(mrpt::obs::CObservation3DRangeScan& observation, const std::string& image_folder);
   /// Something else to compare the depth with. In the order of the file, between the images.
-  void addScan(const Scan& scan) { agreement_.addScan(scan); }
+  void addScan(const Scan& scan) {
+    agreement_.addScan(scan);
+    walls_.addScan(scan);
+  }
   ImageSummary report() const;
 
  private:
@@ -47,6 +51,7 @@ class ImageStatistics {
   PointGridMaker grids_;
   FloorStatistics floor_;
   RangeAgreement agreement_;
+  ScanAgreement walls_;
   std::vector<float> depths_m_;  ///< samples of the valid ones
   std::size_t samples_ = 0;
   int seen_ = 0;

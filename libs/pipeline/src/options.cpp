@@ -17,8 +17,12 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
          .unit = "s",
          .min = 0,
          .max = 10});
+  v.add("calibration_file", calibration_file,
+        {.doc = "Calibration applied to the records as they are read: sensor poses, time offsets, wheels, "
+                "depth (docs/calibration.md). Empty: none.",
+         .file = true});
   v.add("sensor_poses", sensor_poses,
-        {.doc = "Poses of cameras and lidars on the robot that replace the recorded ones: "
+        {.doc = "Poses of cameras and lidars on the robot that replace those of the recording and of the calibration: "
                 "LABEL=x,y,z,yaw,pitch,roll in metres and, as an exception, degrees; several separated by "
                 "commas."});
 }

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader options from those of the run, and --pose as an override of [pipeline] sensor_poses.
+// Reader options from those of the run with its calibration, and --pose as an override of [pipeline] sensor_poses.
 #include "roomgraph/pipeline/read_options.h"
 
 namespace roomgraph {
 
 ReadOptions readOptionsOf(const Options& options) {
   const auto& poses = options.general.sensor_poses;
+  Calibration calibration;
+  if (!options.general.calibration_file.empty())
+    calibration = readCalibration(options.general.calibration_file);
+  for (const auto& [label, pose] : parseSensorPoses(poses, "[pipeline] sensor_poses = '" + poses + "'"))
+    calibration.poses.insert_or_assign(label, pose);
   return {.frames = options.tracking.enabled || options.detection.enabled,
           .scans = options.lidar.enabled,
           .odometry = options.odometry.enabled,
           .rgbd_label = options.rgbd.label,
           .lidar_label = options.lidar.label,
           .odometry_label = options.odometry.label,
-          .sensor_poses = parseSensorPoses(poses, "[pipeline] sensor_poses = '" + poses + "'")};
+          .sensor_poses = calibration.poses,
+          .corrections = calibration.corrections};
 }
 
 void placeSensor(Config& config, const std::string& assignment) {
@@ -20,6 +26,10 @@ void placeSensor(Config& config, const std::string& assignment) {
   const std::string before = config.text("pipeline", "sensor_poses", "");
   const std::string poses = before + (before.empty() ? "" : ",") + assignment;
   config.override("pipeline.sensor_poses=" + formatParameter(poses));
+}
+
+void useCalibration(Config& config, const std::string& file) {
+  config.override("pipeline.calibration_file=" + formatParameter(file));
 }
 
 }  // namespace roomgraph

@@ -125,6 +125,13 @@ ordered_json earlierMapJson(const EarlierMap& earlier) {
   return out;
 }
 
+// What of the recording was replaced, and how many records it concerned.
+ordered_json calibrationJson(const std::string& file, const ReadStatistics& read) {
+  ordered_json poses = ordered_json::object();
+  for (const auto& [label, pose] : readCalibration(file).poses) poses[label] = formatPose(pose);
+  return {{"file", file}, {"poses", poses}, {"records_corrected", read.corrected}};
+}
+
 // Nothing when the recording was not examined.
 ordered_json findingsJson(const std::optional<std::vector<Finding>>& findings) {
   if (!findings) return nullptr;
@@ -151,6 +158,8 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
     summary["detector"] = detectorJson(*detector, origin);
   if (result.earlier) summary["earlier_map"] = earlierMapJson(*result.earlier);
   summary["reasons"] = result.counts.reasons;
+  if (const auto& file = slam.setup().options.general.calibration_file; !file.empty())
+    summary["calibration"] = calibrationJson(file, read);
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;

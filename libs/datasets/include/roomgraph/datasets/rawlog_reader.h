@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/datasets/calibration_file.h"
 #include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/datasets/sensor_poses.h"
 
@@ -20,6 +21,7 @@ struct ReadStatistics {
   std::map<std::string, int> used;  ///< records per class
   std::map<std::string, int>
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
+  std::map<std::string, int> corrected{};  ///< records that ReadOptions::corrections changed, by what of them
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
   std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for
 };
@@ -30,6 +32,7 @@ struct ReadOptions {
   bool frames = true, scans = true, odometry = true;
   std::string rgbd_label{}, lidar_label{}, odometry_label{};
   SensorPoses sensor_poses{};  ///< instead of what the records say; labels that are not here keep theirs
+  RecordCorrections corrections{};
 };
 
 /// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or

@@ -75,6 +75,7 @@ struct ImageSummary {
   PoorRecords without_depth;          ///< depth images without a valid pixel
   SameRecords same;                   ///< colour and depth
   std::optional<FloorSummary> floor;  ///< nothing when it is not seen, or not always at one place
+  std::optional<double> walls_off_m;  ///< median distance of surfaces at the lidar's height from its own
   std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
 };
 

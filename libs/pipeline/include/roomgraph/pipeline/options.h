@@ -19,7 +19,7 @@ struct GeneralOptions : Configurable {
   std::vector<std::string> plugins;
   std::string objects_file;
   double lookahead_s = 0.5;
-  std::string sensor_poses;
+  std::string calibration_file, sensor_poses;
   void declareParameters(ParameterVisitor& v) override;
 };
 

@@ -10,12 +10,16 @@
 
 namespace roomgraph {
 
-/// What the options want of a recording: sources that are switched on, chosen sensors and their places. Throws
-/// ConfigError when [pipeline] sensor_poses makes no sense.
+/// What the options want of a recording: sources that are switched on, chosen sensors, their places and
+/// what else [pipeline] calibration_file corrects. Throws
+/// ConfigError when [pipeline] sensor_poses makes no sense, and like readCalibration().
 ReadOptions readOptionsOf(const Options& options);
 
 /// Adds "LABEL=x,y,z,yaw,pitch,roll" (metres, degrees), as given to --pose, to [pipeline] sensor_poses, so
 /// that the run can be repeated from its config. Throws ConfigError when it does not have that form.
 void placeSensor(Config& config, const std::string& assignment);
+
+/// Names the file as given to --calibration in [pipeline] calibration_file.
+void useCalibration(Config& config, const std::string& file);
 
 }  // namespace roomgraph

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Residual blocks of a calibration, their solution with Ceres, and covariances.
+#include "calibration_problem.h"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+#include <glog/logging.h>
+
+#include <cmath>
+#include <map>
+
+#include "roomgraph/core/errors.h"
+#include "roomgraph/core/order_statistics.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kRobust = 2.5;        // standard deviations
+constexpr double kPathMargin_s = 0.3;  // as much as times may move while solving
+constexpr double kShortWheels_s = 0.3, kLongWheels_s = 1.2, kStandsStill = 0.02;  // the last in m + rad
+constexpr double kTurnSigma_rad = 0.002, kMoveSigma_m = 0.004;  // of visual odometry between two images
+constexpr std::size_t kLeastResiduals = 8;                      // of fewer the scatter says nothing
+constexpr double kBin_s = 0.5;                                  // of gradients that are added up
+constexpr int kLags = 4;                                        // bins over which errors may hang together
+
+double sigmaOf(const WallMatch& match) {
+  return std::hypot(match.wall_sigma_m, patchSigma(match.patch.point.z()));
+}
+
+double lengthOf(const WheelMovement& movement) {
+  double out = 0;
+  for (const auto& step : movement.read) out += std::hypot(step[0], step[1]);
+  return out;
+}
+
+double turnOf(const WheelMovement& movement) {
+  double out = 0;
+  for (const auto& step : movement.read) out += std::abs(step[2]);
+  return out;
+}
+
+std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, const PlanarPath& wheels,
+                                          double offset, double seconds) {
+  std::vector<WheelMovement> out;
+  WheelMovement now{nullptr, wheels.time(0), 0, {}};
+  for (std::size_t i = 1; i < wheels.size(); ++i) {
+    now.read.push_back(planarBetween(wheels.values(i - 1), wheels.values(i)));
+    now.t_b = wheels.time(i);
+    if (now.t_b - now.t_a < seconds) continue;
+    now.lidar = pathAt(recording.lidar, now.t_a + offset, kPathMargin_s);
+    if (now.lidar && now.lidar->covers(now.t_b + offset, kPathMargin_s) && now.t_b - now.t_a < 2 * seconds &&
+        lengthOf(now) + turnOf(now) > kStandsStill)
+      out.push_back(now);
+    now = {nullptr, wheels.time(i), 0, {}};
+  }
+  return out;
+}
+
+}  // namespace
+
+CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise,
+                                       const std::vector<FormerBelief>& beliefs,
+                                       const ParameterVector& parameters, const MatchGate& gate)
+    : task_(task), noise_(noise), parameters_(parameters) {
+  problem_.AddParameterBlock(parameters_.data(), kParameterCount);
+  std::vector<int> constant;
+  for (int i = 0; i < kParameterCount; ++i)
+    if (task.held[static_cast<std::size_t>(i)]) constant.push_back(i);
+  if (static_cast<int>(constant.size()) == kParameterCount)
+    problem_.SetParameterBlockConstant(parameters_.data());
+  else if (!constant.empty())
+    problem_.SetManifold(parameters_.data(), new ceres::SubsetManifold(kParameterCount, constant));
+  for (const auto& belief : beliefs) {
+    if (belief.directions.rows() == 0) continue;
+    problem_.AddResidualBlock(new ceres::NormalPrior(belief.directions, task.before), nullptr,
+                              parameters_.data());
+    belief_ += belief.directions.transpose() * belief.directions;
+  }
+  for (std::size_t i = 0; i < task.evidence.size(); ++i) {
+    const int index = static_cast<int>(i);
+    addWheels(task.evidence[i], index);
+    addViews(task.evidence[i], index, gate);
+    addSteps(task.evidence[i], index);
+  }
+}
+
+void CalibrationProblem::add(ceres::CostFunction* cost, int recording, double t,
+                             std::vector<NoiseKind> kinds) {
+  const auto id = problem_.AddResidualBlock(cost, new ceres::CauchyLoss(kRobust), parameters_.data());
+  blocks_.push_back({id, recording, t, std::move(kinds)});
+}
+
+// Short movements tell when the robot turns; long ones turn it far enough to show where on it the lidar is.
+void CalibrationProblem::addWheels(const RecordingEvidence& recording, int index) {
+  for (const PlanarPath& wheels : recording.wheels) {
+    for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kShortWheels_s))
+      add(new ceres::AutoDiffCostFunction<WheelTurnCost, 1, kParameterCount>(
+              new WheelTurnCost{m, sigma(NoiseKind::kWheelTurn, turnSigma(lengthOf(m), turnOf(m)))}),
+          index, m.t_b, {NoiseKind::kWheelTurn});
+    for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kLongWheels_s))
+      add(new ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(new WheelMoveCost{
+              m, parameters_[kWheelTime], sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
+              sigma(NoiseKind::kWheelSide, sideSigma(lengthOf(m), turnOf(m)))}),
+          index, m.t_b, {NoiseKind::kWheelForward, NoiseKind::kWheelSide});
+  }
+}
+
+void CalibrationProblem::addViews(const RecordingEvidence& recording, int index, const MatchGate& gate) {
+  for (const DepthView& view : recording.views)
+    for (const DepthPatch& patch : view.floor)
+      add(new ceres::AutoDiffCostFunction<FloorCost, 1, kParameterCount>(
+              new FloorCost{patch, sigma(NoiseKind::kFloor, patchSigma(patch.point.z()))}),
+          index, view.t, {NoiseKind::kFloor});
+  for (const WallMatch& match : matchWalls(recording, parameters_, task_.lidar_z_m, gate))
+    add(new ceres::AutoDiffCostFunction<WallCost, 1, kParameterCount>(
+            new WallCost{&recording.lidar[match.path], match, sigma(NoiseKind::kWall, sigmaOf(match))}),
+        index, match.view_t, {NoiseKind::kWall});
+}
+
+void CalibrationProblem::addSteps(const RecordingEvidence& recording, int index) {
+  for (const CameraStep& step : recording.steps) {
+    const double offset = parameters_[kCameraTime];
+    const PlanarPath* reference = pathAt(recording.lidar, step.t_a + offset, kPathMargin_s);
+    if (!reference || !reference->covers(step.t_b + offset, kPathMargin_s)) continue;
+    add(new ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
+            new CameraStepCost{reference, step, offset, sigma(NoiseKind::kCameraTurn, kTurnSigma_rad),
+                               sigma(NoiseKind::kCameraMove, kMoveSigma_m)}),
+        index, step.t_b,
+        {NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraMove,
+         NoiseKind::kCameraMove, NoiseKind::kCameraMove});
+  }
+}
+
+void CalibrationProblem::solve() {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.num_threads = 1;  // one order of summation: the same bits on every run
+  options.max_num_iterations = 60;
+  options.function_tolerance = 1e-9;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem_, &summary);
+  if (!summary.IsSolutionUsable()) throw RunError("the calibration has no solution: " + summary.message);
+}
+
+NoiseFactors CalibrationProblem::scatter() const {
+  std::array<std::vector<double>, kNoiseKinds> sizes;
+  for (const Block& block : blocks_) {
+    std::array<double, 6> residuals{};
+    problem_.EvaluateResidualBlock(block.id, false, nullptr, residuals.data(), nullptr);
+    for (std::size_t k = 0; k < block.kinds.size(); ++k)
+      sizes[static_cast<std::size_t>(block.kinds[k])].push_back(std::abs(residuals[k]));
+  }
+  NoiseFactors out{};
+  for (std::size_t k = 0; k < kNoiseKinds; ++k)
+    out[k] = sizes[k].size() < kLeastResiduals ? 1 / noise_[k] : 1.4826 * median(sizes[k]);
+  return out;
+}
+
+ParameterMatrix CalibrationProblem::inverseInformation() {
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const std::vector<const double*> wanted{parameters_.data()};
+  Eigen::Matrix<double, kParameterCount, kParameterCount, Eigen::RowMajor> out;
+  if (!covariance.Compute(wanted, &problem_) || !covariance.GetCovarianceMatrix(wanted, out.data()))
+    throw RunError("the covariance of the calibration cannot be computed");
+  return out;
+}
+
+ParameterMatrix CalibrationProblem::covariance() {
+  const ParameterMatrix inverse = inverseInformation();
+  std::map<std::pair<int, long>, ParameterVector> gradients;
+  for (const Block& block : blocks_) {
+    std::array<double, 6> residuals{};
+    Eigen::Matrix<double, 6, kParameterCount, Eigen::RowMajor> jacobian;
+    jacobian.setZero();
+    double* rows = jacobian.data();
+    problem_.EvaluateResidualBlock(block.id, true, nullptr, residuals.data(), &rows);
+    auto [bin, is_new] =
+        gradients.try_emplace({block.recording, std::lround(block.t / kBin_s)}, ParameterVector::Zero());
+    bin->second += jacobian.transpose() * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(residuals.data());
+  }
+  ParameterMatrix scattered = ParameterMatrix::Zero();
+  for (const auto& [key, gradient] : gradients)
+    for (int lag = 0; lag <= kLags; ++lag) {
+      const auto other = gradients.find({key.first, key.second + lag});
+      if (other == gradients.end()) continue;
+      const ParameterMatrix product = (1 - lag / (kLags + 1.0)) * gradient * other->second.transpose();
+      scattered += lag == 0 ? product : ParameterMatrix(product + product.transpose());
+    }
+  ParameterMatrix out = inverse * (belief_ + scattered) * inverse;
+  // Few gradients scatter too little by chance: never less than what independent errors would leave.
+  ParameterVector factors = ParameterVector::Ones();
+  for (int i = 0; i < kParameterCount; ++i)
+    if (inverse(i, i) > 0) factors[i] = std::sqrt(std::max(1.0, inverse(i, i) / std::max(out(i, i), 1e-30)));
+  return factors.asDiagonal() * out * factors.asDiagonal();
+}
+
+int CalibrationProblem::count(NoiseKind kind) const {
+  int out = 0;
+  for (const Block& block : blocks_) out += block.kinds.front() == kind;
+  return out;
+}
+
+}  // namespace roomgraph

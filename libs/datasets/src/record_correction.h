@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Corrections of a calibration file applied to the records of a recording as they are read.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "roomgraph/datasets/calibration_file.h"
+#include "roomgraph/datasets/record_stream.h"
+
+namespace roomgraph {
+
+/// Corrects records one after the other. Remembers what wheel odometry was and has become.
+class RecordCorrection {
+ public:
+  explicit RecordCorrection(RecordCorrections corrections) : corrections_(std::move(corrections)) {}
+
+  /// Stamp, depths or odometry; recorded boxes move with the images that they belong to.
+  void apply(Record& record);
+  /// Records that were changed, by what was changed.
+  const std::map<std::string, int>& counts() const { return counts_; }
+
+ private:
+  void shift(double& t, const std::string& label);
+  void apply(Frame& frame);
+  void apply(Scan& scan);
+  void apply(OdometryReading& reading);
+  void apply(CObservationDetections& detections);
+
+  RecordCorrections corrections_;
+  std::optional<Pose2> read_, made_;  ///< the last odometry pose, and what it has become
+  std::map<std::string, int> counts_;
+};
+
+}  // namespace roomgraph
