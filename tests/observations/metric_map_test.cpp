@@ -159,7 +159,7 @@ TEST(MetricMap, BadIniNamesSectionAndKey) {
   const auto error = [](const std::string& text) { return wrappedMessageOf([&] { fromIni(text); }); };
   EXPECT_THAT(error("[Map]\nsemanticMap_count = 1\n[Map_semanticMap_00_likelihoodOpts]\nhidden_side = 2\n"),
               ::testing::AllOf(HasSubstr("section Map_semanticMap_00_likelihoodOpts, hidden_side = 2"),
-                               HasSubstr("[0, 1]")));
+                               HasSubstr("a number in [0, 1")));
   EXPECT_THAT(error("[Map]\nsemanticMap_count = 1\n[Map_semanticMap_00_insertOpts]\ngate_sigma = wide\n"),
               HasSubstr("gate_sigma = wide"));
   EXPECT_THAT(
