@@ -79,16 +79,8 @@ CObservationDetections seenFrom(const CSemanticMap& map, const CPose3D& robot) {
                      map.likelihood)) {
     const Box2 box = clipped(seen.bounds, 320, 240);
     const std::string name = seen.landmark->class_name;
-    out.items.push_back({name == "swivel_chair" ? "chair"
-                         : name == "sofa"       ? "couch"
-                                                : name,
-                         0.9,
-                         box.u_min,
-                         box.v_min,
-                         box.u_max,
-                         box.v_max,
-                         -1,
-                         {}});
+    const std::string label = name == "swivel_chair" ? "chair" : name == "sofa" ? "couch" : name;
+    out.items.push_back({label, 0.9, box.u_min, box.v_min, box.u_max, box.v_max, -1, {}});
   }
   return out;
 }
