@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <mrpt/io/CFileGZInputStream.h>
 
+#include <cmath>
+
 #include "errors_of.h"
 #include "rawlog_maker.h"
 #include "roomgraph/core/errors.h"
@@ -29,6 +31,20 @@ std::shared_ptr<mrpt::obs::CObservationComment> commentOf(double t) {
   return std::make_shared<mrpt::obs::CObservationComment>(toComment(*recordAt(t)));
 }
 
+// MRPT writes poses as quaternions, in which a zero may get another sign each time: the poses here are all none.
+Object withoutSignsOfZero(const Object& object) {
+  const auto reset = [](mrpt::obs::CObservation& observation) {
+    mrpt::poses::CPose3D pose;
+    observation.getSensorPose(pose);
+    EXPECT_LT(pose.norm() + std::abs(pose.yaw()) + std::abs(pose.pitch()) + std::abs(pose.roll()), 1e-12);
+    observation.setSensorPose(mrpt::poses::CPose3D());
+  };
+  if (const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) reset(*observation);
+  if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+    for (const auto& observation : *frame) reset(*observation);
+  return object;
+}
+
 std::vector<std::string> recordsIn(const std::filesystem::path& file) {
   observations::registerClasses();
   mrpt::io::CFileGZInputStream in(file.string());
@@ -36,7 +52,7 @@ std::vector<std::string> recordsIn(const std::filesystem::path& file) {
   std::vector<std::string> out;
   while (!in.checkEOF()) {
     try {
-      out.push_back(bytesOf(archive.ReadObject()));
+      out.push_back(bytesOf(withoutSignsOfZero(archive.ReadObject())));
     } catch (const mrpt::serialization::CExceptionEOF&) {
       break;
     }
@@ -47,7 +63,8 @@ std::vector<std::string> recordsIn(const std::filesystem::path& file) {
 class DetectionRecordsTest : public ::testing::Test {
  protected:
   TemporaryFolder folder;
-  std::filesystem::path in = folder.file("x.rawlog"), out = folder.file("y.rawlog");
+  std::filesystem::path in = folder.file("x.rawlog"), out = folder.file("y.rawlog"),
+                        expected = folder.file("z.rawlog");
 };
 
 TEST_F(DetectionRecordsTest, CommentsBecomeRecords) {
@@ -62,9 +79,8 @@ TEST_F(DetectionRecordsTest, CommentsBecomeRecords) {
   EXPECT_EQ(counts.detections, 2U);
   EXPECT_EQ(counts.damaged, 1U);
   EXPECT_NEAR(share, 1, 1e-9);
-  EXPECT_EQ(recordsIn(out),
-            (std::vector<std::string>{bytesOf(makeScan(1)), bytesOf(recordAt(1.1)), bytesOf(remark),
-                                      bytesOf(damaged), bytesOf(recordAt(1.4))}));
+  writeRawlog(expected, {makeScan(1), recordAt(1.1), remark, damaged, recordAt(1.4)});
+  EXPECT_EQ(recordsIn(out), recordsIn(expected));
 }
 
 TEST_F(DetectionRecordsTest, FramesAreUnpackedToo) {
@@ -77,7 +93,8 @@ TEST_F(DetectionRecordsTest, FramesAreUnpackedToo) {
   writeRawlog(in, {action, frame});
   const DetectionRecords counts = exportDetectionRecords(in, out);
   EXPECT_EQ(counts.detections, 1U);
-  EXPECT_EQ(recordsIn(out), (std::vector<std::string>{bytesOf(action), bytesOf(meant)}));
+  writeRawlog(expected, {action, meant});
+  EXPECT_EQ(recordsIn(out), recordsIn(expected));
 }
 
 TEST_F(DetectionRecordsTest, TheInputIsNotWritten) {
