@@ -42,6 +42,24 @@ TEST(EstimateCalibration, FindsTheTruthInExactData) {
   }
 }
 
+// Twice the data: standard deviations fall, at best to 1 / sqrt(2) of those of one drive.
+TEST(EstimateCalibration, TwoDrivesSayMoreThanOne) {
+  MadeUpDrive first({.seconds = 40, .noise = usualNoise(), .seed = 21});
+  MadeUpDrive second({.seconds = 40, .noise = usualNoise(), .seed = 22});
+  CalibrationTask both = first.task();
+  for (const RecordingEvidence& evidence : second.task().evidence) both.evidence.push_back(evidence);
+  const auto alone = estimateCalibration(first.task()), together = estimateCalibration(both);
+  const ParameterVector truth = trueParameters();
+  double ratio = 0;
+  for (int i = 0; i < kParameterCount; ++i) {
+    ratio += together.sigma(i) / alone.sigma(i) / kParameterCount;
+    EXPECT_LT(std::abs(together.after[i] - truth[i]), 5 * together.sigma(i) + 1e-9)
+        << parameterTraits()[static_cast<std::size_t>(i)].name;
+  }
+  EXPECT_LT(ratio, 0.95);
+  EXPECT_GT(ratio, 0.6);
+}
+
 TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
   constexpr int kSeeds = 8;
   const ParameterVector truth = trueParameters();

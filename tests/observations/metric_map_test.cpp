@@ -13,6 +13,7 @@
 #include "box_likelihood.h"
 #include "errors_of.h"
 #include "option_values.h"
+#include "room_scan.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/text_file.h"
 #include "roomgraph/observations/CObservationDetections.h"
@@ -83,24 +84,6 @@ CObservationDetections seenFrom(const CSemanticMap& map, const CPose3D& robot) {
     out.items.push_back({label, 0.9, box.u_min, box.v_min, box.u_max, box.v_max, -1, {}});
   }
   return out;
-}
-
-/// A level scan from the middle of a room of this half size.
-mrpt::obs::CObservation2DRangeScan scanOfRoom(double half_x, double half_y) {
-  mrpt::obs::CObservation2DRangeScan scan;
-  constexpr int kBeams = 360;
-  scan.aperture = static_cast<float>(2 * M_PI);
-  scan.maxRange = 10;
-  scan.timestamp = mrpt::Clock::fromDouble(1700000001);
-  scan.resizeScan(kBeams);
-  for (int i = 0; i < kBeams; ++i) {
-    const double angle = -M_PI + 2 * M_PI * i / (kBeams - 1);
-    const double range = std::min(half_x / std::max(1e-9, std::abs(std::cos(angle))),
-                                  half_y / std::max(1e-9, std::abs(std::sin(angle))));
-    scan.setScanRange(static_cast<std::size_t>(i), static_cast<float>(range));
-    scan.setScanRangeValidity(static_cast<std::size_t>(i), true);
-  }
-  return scan;
 }
 
 std::string bytesOfMap(const CSemanticMap& map) {
@@ -184,7 +167,7 @@ TEST(MetricMap, EmptyMapsGetTheirClasses) {
 
 TEST(MetricMap, ScansAreAskedOfTheGrid) {
   CSemanticMap map = test::sampleMap();
-  const auto scan = scanOfRoom(2.95, 1.95);
+  const auto scan = test::scanOfRoom(2.95, 1.95);
   EXPECT_TRUE(map.canComputeObservationLikelihood(scan));
   for (const auto& [x, yaw] : {std::pair{2.0, 0.0}, {2.5, 0.4}})
     EXPECT_EQ(map.computeObservationLikelihood(scan, CPose3D(x, 0, 0, yaw, 0, 0)),
@@ -287,7 +270,7 @@ TEST(MetricMap, EqualAfterSerialisation) {
   EXPECT_EQ(bytesOfMap(*again), bytesOfMap(map));
   const CPose3D robot(-0.5, 0.4, 0, 0, 0, 0);
   EXPECT_EQ(back.computeObservationLikelihood(seen, robot), map.computeObservationLikelihood(seen, robot));
-  const auto scan = scanOfRoom(2.9, 1.9);
+  const auto scan = test::scanOfRoom(2.9, 1.9);
   EXPECT_EQ(again->computeObservationLikelihood(scan, robot), map.computeObservationLikelihood(scan, robot));
 }
 
@@ -295,7 +278,7 @@ TEST(MetricMap, ScansMakeTheGrid) {
   CSemanticMap map;
   map.insertion.grid_resolution_m = 0.1;
   EXPECT_TRUE(map.isEmpty());
-  ASSERT_TRUE(map.insertObservation(scanOfRoom(3, 2), CPose3D(1, 0.5, 0, 0, 0, 0)));
+  ASSERT_TRUE(map.insertObservation(test::scanOfRoom(3, 2), CPose3D(1, 0.5, 0, 0, 0, 0)));
   ASSERT_TRUE(map.occupancy);
   EXPECT_NEAR(map.occupancy->getResolution(), 0.1, 1e-6);
   const double free = map.occupancy->getPos(1, 1.5), wall = map.occupancy->getPos(4.02F, 0.5F);
@@ -306,12 +289,12 @@ TEST(MetricMap, ScansMakeTheGrid) {
   EXPECT_FALSE(map.isEmpty());
 
   const CSemanticMap copy = map;
-  for (int i = 0; i < 3; ++i) map.insertObservation(scanOfRoom(3, 2), CPose3D(1, 0.5, 0, 0, 0, 0));
+  for (int i = 0; i < 3; ++i) map.insertObservation(test::scanOfRoom(3, 2), CPose3D(1, 0.5, 0, 0, 0, 0));
   EXPECT_EQ(copy.occupancy->getPos(1, 1.5), static_cast<float>(free)) << "a copy stays as it was";
   EXPECT_GT(map.occupancy->getPos(1, 1.5), static_cast<float>(free));
   EXPECT_EQ(map.world_from_robot.size(), 1U) << "of the same time";
   map.genericMapParams.enableObservationInsertion = false;
-  EXPECT_FALSE(map.insertObservation(scanOfRoom(3, 2), CPose3D()));
+  EXPECT_FALSE(map.insertObservation(test::scanOfRoom(3, 2), CPose3D()));
 }
 
 TEST(MetricMap, DetectionsMakeLandmarks) {

@@ -77,7 +77,7 @@ TEST_F(ConfigFiles, TheseAreAllKeysThatNameFiles) {
         keys.push_back(section.name + "." + key.key);
   std::sort(keys.begin(), keys.end());
   EXPECT_THAT(keys, ElementsAre("detection.file", "detection.labels_file", "detection.models",
-                                "pipeline.objects_file", "pipeline.plugins"));
+                                "pipeline.calibration_file", "pipeline.objects_file", "pipeline.plugins"));
 }
 
 }  // namespace
