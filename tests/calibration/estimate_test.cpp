@@ -52,7 +52,7 @@ TEST(EstimateCalibration, TwoDrivesSayMoreThanOne) {
   const ParameterVector truth = trueParameters();
   double ratio = 0;
   for (int i = 0; i < kParameterCount; ++i) {
-    ratio += together.sigma(i) / alone.sigma(i) / kParameterCount;
+    ratio += together.sigma(i) / alone.sigma(i) / static_cast<double>(kParameterCount);
     EXPECT_LT(std::abs(together.after[i] - truth[i]), 5 * together.sigma(i) + 1e-9)
         << parameterTraits()[static_cast<std::size_t>(i)].name;
   }
