@@ -169,6 +169,8 @@ TEST_F(Sensors, ACalibrationFileTakesThePlaceOfWhatWasRecorded) {
   posed.insert(posed.end(), {"--pose", "LASER=0.25,0.125,0.5,90,0,0"});
   EXPECT_EQ(run(wrong, "posed", posed).exit_code, 0);
   EXPECT_NE(result("posed", "map.pgm"), result("plain", "map.pgm"));
+  EXPECT_EQ(nlohmann::json::parse(result("posed", "summary.json")).at("calibration").at("poses").at("LASER"),
+            "0.25,0.125,0.5,90,0,0") << "as it was applied, not as the file has it";
 
   writeBytes(folder.file("other.ini"), "[sensor LASRE]\ntime_offset_s = 1\n");
   expectOneLine(run(plain, "x", {"--calibration", folder.file("other.ini").string()}), 2,

@@ -239,6 +239,7 @@ double RawlogReader::progress() const {
 const ReadStatistics& RawlogReader::statistics() const {
   impl_->statistics.sensor_warnings = impl_->choices.warnings();
   impl_->statistics.corrected = impl_->correction.counts();
+  impl_->statistics.placed = impl_->options.sensor_poses;
   return impl_->statistics;
 }
 

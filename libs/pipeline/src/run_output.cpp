@@ -125,10 +125,11 @@ ordered_json earlierMapJson(const EarlierMap& earlier) {
   return out;
 }
 
-// What of the recording was replaced, and how many records it concerned.
+// What of the recording was replaced, and how many records it concerned: as the reader did it, for the file may be
+// gone or another one by now.
 ordered_json calibrationJson(const std::string& file, const ReadStatistics& read) {
   ordered_json poses = ordered_json::object();
-  for (const auto& [label, pose] : readCalibration(file).poses) poses[label] = formatPose(pose);
+  for (const auto& [label, pose] : read.placed) poses[label] = formatPose(pose);
   return {{"file", file}, {"poses", poses}, {"records_corrected", read.corrected}};
 }
 

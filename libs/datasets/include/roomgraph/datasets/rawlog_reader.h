@@ -22,6 +22,7 @@ struct ReadStatistics {
   std::map<std::string, int>
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
   std::map<std::string, int> corrected{};  ///< records that ReadOptions::corrections changed, by what of them
+  SensorPoses placed{};  ///< ReadOptions::sensor_poses: where the reader put sensors in place of what was recorded
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
   std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for
 };
