@@ -57,8 +57,10 @@ class Resume : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return call(folder.path(), all);
   }
-  Files undisturbed(const std::vector<std::string>& more = {}) const {
+  Files undisturbed(const std::vector<std::string>& more = {}) {
+    const auto begin = std::chrono::steady_clock::now();
     const CallResult result = call(folder.path(), words(folder.file("whole"), more));
+    undisturbed_time = std::chrono::steady_clock::now() - begin;
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return resultsIn(folder.file("whole"));
   }
@@ -83,14 +85,17 @@ class Resume : public ::testing::Test {
   std::size_t journalBytes() const { return fs::file_size(checkpoint / "results.journal"); }
 
   TemporaryFolder folder;
+  std::chrono::duration<double> undisturbed_time{};
   const fs::path recording = folder.file("a.rawlog"), out = folder.file("out"),
                  checkpoint = out / "roomgraph_checkpoint";
 };
 
-/// Kills and resumes until a run comes to its end; returns how often it was killed.
+/// Kills and resumes until a run comes to its end; returns how often it was killed. The moments lie in the first
+/// half of the time that an undisturbed run takes on this machine, whatever that is.
 int killAtRandom(const TemporaryFolder& folder, const std::vector<std::string>& begin, const fs::path& out,
-                 unsigned seed, int most) {
+                 std::chrono::duration<double> undisturbed, unsigned seed, int most) {
   std::mt19937 random(seed);
+  std::uniform_real_distribution<double> share(.02, .5);
   int kills = 0;
   for (;;) {
     const bool resume = fs::exists(out / "roomgraph_checkpoint" / "run.json");
@@ -101,7 +106,7 @@ int killAtRandom(const TemporaryFolder& folder, const std::vector<std::string>& 
       EXPECT_EQ(result.exit_code, 0) << result.err;
       return kills;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20 + random() % 1500));
+    std::this_thread::sleep_for(share(random) * undisturbed);
     kill(program.pid(), SIGKILL);
     if (program.wait().exit_code == 0) return kills;
     ++kills;
@@ -116,7 +121,7 @@ TEST_F(Resume, KilledAtRandomMomentsWithAllSensorsAndTheNetwork) {
   int kills = 0;
   for (const unsigned seed : {1u, 2u, 3u}) {
     fs::remove_all(out);
-    kills += killAtRandom(folder, words(out), out, seed, 4);
+    kills += killAtRandom(folder, words(out), out, undisturbed_time, seed, 4);
     expectSame(whole, resultsIn(out));
   }
   EXPECT_GE(kills, 3);
@@ -127,7 +132,7 @@ TEST_F(Resume, KilledAtRandomMomentsWithRecordedBoxes) {
   const Files whole = undisturbed();
   for (const unsigned seed : {4u, 5u}) {
     fs::remove_all(out);
-    killAtRandom(folder, words(out), out, seed, 4);
+    killAtRandom(folder, words(out), out, undisturbed_time, seed, 4);
     expectSame(whole, resultsIn(out));
   }
 }
