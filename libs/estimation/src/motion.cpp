@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
@@ -22,6 +25,16 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
   sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
   if (planar) sigma[2] = sigma[3] = sigma[4] = kUnmeasuredSigma;
   return sigma.cwiseAbs2().asDiagonal();
+}
+
+constexpr double kSourceRobustWidth = 3;  // Cauchy, in standard deviations: a source may be wrong
+
+// Of two movements: translation, and the turn that leads from one rotation to the other, both in the frame of a.
+Vector6d differenceOf(const Pose3& from, const Pose3& to) {
+  const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
+  Vector6d out;
+  out << to.translation() - from.translation(), turn.angle() * turn.axis();
+  return out;
 }
 
 }  // namespace
@@ -85,9 +98,28 @@ std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, d
 }
 
 std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {
-  for (const auto* source : {&lidar, &visual, &odometry})
-    if (const auto seen = source->between(t_a, t_b, horizon_s)) return seen->a_from_b;
-  return std::nullopt;
+  std::optional<Movement> first;
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d sum = Vector6d::Zero();
+  for (const auto* source : {&lidar, &visual, &odometry}) {
+    const auto seen = source->between(t_a, t_b, horizon_s);
+    if (!seen) continue;
+    if (!first) first = seen;
+    if (getenv("OLDMOVE")) return first->a_from_b;
+    const Vector6d difference = differenceOf(first->a_from_b, seen->a_from_b);
+    const Matrix6d both = first->covariance + seen->covariance;
+    const double surprise = difference.dot(both.llt().solve(difference)) / (kSourceRobustWidth * kSourceRobustWidth);
+    const Matrix6d weight = seen->covariance.inverse() / (1 + surprise);
+    information += weight;
+    sum += weight * difference;
+  }
+  if (!first) return std::nullopt;
+  const Vector6d shift = information.ldlt().solve(sum);
+  Pose3 out = first->a_from_b;
+  out.translation() += shift.head<3>();
+  const double angle = shift.tail<3>().norm();
+  if (angle > 0) out.linear() = Eigen::AngleAxisd(angle, shift.tail<3>() / angle).toRotationMatrix() * out.linear();
+  return out;
 }
 
 }  // namespace roomgraph

@@ -16,8 +16,10 @@ std::shared_ptr<Submap> ActiveSubmaps::insert(const PlanarScan& scan, const Pose
     active_.push_back(std::make_shared<Submap>(cell_m_));
     active_.back()->first_insertion = inserted_;
   }
+  const FacedScan in_odom = transformed(odom_from_robot, faced(scan));
   for (const auto& submap : active_) {
     submap->grid.insert(scan, odom_from_robot, update_);
+    submap->surfaces.insert(in_odom);
     ++submap->insertions;
   }
   ++inserted_;

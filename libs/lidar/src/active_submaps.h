@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "probability_grid.h"
+#include "surface_cells.h"
 
 namespace roomgraph {
 
@@ -18,8 +19,9 @@ struct MotionFilter {
 
 /// A local map of a run of successive scans.
 struct Submap {
-  explicit Submap(double cell_m) : grid(cell_m) {}
+  explicit Submap(double cell_m) : grid(cell_m), surfaces(cell_m) {}
   ProbabilityGrid grid;     ///< in the matcher's frame
+  LocalSurfaces surfaces;   ///< in the same frame
   int first_insertion = 0;  ///< running number of its first scan among all inserted
   int insertions = 0;
   bool finished = false;

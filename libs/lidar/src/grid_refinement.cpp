@@ -141,6 +141,7 @@ GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, 
   out.grid_from_scan = pose;
   const GridCost data = gridCost(grid, points, pose, PosePrior{});
   out.curvature = surfaceCurvature(points, pose, data.curvature) * static_cast<double>(points.size());
+  out.mean_curvature = data.curvature;
   out.residual_variance = data.residual;
   countAgreement(grid, points, out);
   return out;

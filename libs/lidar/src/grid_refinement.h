@@ -19,9 +19,11 @@ struct GridRefinement {
   /// Of the summed squared residuals by (x, y, yaw) of the pose: directions from the surfaces
   /// (surfaceCurvature), size from the grid; the prior is not in it.
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d mean_curvature = Eigen::Matrix3d::Zero();  ///< of the grid itself, by the mean squared residual
   double residual_variance = 1;  ///< mean of (1 - p)^2
   double explained = 0;          ///< share of the points on a surface of the grid
   double contradicted = 0;       ///< share of the points in space the grid knows to be free
+  bool on_surfaces = false;      ///< refined further, and its curvature is that of refineOnSurfaces()
 };
 
 /// Cost of a pose: mean over the points of (1 - p)^2, plus the prior; with its gradient by (x, y, yaw) and

@@ -7,6 +7,7 @@
 
 #include "correlative_search.h"
 #include "roomgraph/geometry/covariance.h"
+#include "surface_refinement.h"
 
 namespace roomgraph {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
+constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
 }  // namespace
 
 void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
@@ -118,9 +120,9 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
-  GridRefinement found = matchTo(*submaps_->oldest(), points, predicted, has_prior);
+  GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted, has_prior);
   if (has_prior && jumps(scan.t, predicted)) {
-    const GridRefinement steady = matchTo(*submaps_->oldest(), points, steadyPose(scan.t), false);
+    const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), false);
     if (steady.explained > found.explained + kClearlyBetter) found = steady;
   }
   if (found.explained < min_score_) {
@@ -157,8 +159,8 @@ bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
   return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_rad_;
 }
 
-GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& points, const Pose2& predicted,
-                                          bool has_prior) {
+GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points,
+                                          const Pose2& predicted, bool has_prior) {
   if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kMatcherLevels);
   pyramid_stale_ = false;
   SearchWindow window;
@@ -177,14 +179,21 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const Points2& p
     prior.extra_weight_per_m2 = weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature),
                                                     weak_prior_per_m2_, weak_below_per_m2_);
   }
-  return refineOnGrid(submap.grid, points, start_pose, prior);
+  GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
+  if (const auto fit = refineOnSurfaces(submap.surfaces, faced(planar), fine, prior)) {
+    fine.grid_from_scan = fit->map_from_scan;
+    fine.curvature = fit->information;
+    fine.residual_variance = 1;
+    fine.on_surfaces = true;
+  }
+  return fine;
 }
 
 Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refinement) const {
   CovarianceModel model;
   model.inflation = covariance_inflation_;
-  model.floor_sigma_m = floor_sigma_m_;
-  model.floor_sigma_rad = floor_sigma_rad_;
+  model.floor_sigma_m = std::hypot(floor_sigma_m_, refinement.on_surfaces ? 0 : kGridSigma_m);
+  model.floor_sigma_rad = std::hypot(floor_sigma_rad_, refinement.on_surfaces ? 0 : kGridSigma_rad);
   const Eigen::Matrix3d in_odom = poseCovariance(refinement, model);
   // Movement is expressed in the frame of the robot at the scan before.
   return rotateCovariance(in_odom, -last_pose_.yaw);

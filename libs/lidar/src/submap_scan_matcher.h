@@ -31,7 +31,8 @@ class SubmapScanMatcher : public ScanMatcher {
   Pose2 steadyPose(double t) const;
   /// Whether the prediction lies beyond the search window around the steady pose.
   bool jumps(double t, const Pose2& predicted) const;
-  GridRefinement matchTo(const Submap& submap, const Points2& points, const Pose2& predicted, bool has_prior);
+  GridRefinement matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points, const Pose2& predicted,
+                         bool has_prior);
   /// Takes the scan over; returns the beams on what moves.
   std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
@@ -48,7 +49,7 @@ class SubmapScanMatcher : public ScanMatcher {
   double min_score_ = 0.1;
   int max_lost_scans_ = 10;
   double covariance_inflation_ = 1;
-  double floor_sigma_m_ = 0.0035, floor_sigma_rad_ = 0.0012;
+  double floor_sigma_m_ = 0.001, floor_sigma_rad_ = 0.0003;
 
   std::unique_ptr<ActiveSubmaps> submaps_;
   ScorePyramid pyramid_;  ///< of the submap matched against

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sums per cell and facing, and the principal axes of those around a point.
+#include "surface_cells.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "roomgraph/geometry/pose.h"
+
+namespace roomgraph {
+namespace {
+
+constexpr double kFewestReturns = 6, kFewestNeighbours = 3;
+constexpr double kLongestAcross = 0.15;  // variance across over variance along: more is no line
+constexpr int kReach = 6;                // neighbours on either side of a return, in the order of the beams
+constexpr double kNear_m = 0.15, kNearPerRange = 0.06;  // farther returns are no neighbours
+
+/// Sums over points, from some origin.
+struct Scatter {
+  double count = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  Eigen::Vector3d second = Eigen::Vector3d::Zero();  // xx, xy, yy
+  void add(const Eigen::Vector2d& p) {
+    count += 1;
+    first += p;
+    second += Eigen::Vector3d(p.x() * p.x(), p.x() * p.y(), p.y() * p.y());
+  }
+};
+
+std::optional<SurfacePatch> lineThrough(const Scatter& sums, double fewest) {
+  if (sums.count < fewest) return std::nullopt;
+  const Eigen::Vector2d mean = sums.first / sums.count;
+  const Eigen::Vector3d square = sums.second / sums.count;
+  const double xx = square[0] - mean.x() * mean.x(), xy = square[1] - mean.x() * mean.y(), yy = square[2] - mean.y() * mean.y();
+  const double middle = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+  const double across = std::max(0.0, middle - spread), along = middle + spread;
+  if (!(across < kLongestAcross * along)) return std::nullopt;
+  const double direction = 0.5 * std::atan2(2 * xy, xx - yy);
+  return SurfacePatch{mean, {-std::sin(direction), std::cos(direction)}, across};
+}
+
+}  // namespace
+
+int SurfaceCells::sectorOf(double facing_rad) {
+  const double turns = wrapAngle(facing_rad) / (2 * std::numbers::pi) + 0.5;
+  return static_cast<int>(turns * kSectors) % kSectors;
+}
+
+void SurfaceCells::insert(const FacedScan& scan) {
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const Eigen::Vector2d& p = scan.points[i];
+    const double cx = std::floor(p.x() / cell_m_), cy = std::floor(p.y() / cell_m_);
+    Sums& sums = cells_[key(static_cast<std::int32_t>(cx), static_cast<std::int32_t>(cy))][static_cast<std::size_t>(sectorOf(scan.facing_rad[i]))];
+    const Eigen::Vector2f offset = (p - cell_m_ * Eigen::Vector2d(cx, cy)).cast<float>();
+    sums.count += 1;
+    sums.first += offset;
+    sums.second += Eigen::Vector3f(offset.x() * offset.x(), offset.x() * offset.y(), offset.y() * offset.y());
+  }
+}
+
+std::optional<SurfacePatch> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
+  const auto cx = static_cast<std::int32_t>(std::floor(point.x() / cell_m_));
+  const auto cy = static_cast<std::int32_t>(std::floor(point.y() / cell_m_));
+  const int sector = sectorOf(facing_rad);
+  Scatter sum;  // from the corner of the cell in the middle
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const auto found = cells_.find(key(cx + dx, cy + dy));
+      if (found == cells_.end()) continue;
+      const Eigen::Vector2d shift = cell_m_ * Eigen::Vector2d(dx, dy);
+      for (int turn = kSectors - 1; turn <= kSectors + 1; ++turn) {
+        const Sums& s = found->second[static_cast<std::size_t>((sector + turn) % kSectors)];
+        if (s.count == 0) continue;
+        const Eigen::Vector2d first = s.first.cast<double>();
+        const double n = s.count;
+        sum.count += n;
+        sum.first += first + n * shift;
+        sum.second += s.second.cast<double>() + Eigen::Vector3d(2 * shift.x() * first.x() + n * shift.x() * shift.x(),
+                                           shift.x() * first.y() + shift.y() * first.x() + n * shift.x() * shift.y(),
+                                           2 * shift.y() * first.y() + n * shift.y() * shift.y());
+      }
+    }
+  auto patch = lineThrough(sum, kFewestReturns);
+  if (patch) patch->mean += cell_m_ * Eigen::Vector2d(cx, cy);
+  return patch;
+}
+
+void LocalSurfaces::insert(const FacedScan& scan) {
+  for (SurfaceCells& level : levels_) level.insert(scan);
+}
+
+std::optional<SurfacePatch> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad) const {
+  for (const SurfaceCells& level : levels_)
+    if (const auto patch = level.around(point, facing_rad)) return patch;
+  return std::nullopt;
+}
+
+FacedScan faced(const PlanarScan& scan) {
+  FacedScan out{scan.points, {}};
+  const int size = static_cast<int>(scan.points.size());
+  for (int i = 0; i < size; ++i) {
+    const Eigen::Vector2d& p = scan.points[static_cast<std::size_t>(i)];
+    const Eigen::Vector2d to_lidar = scan.origin - p;
+    const double radius = std::max(kNear_m, kNearPerRange * to_lidar.norm());
+    Scatter neighbours;
+    for (int j = std::max(0, i - kReach); j < std::min(size, i + kReach + 1); ++j) {
+      const Eigen::Vector2d offset = scan.points[static_cast<std::size_t>(j)] - p;
+      if (offset.squaredNorm() <= radius * radius) neighbours.add(offset);
+    }
+    const auto line = lineThrough(neighbours, kFewestNeighbours);
+    Eigen::Vector2d normal = line ? line->normal : to_lidar;
+    if (normal.dot(to_lidar) < 0) normal = -normal;
+    out.facing_rad.push_back(std::atan2(normal.y(), normal.x()));
+  }
+  return out;
+}
+
+FacedScan transformed(const Pose2& a_from_b, const FacedScan& in_b) {
+  FacedScan out{transformed(a_from_b, in_b.points), in_b.facing_rad};
+  for (double& facing : out.facing_rad) facing += a_from_b.yaw;
+  return out;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surfaces of a submap finer than its cells: mean and scatter of the returns, apart by the side they are seen from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include "planar_scan.h"
+
+namespace roomgraph {
+
+/// Returns of a scan and the directions that their surfaces face, in the frame of the points.
+struct FacedScan {
+  Points2 points;
+  std::vector<double> facing_rad;
+};
+/// Each return faces along the normal of the line through its neighbours, on the side of the lidar; towards the lidar where they form no
+/// line.
+FacedScan faced(const PlanarScan& scan);
+FacedScan transformed(const Pose2& a_from_b, const FacedScan& in_b);
+
+/// The returns around a place as a line.
+struct SurfacePatch {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
+  double variance_m2 = 0;  ///< of the returns across the line
+};
+
+/// Mean and scatter of the returns in square cells, as the normal distributions transform keeps them (Biber and Strasser
+/// 2003), here by the direction that the surface faces: the two sides of a wall in one cell stay two surfaces.
+class SurfaceCells {
+ public:
+  explicit SurfaceCells(double cell_m) : cell_m_(cell_m) {}
+  void insert(const FacedScan& scan);
+  /// The line through the returns in the 3 x 3 cells around a point that face about the same way (67 degrees at most); nothing
+  /// where they are few or form no line.
+  std::optional<SurfacePatch> around(const Eigen::Vector2d& point, double facing_rad) const;
+
+ private:
+  static constexpr int kSectors = 8;
+  struct Sums {
+    float count = 0;
+    Eigen::Vector2f first = Eigen::Vector2f::Zero();   // of the points, from the cell's corner
+    Eigen::Vector3f second = Eigen::Vector3f::Zero();  // xx, xy, yy
+  };
+  static std::uint64_t key(std::int32_t ix, std::int32_t iy) {
+    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32) | static_cast<std::uint32_t>(iy);
+  }
+  static int sectorOf(double facing_rad);
+
+  double cell_m_;
+  std::unordered_map<std::uint64_t, std::array<Sums, kSectors>> cells_;
+};
+
+/// Surfaces at three sizes of cells; the finest that shows a line around a point is taken.
+class LocalSurfaces {
+ public:
+  explicit LocalSurfaces(double cell_m) : levels_{SurfaceCells(cell_m), SurfaceCells(2 * cell_m), SurfaceCells(6 * cell_m)} {}
+  void insert(const FacedScan& scan);
+  std::optional<SurfacePatch> around(const Eigen::Vector2d& point, double facing_rad) const;
+
+ private:
+  std::array<SurfaceCells, 3> levels_;
+};
+
+}  // namespace roomgraph

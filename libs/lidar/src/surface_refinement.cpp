@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Iterated association of returns with lines, and the solution for the pose.
+#include "surface_refinement.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace roomgraph {
+namespace {
+
+constexpr int kIterations = 12;
+constexpr double kLeastSigma_m = 0.01;                // of a return and the unevenness of its surface
+constexpr double kRobustWidth = 2, kFarthest = 4;     // standard deviations; Cauchy
+constexpr double kLeastShare = 1.0 / 3;
+constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
+
+struct NormalEquations {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  std::size_t used = 0;
+};
+
+NormalEquations linearise(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& pose) {
+  NormalEquations out;
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const Eigen::Vector2d& p = scan.points[i];
+    const Eigen::Vector2d turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+    const Eigen::Vector2d at = turned + Eigen::Vector2d(pose.x, pose.y);
+    const auto line = surfaces.around(at, scan.facing_rad[i] + pose.yaw);
+    if (!line) continue;
+    const double distance = line->normal.dot(at - line->mean);
+    const double variance = kLeastSigma_m * kLeastSigma_m + line->variance_m2;
+    const double squared = distance * distance / variance;
+    if (squared > kFarthest * kFarthest) continue;
+    const double weight = 1 / (variance * (1 + squared / (kRobustWidth * kRobustWidth)));
+    const Eigen::Vector3d jacobian(line->normal.x(), line->normal.y(),
+                                   line->normal.y() * turned.x() - line->normal.x() * turned.y());
+    out.information += weight * jacobian * jacobian.transpose();
+    out.gradient += weight * distance * jacobian;
+    ++out.used;
+  }
+  return out;
+}
+
+// Least curvature by the place, along any direction.
+double weakest(const Eigen::Matrix3d& m) {
+  return (m(0, 0) + m(1, 1)) / 2 - std::hypot((m(0, 0) - m(1, 1)) / 2, m(0, 1));
+}
+
+Eigen::Matrix3d matrixOf(const PosePrior& prior) {
+  Eigen::Matrix3d out =
+      Eigen::Vector3d(prior.weight_per_m2, prior.weight_per_m2, prior.weight_per_rad2).asDiagonal();
+  out.topLeftCorner<2, 2>() += prior.extra_weight_per_m2;
+  return out;
+}
+
+}  // namespace
+
+std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
+                                           const PosePrior& prior) {
+  const Eigen::Matrix3d unscaled = matrixOf(prior);
+  SurfaceFit fit{.map_from_scan = grid.grid_from_scan};
+  Pose2& pose = fit.map_from_scan;
+  for (int i = 0; i < kIterations; ++i) {
+    const NormalEquations scan_only = linearise(surfaces, scan, pose);
+    if (static_cast<double>(scan_only.used) < kLeastShare * static_cast<double>(scan.points.size())) return std::nullopt;
+    fit.information = scan_only.information;
+    const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
+    const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y, wrapAngle(pose.yaw - prior.pose.yaw));
+    const Eigen::Matrix3d weight = std::max(0.0, scale) * unscaled + 1e-6 * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d step =
+        -(scan_only.information + weight).ldlt().solve(scan_only.gradient + weight * shift);
+    pose = {pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};
+    if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
+  }
+  return fit;
+}
+
+}  // namespace roomgraph

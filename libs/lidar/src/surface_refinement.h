@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Point-to-line refinement of a scan against the surfaces of a submap.
+#pragma once
+
+#include <optional>
+
+#include "grid_refinement.h"
+#include "surface_cells.h"
+
+namespace roomgraph {
+
+struct SurfaceFit {
+  Pose2 map_from_scan;
+  /// Inverse covariance of (x, y, yaw) by the scan alone: each return counts by the scatter of its surface and its robust weight.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+};
+
+/// Least squares on robust point-to-line distances, as in Censi 2008 (PLICP), the lines being those of the surfaces around the
+/// returns that face the same way. `grid`: the refinement on the submap's grid, from where it starts; `prior`: the one that was used
+/// there. It keeps the weight that it had against the direction that the grid constrains least.
+/// Nothing where fewer than a third of the returns lie on known surfaces.
+std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
+                                           const PosePrior& prior);
+
+}  // namespace roomgraph
