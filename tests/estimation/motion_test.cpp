@@ -83,13 +83,36 @@ TEST(MotionSource, APoseThatBeginsASegmentIsKnownInItsOwnLocalMap) {
   EXPECT_NEAR(variance(3), 1e-4 + 1, 1e-12) << "back in an earlier segment, which began elsewhere";
 }
 
-TEST(Motion, ScansComeBeforeImagesBeforeWheels) {
+MotionSource movingBy(double metres, double yaw, double variance) {
+  MotionSource source(MotionNoise{.floor_m = 1e-5, .per_m = 0, .floor_rad = 1e-5, .per_rad = 0, .rad_per_m = 0}, false);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, poseFromYpr(metres, 0, 0, yaw, 0, 0), 0, variance * Matrix6d::Identity());
+  return source;
+}
+
+TEST(Motion, SourcesWeighByTheirCovariances) {
+  // Means of Gaussians: the weights are 1 / variance.
+  const Motion motion{movingBy(1.00, 0.5, 4e-3), movingBy(1.01, 0.51, 1e-3), movingBy(1.03, 0.53, 2e-3)};
+  const auto seen = motion.movement(0, 1, 0);
+  ASSERT_TRUE(seen);
+  const double weights = 250 + 1000 + 500;
+  EXPECT_NEAR(seen->translation().x(), (250 * 1.00 + 1000 * 1.01 + 500 * 1.03) / weights, 1e-3);
+  EXPECT_NEAR(planarPart(*seen).yaw, (250 * 0.50 + 1000 * 0.51 + 500 * 0.53) / weights, 1e-3);
+}
+
+TEST(Motion, ASourceAloneIsTakenAsItIs) {
   const MotionSource none(kNoise, true);
   const auto seen = [](const Motion& motion) { return motion.movement(0, 1, 0)->translation().x(); };
-  EXPECT_EQ(seen({movingBy(1), movingBy(2), movingBy(3)}), 3);
-  EXPECT_EQ(seen({movingBy(1), movingBy(2), none}), 2);
-  EXPECT_EQ(seen({movingBy(1), none, none}), 1);
+  EXPECT_NEAR(seen({movingBy(1), none, none}), 1, 1e-12);
+  EXPECT_NEAR(seen({none, movingBy(2), none}), 2, 1e-12);
+  EXPECT_NEAR(seen({none, none, movingBy(3)}), 3, 1e-12);
   EXPECT_FALSE((Motion{none, none, none}).movement(0, 1, 0));
+}
+
+TEST(Motion, WheelsThatSpinHardlyMoveWhatScansSee) {
+  const MotionSource none(kNoise, true);
+  const Motion slips{movingBy(1.5, 0, 1e-4), none, movingBy(1, 0, 1e-4)};
+  EXPECT_NEAR(slips.movement(0, 1, 0)->translation().x(), 1, 0.01) << "half a metre is 35 standard deviations";
 }
 
 TEST(MotionSource, RefinedPosesReplaceTheOld) {

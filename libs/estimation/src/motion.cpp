@@ -2,11 +2,10 @@
 // Covariance of a movement from noise model and summed steps.
 #include "roomgraph/estimation/motion.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 #include "roomgraph/geometry/covariance.h"
 
@@ -27,13 +26,21 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-constexpr double kSourceRobustWidth = 3;  // Cauchy, in standard deviations: a source may be wrong
+constexpr double kSourceWidth = 3;  // Cauchy, in standard deviations: wheels slip, images mislead
 
 // Of two movements: translation, and the turn that leads from one rotation to the other, both in the frame of a.
 Vector6d differenceOf(const Pose3& from, const Pose3& to) {
   const Eigen::AngleAxisd turn(to.linear() * from.linear().transpose());
   Vector6d out;
   out << to.translation() - from.translation(), turn.angle() * turn.axis();
+  return out;
+}
+
+Pose3 movedBy(const Pose3& movement, const Vector6d& difference) {
+  Pose3 out = movement;
+  out.translation() += difference.head<3>();
+  const Eigen::Vector3d turn = difference.tail<3>();
+  if (turn.norm() > 0) out.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * movement.linear();
   return out;
 }
 
@@ -97,6 +104,7 @@ std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, d
   return Movement{*movement, match + drift_share * steps};
 }
 
+// Weighted mean of the movements' differences from the first source's. A source that contradicts the first one weighs less.
 std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {
   std::optional<Movement> first;
   Matrix6d information = Matrix6d::Zero();
@@ -105,21 +113,15 @@ std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) 
     const auto seen = source->between(t_a, t_b, horizon_s);
     if (!seen) continue;
     if (!first) first = seen;
-    if (getenv("OLDMOVE")) return first->a_from_b;
     const Vector6d difference = differenceOf(first->a_from_b, seen->a_from_b);
     const Matrix6d both = first->covariance + seen->covariance;
-    const double surprise = difference.dot(both.llt().solve(difference)) / (kSourceRobustWidth * kSourceRobustWidth);
+    const double surprise = difference.dot(both.llt().solve(difference)) / (kSourceWidth * kSourceWidth);
     const Matrix6d weight = seen->covariance.inverse() / (1 + surprise);
     information += weight;
     sum += weight * difference;
   }
   if (!first) return std::nullopt;
-  const Vector6d shift = information.ldlt().solve(sum);
-  Pose3 out = first->a_from_b;
-  out.translation() += shift.head<3>();
-  const double angle = shift.tail<3>().norm();
-  if (angle > 0) out.linear() = Eigen::AngleAxisd(angle, shift.tail<3>() / angle).toRotationMatrix() * out.linear();
-  return out;
+  return movedBy(first->a_from_b, information.llt().solve(sum));
 }
 
 }  // namespace roomgraph

@@ -7,6 +7,7 @@
 
 #include "grid_refinement.h"
 #include "roomgraph/geometry/covariance.h"
+#include "surface_refinement.h"
 
 namespace roomgraph {
 
@@ -171,7 +172,7 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   graph_.addNode(connected, step, length);
   way_.push_back(here);
   const PlanarScan planar = submap_settings_.planar(scan);
-  scans_.push_back({scan.t, submap_settings_.points(planar)});
+  scans_.push_back({scan.t, planar, submap_settings_.points(planar)});
   waiting_.push_back(static_cast<int>(scans_.size()) - 1);
   store(active_->insert(planar, match.odom_from_robot));
 }
@@ -269,12 +270,12 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   const SearchWindow window = windowFor(candidate.path_m);
   const auto coarse = correlativeSearch(stored.pyramid, points, expected, window);
   if (!coarse) return std::nullopt;
-  const GridRefinement fine =
-      refineOnGrid(grid, points, coarse->grid_from_scan, PosePrior{coarse->grid_from_scan});
+  GridRefinement fine = refineOnGrid(grid, points, coarse->grid_from_scan, PosePrior{coarse->grid_from_scan});
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
   if (candidate.path_m > trusted_path_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
     return std::nullopt;
 
+  refineFurther(stored.submap->surfaces, faced(scans_[static_cast<std::size_t>(b)].planar), PosePrior{coarse->grid_from_scan}, fine);
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;

@@ -31,6 +31,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   void declareSearch(ParameterVisitor& v);
   struct KeptScan {
     double t = 0;
+    PlanarScan planar;
     Points2 points;  ///< robot frame, thinned
   };
   struct StoredSubmap {

@@ -180,12 +180,7 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
                                                     weak_prior_per_m2_, weak_below_per_m2_);
   }
   GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
-  if (const auto fit = refineOnSurfaces(submap.surfaces, faced(planar), fine, prior)) {
-    fine.grid_from_scan = fit->map_from_scan;
-    fine.curvature = fit->information;
-    fine.residual_variance = 1;
-    fine.on_surfaces = true;
-  }
+  refineFurther(submap.surfaces, faced(planar), prior, fine);
   return fine;
 }
 

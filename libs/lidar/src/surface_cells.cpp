@@ -2,7 +2,9 @@
 // Sums per cell and facing, and the principal axes of those around a point.
 #include "surface_cells.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "roomgraph/geometry/pose.h"
@@ -27,7 +29,7 @@ struct Scatter {
   }
 };
 
-std::optional<SurfacePatch> lineThrough(const Scatter& sums, double fewest) {
+std::optional<SurfaceLine> lineThrough(const Scatter& sums, double fewest) {
   if (sums.count < fewest) return std::nullopt;
   const Eigen::Vector2d mean = sums.first / sums.count;
   const Eigen::Vector3d square = sums.second / sums.count;
@@ -36,7 +38,7 @@ std::optional<SurfacePatch> lineThrough(const Scatter& sums, double fewest) {
   const double across = std::max(0.0, middle - spread), along = middle + spread;
   if (!(across < kLongestAcross * along)) return std::nullopt;
   const double direction = 0.5 * std::atan2(2 * xy, xx - yy);
-  return SurfacePatch{mean, {-std::sin(direction), std::cos(direction)}, across};
+  return SurfaceLine{mean, {-std::sin(direction), std::cos(direction)}, across};
 }
 
 }  // namespace
@@ -46,11 +48,20 @@ int SurfaceCells::sectorOf(double facing_rad) {
   return static_cast<int>(turns * kSectors) % kSectors;
 }
 
+SurfaceCells::Sums& SurfaceCells::sumsOf(std::uint64_t cell, int sector) {
+  const auto [at, is_new] = first_of_cell_.emplace(cell, kNone);
+  for (std::int32_t i = at->second; i != kNone; i = facings_[static_cast<std::size_t>(i)].next)
+    if (facings_[static_cast<std::size_t>(i)].sector == sector) return facings_[static_cast<std::size_t>(i)].sums;
+  facings_.push_back({{}, sector, at->second});
+  at->second = static_cast<std::int32_t>(facings_.size()) - 1;
+  return facings_.back().sums;
+}
+
 void SurfaceCells::insert(const FacedScan& scan) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
     const double cx = std::floor(p.x() / cell_m_), cy = std::floor(p.y() / cell_m_);
-    Sums& sums = cells_[key(static_cast<std::int32_t>(cx), static_cast<std::int32_t>(cy))][static_cast<std::size_t>(sectorOf(scan.facing_rad[i]))];
+    Sums& sums = sumsOf(key(static_cast<std::int32_t>(cx), static_cast<std::int32_t>(cy)), sectorOf(scan.facing_rad[i]));
     const Eigen::Vector2f offset = (p - cell_m_ * Eigen::Vector2d(cx, cy)).cast<float>();
     sums.count += 1;
     sums.first += offset;
@@ -58,40 +69,42 @@ void SurfaceCells::insert(const FacedScan& scan) {
   }
 }
 
-std::optional<SurfacePatch> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
+std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
   const auto cx = static_cast<std::int32_t>(std::floor(point.x() / cell_m_));
   const auto cy = static_cast<std::int32_t>(std::floor(point.y() / cell_m_));
   const int sector = sectorOf(facing_rad);
   Scatter sum;  // from the corner of the cell in the middle
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      const auto found = cells_.find(key(cx + dx, cy + dy));
-      if (found == cells_.end()) continue;
+      const auto found = first_of_cell_.find(key(cx + dx, cy + dy));
+      if (found == first_of_cell_.end()) continue;
       const Eigen::Vector2d shift = cell_m_ * Eigen::Vector2d(dx, dy);
-      for (int turn = kSectors - 1; turn <= kSectors + 1; ++turn) {
-        const Sums& s = found->second[static_cast<std::size_t>((sector + turn) % kSectors)];
-        if (s.count == 0) continue;
-        const Eigen::Vector2d first = s.first.cast<double>();
-        const double n = s.count;
+      for (std::int32_t i = found->second; i != kNone; i = facings_[static_cast<std::size_t>(i)].next) {
+        const Facing& facing = facings_[static_cast<std::size_t>(i)];
+        const int apart = std::abs(facing.sector - sector);
+        if (std::min(apart, kSectors - apart) > 1) continue;
+        const Eigen::Vector2d first = facing.sums.first.cast<double>();
+        const double n = static_cast<double>(facing.sums.count);
         sum.count += n;
         sum.first += first + n * shift;
-        sum.second += s.second.cast<double>() + Eigen::Vector3d(2 * shift.x() * first.x() + n * shift.x() * shift.x(),
-                                           shift.x() * first.y() + shift.y() * first.x() + n * shift.x() * shift.y(),
-                                           2 * shift.y() * first.y() + n * shift.y() * shift.y());
+        sum.second += facing.sums.second.cast<double>() +
+                      Eigen::Vector3d(2 * shift.x() * first.x() + n * shift.x() * shift.x(),
+                                      shift.x() * first.y() + shift.y() * first.x() + n * shift.x() * shift.y(),
+                                      2 * shift.y() * first.y() + n * shift.y() * shift.y());
       }
     }
-  auto patch = lineThrough(sum, kFewestReturns);
-  if (patch) patch->mean += cell_m_ * Eigen::Vector2d(cx, cy);
-  return patch;
+  auto line = lineThrough(sum, kFewestReturns);
+  if (line) line->mean += cell_m_ * Eigen::Vector2d(cx, cy);
+  return line;
 }
 
 void LocalSurfaces::insert(const FacedScan& scan) {
   for (SurfaceCells& level : levels_) level.insert(scan);
 }
 
-std::optional<SurfacePatch> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad) const {
+std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad) const {
   for (const SurfaceCells& level : levels_)
-    if (const auto patch = level.around(point, facing_rad)) return patch;
+    if (const auto line = level.around(point, facing_rad)) return line;
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ FacedScan faced(const PlanarScan& scan);
 FacedScan transformed(const Pose2& a_from_b, const FacedScan& in_b);
 
 /// The returns around a place as a line.
-struct SurfacePatch {
+struct SurfaceLine {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double variance_m2 = 0;  ///< of the returns across the line
@@ -36,7 +36,7 @@ class SurfaceCells {
   void insert(const FacedScan& scan);
   /// The line through the returns in the 3 x 3 cells around a point that face about the same way (67 degrees at most); nothing
   /// where they are few or form no line.
-  std::optional<SurfacePatch> around(const Eigen::Vector2d& point, double facing_rad) const;
+  std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad) const;
 
  private:
   static constexpr int kSectors = 8;
@@ -48,10 +48,17 @@ class SurfaceCells {
   static std::uint64_t key(std::int32_t ix, std::int32_t iy) {
     return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(ix)) << 32) | static_cast<std::uint32_t>(iy);
   }
+  struct Facing {
+    Sums sums;
+    std::int32_t sector = 0, next = kNone;  // of the same cell
+  };
+  static constexpr std::int32_t kNone = -1;
   static int sectorOf(double facing_rad);
+  Sums& sumsOf(std::uint64_t cell, int sector);
 
   double cell_m_;
-  std::unordered_map<std::uint64_t, std::array<Sums, kSectors>> cells_;
+  std::unordered_map<std::uint64_t, std::int32_t> first_of_cell_;
+  std::vector<Facing> facings_;
 };
 
 /// Surfaces at three sizes of cells; the finest that shows a line around a point is taken.
@@ -59,7 +66,7 @@ class LocalSurfaces {
  public:
   explicit LocalSurfaces(double cell_m) : levels_{SurfaceCells(cell_m), SurfaceCells(2 * cell_m), SurfaceCells(6 * cell_m)} {}
   void insert(const FacedScan& scan);
-  std::optional<SurfacePatch> around(const Eigen::Vector2d& point, double facing_rad) const;
+  std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad) const;
 
  private:
   std::array<SurfaceCells, 3> levels_;

@@ -15,6 +15,8 @@ constexpr double kRobustWidth = 2, kFarthest = 4;     // standard deviations; Ca
 constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
 
+constexpr double kFarthestFromGrid_m = 0.1;           // a longer way was along a surface that fixes nothing
+
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -76,6 +78,17 @@ std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const 
     if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
   return fit;
+}
+
+void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement) {
+  const auto fit = refineOnSurfaces(surfaces, scan, refinement, prior);
+  if (!fit) return;
+  const Pose2 moved = refinement.grid_from_scan.inverse() * fit->map_from_scan;
+  if (std::hypot(moved.x, moved.y) > kFarthestFromGrid_m) return;
+  refinement.grid_from_scan = fit->map_from_scan;
+  refinement.curvature = fit->information;
+  refinement.residual_variance = 1;
+  refinement.on_surfaces = true;
 }
 
 }  // namespace roomgraph

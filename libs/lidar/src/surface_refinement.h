@@ -22,4 +22,7 @@ struct SurfaceFit {
 std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
                                            const PosePrior& prior);
 
+/// A refinement on the grid becomes one on the surfaces, its curvature their information, where there are enough of them.
+void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement);
+
 }  // namespace roomgraph

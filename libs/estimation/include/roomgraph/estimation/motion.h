@@ -58,7 +58,8 @@ class MotionSource {
 struct Motion {
   MotionSource odometry, visual, lidar;
 
-  /// Movement between two times by the best source that covers them: scans, then images, then wheels; else nothing.
+  /// Movement between two times by all sources that cover them, each with the weight of its covariance (less where it contradicts the
+  /// first of scans, images, wheels by several standard deviations); nothing when none covers them.
   std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
 };
 
