@@ -13,8 +13,8 @@
 namespace roomgraph {
 
 /// Scan-to-submap matching: a correlative search around the predicted pose, then a refinement on the
-/// interpolated grid with a prior on the prediction. After Hess et al. 2016 (Cartographer) and Olson
-/// 2009. Wheel slip: where the odometry deviates from constant velocity by more than the search window,
+/// interpolated grid with a prior on the prediction, and one on surfaces finer than its cells. After Hess et al. 2016 (Cartographer), Olson
+/// 2009 and Censi 2008. Wheel slip: where the odometry deviates from constant velocity by more than the search window,
 /// the scan is matched from both predictions, and the one that explains clearly more returns is taken.
 class SubmapScanMatcher : public ScanMatcher {
   DEFINE_MRPT_OBJECT(SubmapScanMatcher, roomgraph)

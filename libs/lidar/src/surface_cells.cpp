@@ -102,9 +102,9 @@ void LocalSurfaces::insert(const FacedScan& scan) {
   for (SurfaceCells& level : levels_) level.insert(scan);
 }
 
-std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad) const {
-  for (const SurfaceCells& level : levels_)
-    if (const auto line = level.around(point, facing_rad)) return line;
+std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad, int levels) const {
+  for (int i = 0; i < levels; ++i)
+    if (const auto line = levels_[static_cast<std::size_t>(i)].around(point, facing_rad)) return line;
   return std::nullopt;
 }
 

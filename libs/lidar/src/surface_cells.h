@@ -61,15 +61,17 @@ class SurfaceCells {
   std::vector<Facing> facings_;
 };
 
-/// Surfaces at three sizes of cells; the finest that shows a line around a point is taken.
+/// Surfaces at four sizes of cells; of those allowed, the finest that shows a line around a point is taken.
 class LocalSurfaces {
  public:
-  explicit LocalSurfaces(double cell_m) : levels_{SurfaceCells(cell_m), SurfaceCells(2 * cell_m), SurfaceCells(6 * cell_m)} {}
+  static constexpr int kUsual = 3, kAll = 4;  ///< the coarsest for lidars whose returns scatter by decimetres
+  explicit LocalSurfaces(double cell_m)
+      : levels_{SurfaceCells(cell_m), SurfaceCells(2 * cell_m), SurfaceCells(6 * cell_m), SurfaceCells(20 * cell_m)} {}
   void insert(const FacedScan& scan);
-  std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad) const;
+  std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad, int levels = kUsual) const;
 
  private:
-  std::array<SurfaceCells, 3> levels_;
+  std::array<SurfaceCells, kAll> levels_;
 };
 
 }  // namespace roomgraph

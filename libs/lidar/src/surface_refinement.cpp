@@ -15,7 +15,7 @@ constexpr double kRobustWidth = 2, kFarthest = 4;     // standard deviations; Ca
 constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
 
-constexpr double kFarthestFromGrid_m = 0.1;           // a longer way was along a surface that fixes nothing
+constexpr double kFarthestFromGrid_m = 1;             // farther away it is another place
 
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -23,14 +23,14 @@ struct NormalEquations {
   std::size_t used = 0;
 };
 
-NormalEquations linearise(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& pose) {
+NormalEquations linearise(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& pose, int levels) {
   NormalEquations out;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
     const Eigen::Vector2d turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
     const Eigen::Vector2d at = turned + Eigen::Vector2d(pose.x, pose.y);
-    const auto line = surfaces.around(at, scan.facing_rad[i] + pose.yaw);
+    const auto line = surfaces.around(at, scan.facing_rad[i] + pose.yaw, levels);
     if (!line) continue;
     const double distance = line->normal.dot(at - line->mean);
     const double variance = kLeastSigma_m * kLeastSigma_m + line->variance_m2;
@@ -58,15 +58,13 @@ Eigen::Matrix3d matrixOf(const PosePrior& prior) {
   return out;
 }
 
-}  // namespace
-
-std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
-                                           const PosePrior& prior) {
+std::optional<SurfaceFit> refineOn(const LocalSurfaces& surfaces, int levels, const FacedScan& scan, const GridRefinement& grid,
+                                   const PosePrior& prior) {
   const Eigen::Matrix3d unscaled = matrixOf(prior);
   SurfaceFit fit{.map_from_scan = grid.grid_from_scan};
   Pose2& pose = fit.map_from_scan;
   for (int i = 0; i < kIterations; ++i) {
-    const NormalEquations scan_only = linearise(surfaces, scan, pose);
+    const NormalEquations scan_only = linearise(surfaces, scan, pose, levels);
     if (static_cast<double>(scan_only.used) < kLeastShare * static_cast<double>(scan.points.size())) return std::nullopt;
     fit.information = scan_only.information;
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
@@ -78,6 +76,14 @@ std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const 
     if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
   return fit;
+}
+
+}  // namespace
+
+std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
+                                           const PosePrior& prior) {
+  const auto fit = refineOn(surfaces, LocalSurfaces::kUsual, scan, grid, prior);
+  return fit ? fit : refineOn(surfaces, LocalSurfaces::kAll, scan, grid, prior);
 }
 
 void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement) {
