@@ -96,6 +96,8 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints) s.grow(kWithFewPoints);
   if (e.cut.left || e.cut.right) s.grow(kWithCutSide);
   if (e.cut.bottom) s.grow(kWithCutBottom);
+  // How far it reaches beyond the cut is the class's usual size.
+  if (kind == ShapeKind::kCuboid && e.cut.left != e.cut.right) s.across = std::hypot(s.across, e.model->width_sigma_m / 2);
   s.along = std::hypot(s.along, placed.open_along_m);
   if (!placed.has_yaw) s.yaw = std::numbers::pi;
   const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
