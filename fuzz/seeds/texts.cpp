@@ -65,6 +65,7 @@ std::string landmarks() {
 
 void addSettings(Corpus& corpus) {
   corpus.add("config", "shipped", shipped("config.ini"));
+  corpus.add("config_text", "mapping", "[mapping]\nresolution_m = 0.1\n[b]\nname = \"a # b\" ; comment\n");
   corpus.add("config", "some",
              "[detection]\nclass = RecordedDetector\n[lidar]\nenabled = false\n[pipeline]\nlookahead_s = 0.5\n"
              "[tracking]\nenabled = true ; comment\n");

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checkpoints of runs: the journal, and what its records hold.
-#include <stdexcept>
-
 #include "../target.h"
 #include "detection_bytes.h"
 #include "roomgraph/core/result_store.h"
@@ -16,10 +14,10 @@ ROOMGRAPH_FUZZ_TARGET(journal) {
   results.keep("boxes", 1000, "more");
 }
 
-ROOMGRAPH_FUZZ_TARGET(journalled_boxes) { detectionsFrom(std::string(bytes)); }
+ROOMGRAPH_FUZZ_TARGET(journalled_boxes) { decodedResult("boxes", 1000, std::string(bytes), detectionsFrom); }
 
 ROOMGRAPH_FUZZ_TARGET(journalled_view) {
-  tracking::locatedView(std::string(bytes));
+  decodedResult("view", 1000, std::string(bytes), tracking::locatedView);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rawlogs, plain or gzipped, through each of their readers.
+// Rawlogs, plain or gzipped, through each of their readers; folders of TUM.
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include "../target.h"
@@ -10,6 +10,7 @@
 #include "roomgraph/datasets/rawlog_peek.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/datasets/stored_observations.h"
+#include "roomgraph/datasets/tum_import.h"
 #include "three_frames.h"
 
 namespace roomgraph::fuzz {
@@ -64,6 +65,21 @@ ROOMGRAPH_FUZZ_TARGET(rawlog_images) {
   }();
   writeParts(bytes, {"outside_Images/color.jpg", "outside_Images/depth.bin"});
   readAllRecords(file);
+}
+
+ROOMGRAPH_FUZZ_TARGET(tum) {
+  const auto folder = scratchFolder() / "tum";
+  std::filesystem::create_directory(folder);
+  writeParts(bytes, {"tum/camera.json", "tum/associations.txt", "tum/groundtruth.txt", "tum/color.png", "tum/depth.png"});
+  importTum(folder, scratchFolder() / "tum.rawlog");
+}
+
+ROOMGRAPH_FUZZ_TARGET(tum_lists) {
+  const auto folder = scratchFolder() / "tum_lists";
+  std::filesystem::create_directory(folder);
+  writeParts(bytes, {"tum_lists/camera.json", "tum_lists/rgb.txt", "tum_lists/depth.txt",
+                     "tum_lists/groundtruth.txt", "tum_lists/color.jpg", "tum_lists/depth.png"});
+  importTum(folder, scratchFolder() / "tum.rawlog", {.external_images = true});
 }
 
 }  // namespace

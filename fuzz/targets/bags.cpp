@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recordings of others: folders of TUM, bags of ROS 1 and ROS 2, and single messages in them.
+// Bags of ROS 1 and ROS 2, and single messages in them.
 #include "../target.h"
 #include "image_decoding.h"
 #include "roomgraph/bags/bag_import.h"
-#include "roomgraph/datasets/tum_import.h"
 
 namespace roomgraph::fuzz {
 namespace {
-
-ROOMGRAPH_FUZZ_TARGET(tum) {
-  const auto folder = scratchFolder() / "tum";
-  std::filesystem::create_directory(folder);
-  writeParts(bytes, {"tum/camera.json", "tum/associations.txt", "tum/groundtruth.txt", "tum/color.png", "tum/depth.png"});
-  importTum(folder, scratchFolder() / "tum.rawlog");
-}
-
-ROOMGRAPH_FUZZ_TARGET(tum_lists) {
-  const auto folder = scratchFolder() / "tum_lists";
-  std::filesystem::create_directory(folder);
-  writeParts(bytes, {"tum_lists/camera.json", "tum_lists/rgb.txt", "tum_lists/depth.txt",
-                     "tum_lists/groundtruth.txt", "tum_lists/color.jpg", "tum_lists/depth.png"});
-  importTum(folder, scratchFolder() / "tum.rawlog", {.external_images = true});
-}
 
 ROOMGRAPH_FUZZ_TARGET(bag_ros1) {
   const auto bag = scratchFile("x.bag", bytes);
