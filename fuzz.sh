@@ -30,8 +30,9 @@ build() {  # preset, programs
     { tail -n 40 "$log"; exit 2; }
 }
 
-# Sizes out of damaged files are refused by an exception, as without a sanitizer.
-export ASAN_OPTIONS="allocator_may_return_null=1:quarantine_size_mb=16 ${ASAN_OPTIONS:-}"
+# Sizes out of damaged files are refused by an exception, as without a sanitizer. The plain operators new and delete are our
+# own, those of arrays the sanitizer's: it would take them for a mismatch.
+export ASAN_OPTIONS="allocator_may_return_null=1:alloc_dealloc_mismatch=0:quarantine_size_mb=16 ${ASAN_OPTIONS:-}"
 export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan_suppressions.txt print_suppressions=0 ${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1 ${UBSAN_OPTIONS:-}"
 # Files of the readers are in memory.
@@ -47,7 +48,7 @@ if [ "$1" = --list ]; then
 elif [ "$1" = --replay ]; then
   program="$(program_of "${2:?target}")"
   build fuzz "$program"
-  ROOMGRAPH_FUZZ_TARGET="$2" "build/fuzz/bin/$program" "${limits[@]}" "${3:?file}"
+  ROOMGRAPH_FUZZ_TELL=1 ROOMGRAPH_FUZZ_TARGET="$2" "build/fuzz/bin/$program" "${limits[@]}" "${3:?file}"
   exit
 fi
 

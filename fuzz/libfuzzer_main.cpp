@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Entry points of libFuzzer; the environment variable ROOMGRAPH_FUZZ_TARGET names the target.
+// Entry points of libFuzzer; the environment variable ROOMGRAPH_FUZZ_TARGET names the target; with ROOMGRAPH_FUZZ_TELL, what
+// the reader answers is printed.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +23,8 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  roomgraph::fuzz::readWith(*chosen, {reinterpret_cast<const char*>(data), size});
+  const std::string refusal = roomgraph::fuzz::readWith(*chosen, {reinterpret_cast<const char*>(data), size});
+  static const bool tells = std::getenv("ROOMGRAPH_FUZZ_TELL");
+  if (tells) std::printf("%s\n", refusal.empty() ? "used" : ("refused: " + refusal).c_str());
   return 0;
 }

@@ -3,8 +3,6 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <cstring>
-
 #include "corpus.h"
 #include "detection_bytes.h"
 #include "roomgraph/core/result_store.h"
@@ -13,6 +11,7 @@
 #include "sample_map.h"
 #include "temporary_folder.h"
 #include "tiny_network.h"
+#include "tiny_onnx.h"
 #include "view_bytes.h"
 
 namespace roomgraph::fuzz {
@@ -26,68 +25,6 @@ CSemanticMap smallMap() {
   map.occupancy->setCell(3, 4, 0.01f);
   map.world_from_robot.resize(5);
   return map;
-}
-
-// Fields of protocol buffers: number and kind of a field, then its value.
-std::string varint(std::uint64_t value) {
-  std::string out;
-  for (; value > 127; value >>= 7) out += static_cast<char>(value | 0x80);
-  return out + static_cast<char>(value);
-}
-std::string number(int field, std::uint64_t value) {
-  return varint(static_cast<std::uint64_t>(field) << 3) + varint(value);
-}
-std::string text(int field, const std::string& value) {
-  return varint(static_cast<std::uint64_t>(field) << 3 | 2) + varint(value.size()) + value;
-}
-
-std::string valueInfo(const std::string& name, const std::vector<int>& sizes) {
-  std::string shape;
-  for (const int size : sizes) shape += text(1, number(1, static_cast<std::uint64_t>(size)));
-  return text(1, name) + text(2, text(1, number(1, 1) + text(2, shape)));
-}
-
-std::string tensor(const std::string& name, const std::vector<int>& sizes, const std::vector<float>& values) {
-  std::string raw(values.size() * sizeof(float), '\0'), out;
-  std::memcpy(raw.data(), values.data(), raw.size());
-  for (const int size : sizes) out += number(1, static_cast<std::uint64_t>(size));
-  return out + number(2, 1) + text(8, name) + text(9, raw);
-}
-
-std::string node(const std::string& type, const std::vector<std::string>& inputs, const std::string& output,
-                 const std::string& attributes = "") {
-  std::string out;
-  for (const auto& input : inputs) out += text(1, input);
-  return out + text(2, output) + text(3, output) + text(4, type) + attributes;
-}
-
-std::string integers(const std::string& name, const std::vector<int>& values) {
-  constexpr int kAttribute = 5, kIntegers = 7;
-  std::string all = text(1, name);
-  for (const int value : values) all += number(8, static_cast<std::uint64_t>(value));
-  return text(kAttribute, all + number(20, kIntegers));
-}
-
-std::string sizes(const std::string& name, const std::vector<std::int64_t>& values) {
-  constexpr int kInt64 = 7;
-  std::string raw(values.size() * sizeof(std::int64_t), '\0');
-  std::memcpy(raw.data(), values.data(), raw.size());
-  return number(1, values.size()) + number(2, kInt64) + text(8, name) + text(9, raw);
-}
-
-/// An ONNX model: a convolution of 1 x 1, a ReLU, the maximum over 2 x 2 pixels, all as rows of eight numbers: a box,
-/// how sure it is, three classes.
-std::string tinyModel() {
-  const std::string graph =
-      text(1, node("Conv", {"images", "weights", "bias"}, "sums", integers("kernel_shape", {1, 1}))) +
-      text(1, node("Relu", {"sums"}, "positive")) +
-      text(1, node("MaxPool", {"positive"}, "largest",
-                   integers("kernel_shape", {2, 2}) + integers("strides", {2, 2}))) +
-      text(1, node("Reshape", {"largest", "rows"}, "boxes")) + text(5, sizes("rows", {1, 64, 8})) +
-      text(2, "tiny") + text(5, tensor("weights", {2, 3, 1, 1}, {.1f, .2f, .3f, .4f, .5f, .6f})) +
-      text(5, tensor("bias", {2}, {.1f, -.1f})) + text(11, valueInfo("images", {1, 3, 32, 32})) +
-      text(12, valueInfo("boxes", {1, 64, 8}));
-  return number(1, 7) + text(2, "roomgraph") + text(7, graph) + text(8, number(2, 11));
 }
 
 }  // namespace
@@ -111,7 +48,7 @@ void addNetworks(Corpus& corpus) {
   test::writeTinyNetwork(folder, 2);
   corpus.add("darknet", "tiny", {folder.read("tiny.cfg"), "chair\nsofa\n", folder.read("tiny.weights")});
   corpus.add("labels", "two", "chair\nsofa\n");
-  corpus.add("onnx", "tiny", {"chair\nsofa\ndoor\n", tinyModel()});
+  corpus.add("onnx", "tiny", {"chair\nsofa\ndoor\n", test::tinyOnnx()});
 }
 
 void addCheckpoints(Corpus& corpus) {

@@ -23,12 +23,18 @@ void write(CArchive& out, const Detection& d) {
       << d.rival_label;
 }
 
+// MRPT's own reader of a bool makes one of any byte, which is undefined but for 0 and 1.
+bool readFlag(CArchive& in) {
+  return in.ReadAs<std::uint8_t>() != 0;
+}
+
 Detection read(CArchive& in, MaskMemory& memory_of_masks) {
   Detection d;
   MaskRuns mask;
   in >> d.box.u_min >> d.box.v_min >> d.box.u_max >> d.box.v_max >> d.class_name >> d.label >> d.score;
-  in >> mask.width >> mask.height >> mask.runs >> d.track.value >> d.carried >> d.rival_score >>
-      d.rival_label;
+  in >> mask.width >> mask.height >> mask.runs >> d.track.value;
+  d.carried = readFlag(in);
+  in >> d.rival_score >> d.rival_label;
   d.mask = memory_of_masks.toMask(mask);
   return d;
 }
@@ -49,10 +55,10 @@ Outcome<std::vector<Detection>> detectionsFrom(const std::string& bytes) {
   mrpt::io::CMemoryStream memory;
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
   auto in = archiveFrom(memory);
-  bool ok = false;
+  const bool ok = readFlag(in);
   std::string reason;
   std::uint32_t count = 0;
-  in >> ok >> reason >> count;
+  in >> reason >> count;
   if (!ok) return Outcome<std::vector<Detection>>::failure(reason);
   std::vector<Detection> detections;
   MaskMemory memory_of_masks;
