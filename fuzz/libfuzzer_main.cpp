@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Entry points of libFuzzer; the environment variable ROOMGRAPH_FUZZ_TARGET names the target; with ROOMGRAPH_FUZZ_TELL, what
-// the reader answers is printed.
+// Entry points of libFuzzer; the environment variable ROOMGRAPH_FUZZ_TARGET names the target; with
+// ROOMGRAPH_FUZZ_TELL, what the reader answers is printed.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fuzz_replay SEEDS [MUTATIONS [TARGET]]: each seed and so many damaged copies of each, without libFuzzer. Ends at
-// the first finding, with the target, the seed and the number of the copy; that copy stays in `finding`.
+// fuzz_replay SEEDS [MUTATIONS [TARGET]]: each seed and so many damaged copies of each, without libFuzzer.
+// Ends at the first finding, with the target, the seed and the number of the copy; that copy stays in
+// `finding`.
 #include <sys/resource.h>
 
 #include <algorithm>

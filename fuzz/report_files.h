@@ -5,8 +5,8 @@
 namespace roomgraph::fuzz {
 
 inline constexpr const char* kFilesOfReport[] = {
-    "summary.json", "trajectory.tum", "live.tum",    "landmarks.json", "candidates.json", "associations.jsonl",
-    "timings.csv",  "lost.jsonl",     "views.jsonl", "config.ini",     "objects.ini",     "map.yaml",
-    "graph.g2o",    "map.pgm"};
+    "summary.json",       "trajectory.tum", "live.tum",   "landmarks.json", "candidates.json",
+    "associations.jsonl", "timings.csv",    "lost.jsonl", "views.jsonl",    "config.ini",
+    "objects.ini",        "map.yaml",       "graph.g2o",  "map.pgm"};
 
 }  // namespace roomgraph::fuzz

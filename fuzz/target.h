@@ -47,7 +47,7 @@ void require(bool holds, const char* promise);
 }  // namespace roomgraph::fuzz
 
 /// ROOMGRAPH_FUZZ_TARGET(name) { … } defines a target; its input is `bytes`.
-#define ROOMGRAPH_FUZZ_TARGET(name)                                                               \
-  static void read_##name(std::string_view bytes);                                                \
-  static const roomgraph::fuzz::TargetRegistration registered_##name(#name, &read_##name);        \
+#define ROOMGRAPH_FUZZ_TARGET(name)                                                        \
+  static void read_##name(std::string_view bytes);                                         \
+  static const roomgraph::fuzz::TargetRegistration registered_##name(#name, &read_##name); \
   static void read_##name([[maybe_unused]] std::string_view bytes)

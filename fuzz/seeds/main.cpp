@@ -33,7 +33,8 @@ int main(int argc, char** argv) {
   try {
     roomgraph::observations::registerClasses();
     Corpus corpus(argv[1]);
-    for (const auto add : {addRawlogs, addMaps, addSettings, addResults, addCheckpoints, addNetworks, addFolders, addBags})
+    for (const auto add :
+         {addRawlogs, addMaps, addSettings, addResults, addCheckpoints, addNetworks, addFolders, addBags})
       add(corpus);
     std::cout << corpus.written() << " seeds in " << argv[1] << "\n";
   } catch (const std::exception& error) {

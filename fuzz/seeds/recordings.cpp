@@ -43,10 +43,10 @@ std::string bagOf(const test::TemporaryFolder& folder, const std::string& name, 
 
 /// The messages of a bag as inputs of the target bag_message, which chooses the type by the first byte.
 void addMessages(Corpus& corpus, const std::filesystem::path& bag, const std::string& name) {
-  const std::map<std::string, int> types{
-      {"sensor_msgs/Image", 0},   {"sensor_msgs/CompressedImage", 1}, {"sensor_msgs/CameraInfo", 2},
-      {"sensor_msgs/LaserScan", 3}, {"nav_msgs/Odometry", 4},         {"geometry_msgs/PoseStamped", 5},
-      {"tf2_msgs/TFMessage", 6},  {"sensor_msgs/Imu", 7}};
+  const std::map<std::string, int> types{{"sensor_msgs/Image", 0},      {"sensor_msgs/CompressedImage", 1},
+                                         {"sensor_msgs/CameraInfo", 2}, {"sensor_msgs/LaserScan", 3},
+                                         {"nav_msgs/Odometry", 4},      {"geometry_msgs/PoseStamped", 5},
+                                         {"tf2_msgs/TFMessage", 6},     {"sensor_msgs/Imu", 7}};
   const auto reader = bags::openBag(bag);
   bags::RawMessage message;
   std::map<std::string, int> taken;
@@ -68,7 +68,8 @@ void addRawlogs(Corpus& corpus) {
     corpus.add(target, "observations", frames.bytes());
     corpus.add(target, "pairs", pairs.bytes());
     corpus.add(target, "gzipped", gzipped(frames.records));
-    corpus.add(target, "scans", test::bytesOf(test::makeScan(1)) + test::bytesOf(test::makeOdometry(2, 1, 1, 0)));
+    corpus.add(target, "scans",
+               test::bytesOf(test::makeScan(1)) + test::bytesOf(test::makeOdometry(2, 1, 1, 0)));
   }
   const test::TemporaryFolder folder;
   test::makeImages(1000)->rangeImage_convertToExternalStorage("depth.bin", folder.path().string() + "/");
@@ -80,10 +81,12 @@ void addFolders(Corpus& corpus) {
   const std::string camera =
       R"({"width": 16, "height": 12, "fx": 10, "fy": -11, "cx": 7.5, "cy": 5.5, "distortion": [0, 0.1, 0, 0, 0], "depth_scale": 5000})";
   const std::string truth = "# t x y z q\n1 0.1 0.2 0.3 0 0 0 1\n2 0.2 0.2 0.3 0 0 0.0998334 0.9950042\n";
-  corpus.add("tum", "png", {camera, "1.5 color.png 1.51 depth.png\n# x\n2.5 color.png 2.51 depth.png\n", truth,
-                            colorImage(".png"), depthImage()});
-  corpus.add("tum_lists", "jpg", {camera, "1.5 color.jpg\n2.5 color.jpg\n", "1.51 depth.png\n2.49 depth.png\n",
-                                  truth, colorImage(".jpg"), depthImage()});
+  corpus.add("tum", "png",
+             {camera, "1.5 color.png 1.51 depth.png\n# x\n2.5 color.png 2.51 depth.png\n", truth,
+              colorImage(".png"), depthImage()});
+  corpus.add("tum_lists", "jpg",
+             {camera, "1.5 color.jpg\n2.5 color.jpg\n", "1.51 depth.png\n2.49 depth.png\n", truth,
+              colorImage(".jpg"), depthImage()});
 }
 
 void addBags(Corpus& corpus) {

@@ -66,22 +66,25 @@ std::string landmarks() {
 void addSettings(Corpus& corpus) {
   corpus.add("config", "shipped", shipped("config.ini"));
   corpus.add("config_text", "mapping", "[mapping]\nresolution_m = 0.1\n[b]\nname = \"a # b\" ; comment\n");
-  corpus.add("config", "some",
-             "[detection]\nclass = RecordedDetector\n[lidar]\nenabled = false\n[pipeline]\nlookahead_s = 0.5\n"
-             "[tracking]\nenabled = true ; comment\n");
+  corpus.add(
+      "config", "some",
+      "[detection]\nclass = RecordedDetector\n[lidar]\nenabled = false\n[pipeline]\nlookahead_s = 0.5\n"
+      "[tracking]\nenabled = true ; comment\n");
   corpus.add("objects", "shipped", shipped("objects.ini"));
   for (const char* name : {"tiny_room", "tiny_handheld"})
     corpus.add("world", name, shipped(std::string("rawlogs/") + name + ".json"));
-  corpus.add("calibration", "all",
-             "[sensor KINECT]\npose = 0.1,0.2,0.7,1,2,3\ntime_offset_s = 0.02\n[wheels]\nscale = 1.02\n"
-             "turn_scale = 0.98\ndrift_rad_m = 0.001\ntime_offset_s = 0\n[depth]\nscale = 1.01\nbias_m = 0.005\n");
-  corpus.add("jobs", "all",
-             "inputs:\n  - lab/*.rawlog\n  - {files: [a.rawlog, /b.rawlog], truth: {objects: t.json}, group: real}\n"
-             "  - simulate: {flats: [7, 20-21], rooms: 2, handheld: true}\n"
-             "variants:\n  - name: default\n  - {name: fast, set: [lidar.enabled=false], pose: \"K=0,0,1,0,0,0\"}\n"
-             "limits: {jobs: 3, threads: 2, memory: 8 GB, time: 30 min, retries: 1}\nsplit: 10 min\n"
-             "slurm: {partition: long, time: 4 h, options: [--nice], setup: module load x, poll: 5 s}\n"
-             "keep: map\nevaluation: {trajectory: --interpolate, map: none}\n");
+  corpus.add(
+      "calibration", "all",
+      "[sensor KINECT]\npose = 0.1,0.2,0.7,1,2,3\ntime_offset_s = 0.02\n[wheels]\nscale = 1.02\n"
+      "turn_scale = 0.98\ndrift_rad_m = 0.001\ntime_offset_s = 0\n[depth]\nscale = 1.01\nbias_m = 0.005\n");
+  corpus.add(
+      "jobs", "all",
+      "inputs:\n  - lab/*.rawlog\n  - {files: [a.rawlog, /b.rawlog], truth: {objects: t.json}, group: real}\n"
+      "  - simulate: {flats: [7, 20-21], rooms: 2, handheld: true}\n"
+      "variants:\n  - name: default\n  - {name: fast, set: [lidar.enabled=false], pose: \"K=0,0,1,0,0,0\"}\n"
+      "limits: {jobs: 3, threads: 2, memory: 8 GB, time: 30 min, retries: 1}\nsplit: 10 min\n"
+      "slurm: {partition: long, time: 4 h, options: [--nice], setup: module load x, poll: 5 s}\n"
+      "keep: map\nevaluation: {trajectory: --interpolate, map: none}\n");
   corpus.add("network_catalogue", "shipped", shipped("networks.json"));
 }
 
@@ -91,9 +94,10 @@ void addResults(Corpus& corpus) {
   corpus.add("recorded_boxes", "json", {kDetections, std::string(mask.begin(), mask.end())});
   corpus.add("recorded_boxes", "text", "1000.1 56 10 20 100 200 0.75\n1000.2 57 1 2 3 4 0.5\n");
   corpus.add("detections", "one", kDetections.substr(0, kDetections.find('\n') + 1));
-  corpus.add("true_boxes", "one",
-             R"({"frame": 1, "t": 1000.1, "objects": [{"id": 2, "class": "sofa", "kind": "sofa", "bbox": [1, 2, 3, 4.5], "visible": 0.9, "z_med": 2.5}]})"
-             "\n");
+  corpus.add(
+      "true_boxes", "one",
+      R"({"frame": 1, "t": 1000.1, "objects": [{"id": 2, "class": "sofa", "kind": "sofa", "bbox": [1, 2, 3, 4.5], "visible": 0.9, "z_med": 2.5}]})"
+      "\n");
   corpus.add("landmarks", "three", landmarks());
   corpus.add("trajectory", "tum", poses());
   corpus.add("trajectory", "planar", "1000.1, 0.1, 0.2, 0.3\n1000.2, 0.2, 0.2, 0.3\n");

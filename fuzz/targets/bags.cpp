@@ -35,15 +35,14 @@ void decodeImage(const bags::RawMessage& message, bool compressed) {
 // The first byte chooses the type, and the serialisation by its highest bit; the message follows.
 ROOMGRAPH_FUZZ_TARGET(bag_message) {
   using Decode = void (*)(const bags::RawMessage&);
-  static constexpr Decode kTypes[] = {
-      [](const bags::RawMessage& m) { decodeImage(m, false); },
-      [](const bags::RawMessage& m) { decodeImage(m, true); },
-      decodeMessage<bags::CameraInfoMessage>,
-      decodeMessage<bags::LaserScanMessage>,
-      decodeMessage<bags::OdometryMessage>,
-      decodeMessage<bags::PoseMessage>,
-      decodeMessage<bags::TransformsMessage>,
-      decodeMessage<bags::ImuMessage>};
+  static constexpr Decode kTypes[] = {[](const bags::RawMessage& m) { decodeImage(m, false); },
+                                      [](const bags::RawMessage& m) { decodeImage(m, true); },
+                                      decodeMessage<bags::CameraInfoMessage>,
+                                      decodeMessage<bags::LaserScanMessage>,
+                                      decodeMessage<bags::OdometryMessage>,
+                                      decodeMessage<bags::PoseMessage>,
+                                      decodeMessage<bags::TransformsMessage>,
+                                      decodeMessage<bags::ImuMessage>};
   if (bytes.empty()) return;
   const auto first = static_cast<unsigned char>(bytes.front());
   bags::RawMessage message;

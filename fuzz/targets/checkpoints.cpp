@@ -14,7 +14,9 @@ ROOMGRAPH_FUZZ_TARGET(journal) {
   results.keep("boxes", 1000, "more");
 }
 
-ROOMGRAPH_FUZZ_TARGET(journalled_boxes) { decodedResult("boxes", 1000, std::string(bytes), detectionsFrom); }
+ROOMGRAPH_FUZZ_TARGET(journalled_boxes) {
+  decodedResult("boxes", 1000, std::string(bytes), detectionsFrom);
+}
 
 ROOMGRAPH_FUZZ_TARGET(journalled_view) {
   decodedResult("view", 1000, std::string(bytes), tracking::locatedView);

@@ -8,13 +8,14 @@
 namespace roomgraph::fuzz {
 namespace {
 
-ROOMGRAPH_FUZZ_TARGET(map) { loadMap(scratchFile("map.rgmap", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(map) {
+  loadMap(scratchFile("map.rgmap", bytes));
+}
 
 // With the checksum of whatever the content is: what lies behind it is met.
 ROOMGRAPH_FUZZ_TARGET(map_content) {
   const std::string content(bytes);
-  const auto map =
-      loadMap(scratchFile("map.rgmap", content + "roomgraph map sha256 " + sha256Of(content)));
+  const auto map = loadMap(scratchFile("map.rgmap", content + "roomgraph map sha256 " + sha256Of(content)));
   for (const auto& landmark : map.landmarks)
     require(landmark.position.allFinite(), "positions of landmarks are finite");
 }

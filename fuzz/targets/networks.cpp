@@ -21,7 +21,9 @@ ROOMGRAPH_FUZZ_TARGET(darknet) {
   Network network({.file = (scratchFolder() / "darknet/x.weights").string()});
 }
 
-ROOMGRAPH_FUZZ_TARGET(labels) { readLabels(scratchFile("labels.txt", bytes).string()); }
+ROOMGRAPH_FUZZ_TARGET(labels) {
+  readLabels(scratchFile("labels.txt", bytes).string());
+}
 
 }  // namespace
 }  // namespace roomgraph::fuzz

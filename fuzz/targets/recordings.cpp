@@ -22,7 +22,9 @@ void readAllRecords(const std::filesystem::path& file) {
   reader.statistics();
 }
 
-ROOMGRAPH_FUZZ_TARGET(rawlog) { readAllRecords(scratchFile("x.rawlog", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(rawlog) {
+  readAllRecords(scratchFile("x.rawlog", bytes));
+}
 
 ROOMGRAPH_FUZZ_TARGET(rawlog_info) {
   const auto file = scratchFile("x.rawlog", bytes);
@@ -70,7 +72,8 @@ ROOMGRAPH_FUZZ_TARGET(rawlog_images) {
 ROOMGRAPH_FUZZ_TARGET(tum) {
   const auto folder = scratchFolder() / "tum";
   std::filesystem::create_directory(folder);
-  writeParts(bytes, {"tum/camera.json", "tum/associations.txt", "tum/groundtruth.txt", "tum/color.png", "tum/depth.png"});
+  writeParts(bytes, {"tum/camera.json", "tum/associations.txt", "tum/groundtruth.txt", "tum/color.png",
+                     "tum/depth.png"});
   importTum(folder, scratchFolder() / "tum.rawlog");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that runs and simulations write: true boxes, objects, trajectories, graphs, results of batches, reports.
+// Files that runs and simulations write: true boxes, objects, trajectories, graphs, results of batches,
+// reports.
 #include <cmath>
 #include <sstream>
 
@@ -25,9 +26,13 @@ ROOMGRAPH_FUZZ_TARGET(true_boxes) {
   readSeenObjects(file);
 }
 
-ROOMGRAPH_FUZZ_TARGET(detections) { readDetections(scratchFile("detections.jsonl", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(detections) {
+  readDetections(scratchFile("detections.jsonl", bytes));
+}
 
-ROOMGRAPH_FUZZ_TARGET(associations) { readAssociations(scratchFile("associations.jsonl", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(associations) {
+  readAssociations(scratchFile("associations.jsonl", bytes));
+}
 
 ROOMGRAPH_FUZZ_TARGET(landmarks) {
   for (const auto& object : readObjects(scratchFile("landmarks.json", bytes)))
@@ -41,7 +46,9 @@ ROOMGRAPH_FUZZ_TARGET(trajectory) {
     require(std::isfinite(pose.t) && pose.pose.matrix().allFinite(), "poses are finite");
 }
 
-ROOMGRAPH_FUZZ_TARGET(relations) { readRelations(scratchFile("x.relations", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(relations) {
+  readRelations(scratchFile("x.relations", bytes));
+}
 
 ROOMGRAPH_FUZZ_TARGET(pose_graph) {
   constexpr std::size_t kMostNodes = 50;  // of what is optimised, too

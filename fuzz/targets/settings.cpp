@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users write: text of configurations, objects, worlds, calibrations, jobs of a batch, catalogues of networks.
+// What users write: text of configurations, objects, worlds, calibrations, jobs of a batch, catalogues of
+// networks.
 #include "../target.h"
 #include "roomgraph/batch/job_file.h"
 #include "roomgraph/core/config.h"
@@ -19,18 +20,26 @@ ROOMGRAPH_FUZZ_TARGET(config_text) {
   for (const auto& entry : config.entries()) config.text(entry.section, entry.key, "");
 }
 
-ROOMGRAPH_FUZZ_TARGET(objects) { ObjectDatabase::fromText(std::string(bytes)); }
+ROOMGRAPH_FUZZ_TARGET(objects) {
+  ObjectDatabase::fromText(std::string(bytes));
+}
 
 ROOMGRAPH_FUZZ_TARGET(world) {
   const World world = parseWorld(std::string(bytes), "world.json");
   parseWorld(worldText(world), "the same world");
 }
 
-ROOMGRAPH_FUZZ_TARGET(calibration) { readCalibration(scratchFile("calibration.ini", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(calibration) {
+  readCalibration(scratchFile("calibration.ini", bytes));
+}
 
-ROOMGRAPH_FUZZ_TARGET(jobs) { readJobFile(scratchFile("jobs.yaml", bytes)); }
+ROOMGRAPH_FUZZ_TARGET(jobs) {
+  readJobFile(scratchFile("jobs.yaml", bytes));
+}
 
-ROOMGRAPH_FUZZ_TARGET(network_catalogue) { NetworkCatalogue::fromText(std::string(bytes)); }
+ROOMGRAPH_FUZZ_TARGET(network_catalogue) {
+  NetworkCatalogue::fromText(std::string(bytes));
+}
 
 }  // namespace
 }  // namespace roomgraph::fuzz

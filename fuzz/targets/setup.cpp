@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole configurations, with the parameters of every stage.
-#include "../target.h"
 #include "roomgraph/pipeline/setup.h"
+#include "../target.h"
 
 namespace roomgraph::fuzz {
 namespace {

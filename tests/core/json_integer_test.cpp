@@ -16,13 +16,17 @@ TEST(JsonInteger, TakesWhatFits) {
   EXPECT_EQ(integerOf<int>(json::parse("-2147483648")), -2147483647 - 1);
   EXPECT_EQ(integerOf<int>(json::parse("3.0")), 3);
   EXPECT_EQ(integerOf<int>(json::parse("2e3")), 2000);
-  EXPECT_EQ(integerOf<std::int64_t>(json::parse("-9223372036854775808")), std::numeric_limits<std::int64_t>::min());
-  EXPECT_EQ(integerOf<std::uint64_t>(json::parse("18446744073709551615")), std::numeric_limits<std::uint64_t>::max());
-  EXPECT_EQ(integerOf<std::int64_t>(json::parse("-9223372036854775808.0")), std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(integerOf<std::int64_t>(json::parse("-9223372036854775808")),
+            std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(integerOf<std::uint64_t>(json::parse("18446744073709551615")),
+            std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(integerOf<std::int64_t>(json::parse("-9223372036854775808.0")),
+            std::numeric_limits<std::int64_t>::min());
 }
 
 TEST(JsonInteger, RefusesTheRest) {
-  for (const char* text : {"2147483648", "-2147483649", "1e300", "-1e300", "0.5", "\"7\"", "null", "[7]", "true"})
+  for (const char* text :
+       {"2147483648", "-2147483649", "1e300", "-1e300", "0.5", "\"7\"", "null", "[7]", "true"})
     EXPECT_THROW(integerOf<int>(json::parse(text)), json::type_error) << text;
   EXPECT_THROW(integerOf<std::int64_t>(json::parse("9223372036854775808")), json::type_error);
   EXPECT_THROW(integerOf<std::int64_t>(json::parse("9223372036854775808.0")), json::type_error);

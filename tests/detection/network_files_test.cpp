@@ -13,7 +13,9 @@ namespace {
 
 class DarknetInput : public ::testing::Test {
  protected:
-  cv::Size sizeOf(const std::string& text) const { return darknetInputSize(folder_.write("x.cfg", text).string()); }
+  cv::Size sizeOf(const std::string& text) const {
+    return darknetInputSize(folder_.write("x.cfg", text).string());
+  }
   std::string problem(const std::string& text) const {
     return test::messageOf<InputError>([&] { sizeOf(text); });
   }
@@ -35,7 +37,8 @@ TEST_F(DarknetInput, IsMissingWhereNoNumberIs) {
 // A line of any length needs no more stack than a short one.
 TEST_F(DarknetInput, LongLinesAreOnlyLong) {
   const std::string spaces(1u << 20, ' '), digits(1u << 20, '1');
-  EXPECT_EQ(sizeOf("[net]\n" + spaces + "width" + spaces + "=64" + spaces + "\nheight=64\n"), cv::Size(64, 64));
+  EXPECT_EQ(sizeOf("[net]\n" + spaces + "width" + spaces + "=64" + spaces + "\nheight=64\n"),
+            cv::Size(64, 64));
   EXPECT_THAT(problem("[net]\nwidth=" + digits + "\nheight=64\n" + spaces),
               ::testing::HasSubstr("gives no width and height"));
 }

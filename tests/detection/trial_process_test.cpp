@@ -28,13 +28,19 @@ TEST(TrialProcess, WorkThatEndsLeavesNothingBehind) {
 
 TEST(TrialProcess, ACrashIsTold) {
   for (const int signal : {SIGSEGV, SIGFPE, SIGABRT, SIGKILL})
-    EXPECT_THAT(fateOfTrial([&] { std::raise(signal); }), HasSubstr("ended by signal " + std::to_string(signal) + " ("));
+    EXPECT_THAT(fateOfTrial([&] { std::raise(signal); }),
+                HasSubstr("ended by signal " + std::to_string(signal) + " ("));
   EXPECT_EQ(fateOfTrial([] { _exit(7); }), "ended with exit code 7");
 }
 
 TEST(TrialProcess, WhatGoesOnForeverIsEnded) {
   volatile bool forever = true;
-  EXPECT_EQ(fateOfTrial([&] { while (forever) continue; }, {.cpu_s = 1}), "needed more than 1 s of processor time");
+  EXPECT_EQ(fateOfTrial(
+                [&] {
+                  while (forever) continue;
+                },
+                {.cpu_s = 1}),
+            "needed more than 1 s of processor time");
 }
 
 TEST(TrialProcess, MemoryIsLimited) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that end too early: every length of the records of the shipped rawlogs and of the shipped map.
+// Files that end too early: lengths of the records of the shipped rawlogs, every length of the shipped map.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <set>
 
-#include "errors_of.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/stored_observations.h"
 #include "roomgraph/observations/map_file.h"
 #include "three_frames.h"
 
-// In images, one length of 61 is tried, or every one when the environment variable ROOMGRAPH_EVERY_TRUNCATION is set
-// (some minutes).
+// Of the first record of each class every length is tried (in images one of 61 between their ends), of the
+// others seven; of all records every one when the environment variable ROOMGRAPH_EVERY_TRUNCATION is set
+// (hours).
 
 namespace roomgraph::test {
 namespace {
@@ -42,19 +43,29 @@ std::vector<std::string> recordsOf(const Path& file) {
   return out;
 }
 
-std::size_t stepAt(std::size_t length, std::size_t size) {
-  const bool inside = length > kEndsOfImages && length + kEndsOfImages < size;
-  if (size < kLongRecord || !inside || std::getenv("ROOMGRAPH_EVERY_TRUNCATION")) return 1;
-  constexpr std::size_t kStep = 61;
-  return kStep;
+bool everyOne() {
+  return std::getenv("ROOMGRAPH_EVERY_TRUNCATION") != nullptr;
 }
 
-/// A sound record and then a record at each of its lengths: the first is used, the second when it is whole, and told
-/// when it is not.
-void expectEveryLength(const TemporaryFolder& folder, const std::string& before, const std::string& record) {
+/// Lengths of a record that are tried: of the first of its class every one, but for the inside of images.
+std::vector<std::size_t> lengthsOf(std::size_t size, bool first) {
+  constexpr std::size_t kStepInImages = 61, kLengthsOfOthers = 7;
+  std::vector<std::size_t> out;
+  for (std::size_t length = size - 1; length > 0;) {
+    out.push_back(length);
+    const bool inside = length > kEndsOfImages && length + kEndsOfImages < size;
+    std::size_t step = first ? 1 : size / kLengthsOfOthers;
+    if (first && size > kLongRecord && inside) step = kStepInImages;
+    length -= std::min(length, everyOne() ? 1 : step);
+  }
+  return out;
+}
+
+/// A sound record and then a record at its lengths: the first is used, the second told.
+void expectLengths(const TemporaryFolder& folder, const std::string& before, const std::string& record,
+                   bool first) {
   const auto file = folder.write("cut.rawlog", before + record);
-  for (std::size_t length = record.size() - 1; length > 0;
-       length -= std::min(length, stepAt(length, record.size()))) {
+  for (const std::size_t length : lengthsOf(record.size(), first)) {
     std::filesystem::resize_file(file, before.size() + length);
     const auto read = readAll(file);
     ASSERT_EQ(read.records, 1) << length << " of " << record.size() << " bytes";
@@ -68,16 +79,21 @@ void expectCutRecordsAreTold(const std::string& name) {
   const std::string before = bytesOf(makeOdometry(1, 0, 0, 0));
   const auto records = recordsOf(kRawlogs / name);
   ASSERT_GT(records.size(), 10u);
-  std::map<std::size_t, int> images;  // of a size; the first of them stands for all
+  std::set<std::string> classes;
   for (const auto& record : records) {
     ASSERT_FALSE(record.empty());
-    if (record.size() >= kLongRecord && images[record.size() >> 16]++ > 0) continue;
-    expectEveryLength(folder, before, record);
+    // A record begins with 0x80 | length of its class' name, and the name.
+    const std::string class_name = record.substr(1, static_cast<unsigned char>(record[0]) & 0x7fu);
+    expectLengths(folder, before, record, classes.insert(class_name).second);
   }
 }
 
-TEST(Truncation, EveryLengthOfTheRecordsOfARobot) { expectCutRecordsAreTold("tiny_room.rawlog"); }
-TEST(Truncation, EveryLengthOfTheRecordsOfACamera) { expectCutRecordsAreTold("tiny_handheld.rawlog"); }
+TEST(Truncation, EveryLengthOfTheRecordsOfARobot) {
+  expectCutRecordsAreTold("tiny_room.rawlog");
+}
+TEST(Truncation, EveryLengthOfTheRecordsOfACamera) {
+  expectCutRecordsAreTold("tiny_handheld.rawlog");
+}
 
 // Cut as it is, gzipped: what could be inflated is used.
 TEST(Truncation, AGzippedRawlogGivesEachRecordBeforeItsEnd) {
@@ -100,14 +116,27 @@ TEST(Truncation, AGzippedRawlogGivesEachRecordBeforeItsEnd) {
   }
 }
 
-TEST(Truncation, EveryLengthOfAMapIsRefused) {
+// The last bytes are gzip's: its end of data and its checksum. Without them the map may be whole, as its own
+// checksum tells.
+TEST(Truncation, EveryLengthOfAMapIsRefusedUnlessAllOfItIsThere) {
   const TemporaryFolder folder;
   const auto file = folder.file("map.rgmap");
   std::filesystem::copy_file(kRawlogs / "tiny_room.rgmap", file);
-  EXPECT_FALSE(loadMap(file).landmarks.empty());
-  for (std::size_t length = std::filesystem::file_size(file); length-- > 0;) {
+  const auto whole = loadMap(file);
+  ASSERT_FALSE(whole.landmarks.empty());
+  constexpr std::size_t kEndOfGzip = 16;
+  const std::size_t size = std::filesystem::file_size(file);
+  for (std::size_t length = size; length-- > 0;) {
     std::filesystem::resize_file(file, length);
-    ASSERT_THAT(messageOf<InputError>([&] { loadMap(file); }), ::testing::HasSubstr("map.rgmap: ")) << length;
+    try {
+      const auto map = loadMap(file);
+      ASSERT_GE(length + kEndOfGzip, size);
+      EXPECT_EQ(map.landmarks.size(), whole.landmarks.size());
+      EXPECT_EQ(map.world_from_robot.size(), whole.world_from_robot.size());
+    } catch (const InputError& error) {
+      ASSERT_THAT(error.what(), ::testing::HasSubstr("map.rgmap: ")) << length;
+      ASSERT_LT(length + kEndOfGzip / 2, size) << "only the checksum of gzip is missing";
+    }
   }
 }
 

@@ -29,15 +29,16 @@ inline std::string valueInfo(const std::string& name, const std::vector<int>& si
   return text(1, name) + text(2, text(1, number(1, 1) + text(2, shape)));
 }
 
-inline std::string tensor(const std::string& name, const std::vector<int>& sizes, const std::vector<float>& values) {
+inline std::string tensor(const std::string& name, const std::vector<int>& sizes,
+                          const std::vector<float>& values) {
   std::string raw(values.size() * sizeof(float), '\0'), out;
   std::memcpy(raw.data(), values.data(), raw.size());
   for (const int size : sizes) out += number(1, static_cast<std::uint64_t>(size));
   return out + number(2, 1) + text(8, name) + text(9, raw);
 }
 
-inline std::string node(const std::string& type, const std::vector<std::string>& inputs, const std::string& output,
-                 const std::string& attributes = "") {
+inline std::string node(const std::string& type, const std::vector<std::string>& inputs,
+                        const std::string& output, const std::string& attributes = "") {
   std::string out;
   for (const auto& input : inputs) out += text(1, input);
   return out + text(2, output) + text(3, output) + text(4, type) + attributes;
@@ -59,8 +60,8 @@ inline std::string sizes(const std::string& name, const std::vector<std::int64_t
 
 }  // namespace onnx
 
-/// An ONNX model: a convolution of 1 x 1, a ReLU, the maximum over 2 x 2 pixels, all as rows of eight numbers: a box,
-/// how sure it is, three classes.
+/// An ONNX model: a convolution of 1 x 1, a ReLU, the maximum over 2 x 2 pixels, all as rows of eight
+/// numbers: a box, how sure it is, three classes.
 inline std::string tinyOnnx() {
   using namespace onnx;
   const std::string graph =

@@ -26,7 +26,8 @@ std::size_t addressSpaceNow() {
 }
 
 void limitProcess(const TrialLimits& limits) {
-  const rlimit none{0, 0}, cpu{limits.cpu_s, limits.cpu_s};
+  const rlimit none{0, 0},
+      cpu{limits.cpu_s, limits.cpu_s + 1};  // at the second one the signal would be SIGKILL
   setrlimit(RLIMIT_CORE, &none);
   setrlimit(RLIMIT_CPU, &cpu);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
@@ -69,7 +70,8 @@ std::string fateOfTrial(const std::function<void()>& work, const TrialLimits& li
     return "needed more than " + std::to_string(limits.cpu_s) + " s of processor time";
   if (WIFSIGNALED(status))
     return "ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
-  return WEXITSTATUS(status) == kSurvived ? "" : "ended with exit code " + std::to_string(WEXITSTATUS(status));
+  return WEXITSTATUS(status) == kSurvived ? ""
+                                          : "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace roomgraph
