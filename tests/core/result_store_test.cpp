@@ -8,6 +8,9 @@
 #include <cstring>
 #include <limits>
 
+#include "errors_of.h"
+#include "memory_limit.h"
+#include "roomgraph/core/errors.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {
@@ -143,6 +146,27 @@ TEST(Results, NumbersThroughBytesAreTheSameBits) {
     EXPECT_EQ(std::signbit(back[i]), std::signbit(numbers[i]));
   }
   EXPECT_TRUE(numbersFrom(bytesOfNumbers(std::vector<double>())).empty());
+  EXPECT_THROW(numbersFrom("half a number"), std::invalid_argument);
+}
+
+// Sound checksums, but bytes that are no result: only a file that somebody has changed.
+TEST_F(ResultStoreTest, AResultThatCannotBeDecodedIsAnInputError) {
+  {
+    JournalledResults store(file, "key", kSync_s);
+    store.keep("numbers", 12.5, "half a number");
+  }
+  JournalledResults store(file, "key", kSync_s);
+  const auto recall = [&] {
+    recalled(&store, "numbers", 12.5, [] { return std::vector<double>{1}; }, bytesOfNumbers, numbersFrom);
+  };
+  EXPECT_EQ(test::messageOf<InputError>(recall),
+            "checkpoint: its result 'numbers' of second 12.500000 is damaged: not a whole number of numbers");
+}
+
+TEST(Results, ADamagedLengthDoesNotFillTheMemory) {
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "this sanitizer ends the program at such a size";
+  const auto decode = [](const std::string&) { return std::vector<char>(std::size_t{1} << 33).size(); };
+  EXPECT_THROW(decodedResult("boxes", 1, "some bytes", decode), InputError);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 // RGB-D record to Frame: colour order, depth along rays, registration, distortion, external images.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <limits>
 #include <opencv2/core.hpp>
 
+#include "depth_registration.h"
 #include "frame_conversion.h"
 #include "rawlog_maker.h"
 #include "roomgraph/datasets/rawlog_reader.h"
@@ -95,6 +98,23 @@ TEST_F(FrameConversion, CoarseDepthFillsAFineColourImage) {
   ASSERT_EQ(frame.depth.size(), cv::Size(32, 24));
   EXPECT_EQ(cv::countNonZero(frame.depth), 32 * 24);
   EXPECT_NEAR(frame.depth.at<float>(20, 3), 1.5, 1e-5);
+}
+
+// Cameras that cannot be: rays without a direction, points at no pixel, pixels that would each cover the whole image.
+TEST(DepthRegistration, ImpossibleCamerasLeavePixelsOutAndTakeNoLongerThanOthers) {
+  const cv::Mat depth(240, 320, CV_32FC1, cv::Scalar(2));
+  const PinholeCamera target{640, 480, 500, 500, 320, 240};
+  const float nan = std::numeric_limits<float>::quiet_NaN(), far = 1e30f;
+  for (const float u : {nan, far, -far}) {
+    const cv::Mat rays(240, 320, CV_32FC2, cv::Scalar(static_cast<double>(u), 0));
+    EXPECT_EQ(cv::countNonZero(registerDepth(depth, rays, 500, Pose3::Identity(), target)), 0) << u;
+  }
+  const cv::Mat ahead(240, 320, CV_32FC2, cv::Scalar(0, 0));
+  const auto start = std::chrono::steady_clock::now();
+  const cv::Mat out = registerDepth(depth, ahead, 1e-6, Pose3::Identity(), target);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(cv::countNonZero(out), 64 * 64) << "at most 32 px to each side";
+  EXPECT_LT(took.count(), 20) << "the whole image for each pixel would take minutes";
 }
 
 TEST_F(FrameConversion, DistortionIsRemoved) {

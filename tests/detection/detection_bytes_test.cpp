@@ -47,6 +47,32 @@ TEST(DetectionBytes, NothingIsLost) {
   expectSame((*back)[1], chair);
 }
 
+// Each of these masks is three numbers: together they would be 2 GB.
+TEST(DetectionBytes, MasksOfOneImageAreNotLargerThanImagesAre) {
+  Detection large{{0, 0, 1, 1}, "door", "door", 0.5, cv::Mat(4096, 8192, CV_8UC1, cv::Scalar(255))};
+  const auto back = detectionsFrom(bytesOf(Found(std::vector<Detection>(60, large))));
+  ASSERT_TRUE(back.ok());
+  ASSERT_EQ(back->size(), 60u);
+  std::size_t pixels = 0;
+  for (const auto& detection : *back) pixels += detection.mask.total();
+  EXPECT_EQ(pixels, std::size_t{1} << 26);
+}
+
+// A byte of a flag that is neither 0 nor 1 is a flag that is set.
+TEST(DetectionBytes, AFlagIsOneWhateverItsByte) {
+  std::string bytes = bytesOf(Found(std::vector<Detection>{{{1, 2, 3, 4}, "door", "door", 0.5}}));
+  ASSERT_EQ(bytes[0], 1);
+  bytes[0] = static_cast<char>(128);
+  EXPECT_EQ(detectionsFrom(bytes)->size(), 1u);
+}
+
+TEST(DetectionBytes, EveryBeginningOfThemIsRefused) {
+  const std::string good = bytesOf(Found(std::vector<Detection>{{{1, 2, 3, 4}, "door", "door", 0.5}}));
+  // MRPT takes a part of a number for the number when it stands at the end.
+  for (std::size_t size = 0; size + sizeof(std::uint32_t) <= good.size(); ++size)
+    EXPECT_ANY_THROW(detectionsFrom(good.substr(0, size))) << size;
+}
+
 TEST(DetectionBytes, NoBoxesAreNotTheSameAsNoAnswer) {
   const auto none = detectionsFrom(bytesOf(Found(std::vector<Detection>{})));
   EXPECT_TRUE(none.ok());

@@ -102,6 +102,7 @@ TEST(DetectionRecord, MaskRunsOfSpecialMasks) {
   EXPECT_TRUE(toMask({}).empty());
   EXPECT_TRUE(toMask({4, 3, {5, 6}}).empty()) << "does not fill the picture";
   EXPECT_TRUE(toMask({1u << 20, 1u << 20, {1}}).empty());
+  EXPECT_TRUE(toMask({1u << 15, 1u << 15, {1u << 30}}).empty()) << "a gigabyte out of three numbers";
 }
 
 // Published test vectors of 64-bit FNV-1a.

@@ -15,6 +15,7 @@
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/detection/register_classes.h"
+#include "tiny_onnx.h"
 
 namespace roomgraph {
 namespace {
@@ -81,6 +82,23 @@ TEST_F(DnnDetectorTest, WithoutNetworkTheReasonNamesSuitableOnes) {
   ASSERT_FALSE(found);
   EXPECT_THAT(found.reason(), AllOf(HasSubstr("[detection] models"), HasSubstr("NanoDet-Plus-m-1.5x"),
                                     HasSubstr("github.com/")));
+}
+
+// A convolution whose weights are unknown and whose bias is empty: OpenCV 4.6 divides by zero.
+TEST_F(DnnDetectorTest, AModelAtWhichOpenCvCrashesIsNamed) {
+  const std::string sound = test::tinyOnnx();
+  write("labels.txt", "chair\nsofa\ndoor\n");
+  EXPECT_EQ(messageOf<InputError>("models = " + write("sound.onnx", sound) + "\ninput_size_px = 32"), "no error");
+  std::string damaged = sound;
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    const auto at = damaged.find(what);
+    ASSERT_NE(at, std::string::npos);
+    damaged.replace(at, what.size(), with);
+  };
+  replace("weights\x0a\x04" "bias", "strange\x0a\x04" "bias");
+  replace(std::string("bias\x4a\x08"), std::string("bias\x4a\0", 6));
+  EXPECT_THAT(messageOf<InputError>("models = " + write("damaged.onnx", damaged)),
+              AllOf(HasSubstr("damaged.onnx: not a network that OpenCV can load: it ended by signal 8")));
 }
 
 TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {

@@ -109,6 +109,12 @@ TEST(Plugin, WhatIsNoSharedLibraryIsAConfigError) {
               HasSubstr("objects.ini"));
 }
 
+// Not looked for where the system's libraries are: the C library would be found there.
+TEST(Plugin, ABareNameMeansTheWorkingDirectory) {
+  EXPECT_THAT(messageOf<ConfigError>([] { loadPlugin("libc.so.6"); }),
+              ::testing::AllOf(HasSubstr("libc.so.6: "), HasSubstr("cannot open shared object file")));
+}
+
 // Two plug-ins that were copied from one example.
 TEST(Plugin, AClassNameThatIsTakenIsRefused) {
   association::registerClasses();

@@ -4,7 +4,7 @@
 import pathlib
 import sys
 
-FOLDERS = ("libs", "apps", "gui", "plugins", "tests", "bench", "cmake", "docs", "rawlogs", "worlds")
+FOLDERS = ("libs", "apps", "gui", "plugins", "tests", "fuzz", "bench", "cmake", "docs", "rawlogs", "worlds")
 SKIPPED = {"build", "out", ".git", ".cache", "__pycache__"}
 
 

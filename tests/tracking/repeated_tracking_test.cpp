@@ -5,6 +5,7 @@
 
 #include "feature_odometry.h"
 #include "results_in_memory.h"
+#include "roomgraph/core/errors.h"
 #include "textured_room.h"
 #include "view_bytes.h"
 
@@ -122,6 +123,39 @@ TEST(RepeatedTracking, AViewThroughBytesIsTheSame) {
   EXPECT_EQ(back.matches, 3);
   EXPECT_EQ(back.reference, 4);
   EXPECT_EQ(back.reference_inliers, 5);
+}
+
+TEST(RepeatedTracking, BytesThatAreNoViewAreRefused) {
+  tracking::LocatedView view;
+  view.features.keypoints = {{{1, 2}, 31}, {{3, 4}, 31}};
+  view.features.depth = {2.5f, 0};
+  view.points = {0, 1};
+  const std::string good = bytesOf(view);
+  EXPECT_NO_THROW(tracking::locatedView(good));
+  // MRPT takes a part of a number for the number when it stands at the end.
+  for (std::size_t size = 0; size + sizeof(int) <= good.size(); ++size)
+    EXPECT_ANY_THROW(tracking::locatedView(good.substr(0, size))) << size;
+  view.points.push_back(2);
+  EXPECT_THROW(tracking::locatedView(bytesOf(view)), std::invalid_argument) << "a point without a feature";
+}
+
+// A journal whose view shows points that the map of this run does not have.
+TEST(RepeatedTracking, AViewOfAnotherMapIsAnInputError) {
+  auto frames = recordedFrames();
+  frames.resize(8);
+  ResultsInMemory results;
+  track(frames, &results);
+  bool changed = false;
+  for (auto& result : results.all) {
+    if (result.name != "view" || result.bytes.empty()) continue;
+    auto view = tracking::locatedView(result.bytes);
+    view.in_view.push_back(1 << 20);
+    result.bytes = tracking::bytesOf(view);
+    changed = true;
+  }
+  ASSERT_TRUE(changed);
+  auto again = results.beginning(results.all.size());
+  EXPECT_THROW(track(frames, &again), InputError);
 }
 
 }  // namespace

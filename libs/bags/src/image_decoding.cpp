@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "roomgraph/core/allocation_limit.h"
-#include "roomgraph/datasets/image_memory.h"
+#include "roomgraph/observations/image_file.h"
 
 namespace roomgraph::bags {
 namespace {

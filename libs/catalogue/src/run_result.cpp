@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/text_file.h"
 
@@ -23,7 +24,7 @@ Json inputJson(const RunInput& input) {
 
 RunInput inputOf(const Json& json) {
   RunInput input{json.at("name"), json.at("group"), {}, json.at("path"), json.at("sha256"), json.at("bytes")};
-  if (!json.at("seed").is_null()) input.seed = json.at("seed").get<std::int64_t>();
+  if (!json.at("seed").is_null()) input.seed = integerOf<std::int64_t>(json.at("seed"));
   return input;
 }
 
@@ -63,7 +64,7 @@ Json resultJson(const RunResult& r) {
 std::map<std::string, StageTotal> timingsOf(const Json& json) {
   std::map<std::string, StageTotal> out;
   for (const auto& [stage, t] : json.items())
-    out[stage] = {t.at("calls").get<std::int64_t>(), t.at("total_ms").get<double>(),
+    out[stage] = {integerOf<std::int64_t>(t.at("calls")), t.at("total_ms").get<double>(),
                   t.at("max_ms").get<double>()};
   return out;
 }

@@ -88,8 +88,9 @@ void loadPlugin(const std::string& file) {
   const std::string name = "plug-in " + file;
   mrpt::rtti::registerAllPendingClasses();
   const auto before = registeredClasses();
-  // Never closed: objects of its classes live as long as the program.
-  void* const library = dlopen(file.c_str(), RTLD_LAZY);
+  // A path, as a bare name would be looked for where the system's libraries are. Never closed: objects of its classes
+  // live as long as the program.
+  void* const library = dlopen(std::filesystem::absolute(file).c_str(), RTLD_LAZY);
   if (!library) throw ConfigError(name + ": " + dlerror());
   checkVersion(library, name);
   mrpt::rtti::registerAllPendingClasses();

@@ -8,6 +8,14 @@
 #include <opencv2/core.hpp>
 
 namespace roomgraph {
+namespace {
+
+constexpr double kFarthest_px = 1e6;  // cameras that cannot be put points anywhere
+// Half of the side that one depth pixel may cover: a surface that nearly touches the target camera, or a focal length that
+// cannot be, must not paint the whole image for each pixel.
+constexpr double kWidest_px = 32;
+
+}  // namespace
 
 cv::Mat pixelRays(const PinholeCamera& camera) {
   cv::Mat pixels(camera.height, camera.width, CV_32FC2);
@@ -38,10 +46,11 @@ cv::Mat registerDepth(const cv::Mat& depth, const cv::Mat& rays, double depth_fx
       if (!(z > 0)) continue;
       const auto& ray = rays.at<cv::Vec2f>(v, u);
       const Eigen::Vector3d p = target_from_depth * Eigen::Vector3d(z * ray[0], z * ray[1], z);
-      if (p.z() <= 0) continue;
+      if (!(p.z() > 0)) continue;
       const Eigen::Vector2d centre = target.project(p);
+      if (!(std::abs(centre.x()) < kFarthest_px) || !(std::abs(centre.y()) < kFarthest_px)) continue;
       // Half the width a depth pixel covers in the target; at least one target pixel is hit.
-      const double half = std::max(0.5, 0.5 * target.fx / depth_fx * z / p.z());
+      const double half = std::clamp(0.5 * target.fx / depth_fx * z / p.z(), 0.5, kWidest_px);
       const int left = std::max(0, static_cast<int>(std::ceil(centre.x() - half)));
       const int right = std::min(target.width, static_cast<int>(std::ceil(centre.x() + half)));
       const int top = std::max(0, static_cast<int>(std::ceil(centre.y() - half)));

@@ -19,7 +19,7 @@
 #include "flag_repair.h"
 #include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/datasets/image_memory.h"
+#include "roomgraph/observations/image_file.h"
 #include "roomgraph/observations/register_classes.h"
 
 namespace roomgraph {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/core/text_file.h"
 #include "roomgraph/datasets/camera_presets.h"
@@ -70,9 +71,9 @@ void requireAll(const Values& values, const std::filesystem::path& folder) {
 
 TumCamera readFile(const json& file) {
   TumCamera out;
-  out.camera.width = file.value("width", 0);
-  out.camera.height = file.value("height", 0);
-  out.invalid_depth = file.value("invalid_depth", 0);
+  out.camera.width = integerOf<int>(file, "width", 0);
+  out.camera.height = integerOf<int>(file, "height", 0);
+  out.invalid_depth = integerOf<int>(file, "invalid_depth", 0);
   const auto distortion = file.value("distortion", std::vector<double>());
   if (distortion.size() > out.camera.distortion.size())
     throw InputError("camera file: distortion has more than 5 values (k1 k2 p1 p2 k3)");

@@ -15,6 +15,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/datasets/import_output.h"
+#include "roomgraph/observations/image_file.h"
 #include "roomgraph/observations/mrpt_camera.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
@@ -29,6 +30,15 @@ using mrpt::obs::CObservation3DRangeScan;
 constexpr float kMaxRangeM = 10;  // for viewers only
 constexpr int kWarningsShown = 5;
 
+bool load(mrpt::img::CImage& image, const fs::path& file) {
+  try {
+    const ImageMemoryLimit limit(fs::file_size(file));
+    return image.loadFromFile(file.string());
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 class Writer {
  public:
   Writer(ImportOutput& output, const TumCamera& camera, const TumImportOptions& options)
@@ -38,10 +48,10 @@ class Writer {
   std::string write(const TumPair& pair) {
     for (const auto& file : {pair.color, pair.depth})
       if (!fs::is_regular_file(file)) return "no such file: " + file.string();
-    const cv::Mat depth = cv::imread(pair.depth.string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat depth = readImageFile(pair.depth, cv::IMREAD_UNCHANGED);
     if (depth.type() != CV_16UC1) return "not a 16 bit depth image: " + pair.depth.string();
     CObservation3DRangeScan record;
-    if (!record.intensityImage.loadFromFile(pair.color.string()))
+    if (!load(record.intensityImage, pair.color))
       return "unreadable image: " + pair.color.string();
     checkSize(pair.color, static_cast<int>(record.intensityImage.getWidth()),
               static_cast<int>(record.intensityImage.getHeight()));

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/image_file.h"
 
 namespace roomgraph {
 namespace {
@@ -83,10 +84,8 @@ std::vector<Row> readAssociations(const fs::path& file, std::vector<std::string>
 /// the name.
 bool depthComesFirst(const fs::path& folder, const std::vector<Row>& rows) {
   for (const auto& row : rows) {
-    if (!fs::is_regular_file(folder / row.first.file) || !fs::is_regular_file(folder / row.second.file))
-      continue;
-    const cv::Mat first = cv::imread((folder / row.first.file).string(), cv::IMREAD_UNCHANGED);
-    const cv::Mat second = cv::imread((folder / row.second.file).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat first = readImageFile(folder / row.first.file, cv::IMREAD_UNCHANGED);
+    const cv::Mat second = readImageFile(folder / row.second.file, cv::IMREAD_UNCHANGED);
     if (first.empty() || second.empty()) continue;
     if ((first.depth() == CV_16U) != (second.depth() == CV_16U)) return first.depth() == CV_16U;
   }

@@ -6,7 +6,8 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
 
-#include "roomgraph/observations/mask_runs.h"
+#include "mask_memory.h"
+
 
 namespace roomgraph {
 
@@ -22,13 +23,19 @@ void write(CArchive& out, const Detection& d) {
       << d.rival_label;
 }
 
-Detection read(CArchive& in) {
+// MRPT's own reader of a bool makes one of any byte, which is undefined but for 0 and 1.
+bool readFlag(CArchive& in) {
+  return in.ReadAs<std::uint8_t>() != 0;
+}
+
+Detection read(CArchive& in, MaskMemory& memory_of_masks) {
   Detection d;
   MaskRuns mask;
   in >> d.box.u_min >> d.box.v_min >> d.box.u_max >> d.box.v_max >> d.class_name >> d.label >> d.score;
-  in >> mask.width >> mask.height >> mask.runs >> d.track.value >> d.carried >> d.rival_score >>
-      d.rival_label;
-  d.mask = toMask(mask);
+  in >> mask.width >> mask.height >> mask.runs >> d.track.value;
+  d.carried = readFlag(in);
+  in >> d.rival_score >> d.rival_label;
+  d.mask = memory_of_masks.toMask(mask);
   return d;
 }
 
@@ -48,13 +55,14 @@ Outcome<std::vector<Detection>> detectionsFrom(const std::string& bytes) {
   mrpt::io::CMemoryStream memory;
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
   auto in = archiveFrom(memory);
-  bool ok = false;
+  const bool ok = readFlag(in);
   std::string reason;
   std::uint32_t count = 0;
-  in >> ok >> reason >> count;
+  in >> reason >> count;
   if (!ok) return Outcome<std::vector<Detection>>::failure(reason);
   std::vector<Detection> detections;
-  for (std::uint32_t i = 0; i < count; ++i) detections.push_back(read(in));
+  MaskMemory memory_of_masks;
+  for (std::uint32_t i = 0; i < count; ++i) detections.push_back(read(in, memory_of_masks));
   return detections;
 }
 

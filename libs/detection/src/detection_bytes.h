@@ -12,7 +12,7 @@ namespace roomgraph {
 
 /// Detections, or why there are none. Masks are binary (0 / 255).
 std::string bytesOf(const Outcome<std::vector<Detection>>& found);
-/// What bytesOf() was given.
+/// What bytesOf() was given. Throws std::exception when they are none.
 Outcome<std::vector<Detection>> detectionsFrom(const std::string& bytes);
 
 }  // namespace roomgraph

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "mask_memory.h"
 #include "roomgraph/core/errors.h"
 
 namespace roomgraph {
@@ -42,12 +43,13 @@ CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>
 
 std::vector<Detection> detectionsOf(const CObservationDetections& record) {
   std::vector<Detection> out;
+  MaskMemory memory_of_masks;
   for (const auto& item : record.items)
     out.push_back({{item.u_min, item.v_min, item.u_max, item.v_max},
                    "",
                    item.label,
                    item.score,
-                   toMask(item.mask),
+                   memory_of_masks.toMask(item.mask),
                    TrackId{item.track}});
   return out;
 }

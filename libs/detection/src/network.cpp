@@ -10,6 +10,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/observations/rgbd_channels.h"
+#include "trial_process.h"
 
 namespace roomgraph {
 namespace {
@@ -30,6 +31,13 @@ int firstChannels(cv::dnn::Net& net) {
 
 Network::Network(const NetworkSpec& spec) : file_(spec.file) {
   outputs_.file = spec.file;
+  // OpenCV's readers of networks crash at some damaged files.
+  if (const auto fate = fateOfTrial([&] { load(spec); }); !fate.empty())
+    throw InputError(file_ + ": not a network that OpenCV can load: it " + fate + " when it tried to");
+  load(spec);
+}
+
+void Network::load(const NetworkSpec& spec) {
   try {
     readFiles(spec);
     chooseInputSize(spec.input_size_px);

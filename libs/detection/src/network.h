@@ -25,6 +25,7 @@ class Network {
   std::vector<RawBox> run(const Frame& frame, const std::vector<int>& wanted, double min_score);
 
  private:
+  void load(const NetworkSpec& spec);
   std::vector<cv::Mat> forward(const cv::Mat& blob);
   void readFiles(const NetworkSpec& spec);
   void chooseInputSize(int configured);

@@ -58,13 +58,17 @@ std::vector<std::string> readLabels(const std::string& file) {
 cv::Size darknetInputSize(const std::string& file) {
   std::ifstream in(file);
   cv::Size size;
-  static const std::regex entry(R"(\s*(width|height)\s*=\s*(\d{1,5})\s*)");
   int sections = 0;
   for (std::string line; std::getline(in, line) && sections < 2;) {
     if (!line.empty() && line.front() == '[') ++sections;
-    std::smatch match;
-    if (std::regex_match(line, match, entry))
-      (match[1] == "width" ? size.width : size.height) = std::stoi(match[2]);
+    const auto equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string key = trim(line.substr(0, equals)), value = trim(line.substr(equals + 1));
+    constexpr std::size_t kMostDigits = 5;
+    const bool number = !value.empty() && value.size() <= kMostDigits &&
+                        value.find_first_not_of("0123456789") == std::string::npos;
+    if (number && (key == "width" || key == "height"))
+      (key == "width" ? size.width : size.height) = std::stoi(value);
   }
   if (size.empty()) throw InputError(file + ": [net] gives no width and height");
   return size;

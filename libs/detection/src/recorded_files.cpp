@@ -9,7 +9,9 @@
 
 #include "label_lists.h"
 #include "recorded_detector.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
+#include "roomgraph/observations/image_file.h"
 
 namespace roomgraph {
 namespace {
@@ -31,7 +33,7 @@ bool sound(const Detection& d) {
 
 // A mask over the whole image, cut to its box; the box is the mask's own.
 void readMask(const std::filesystem::path& file, Detection& detection) {
-  const cv::Mat mask = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat mask = readImageFile(file, cv::IMREAD_GRAYSCALE);
   if (mask.empty()) throw std::invalid_argument("mask " + file.string() + " cannot be read");
   std::vector<cv::Point> inside;
   cv::findNonZero(mask, inside);
@@ -53,7 +55,7 @@ void addJsonLine(const Json& json, const std::filesystem::path& folder, Detectio
       const auto sides = item.at("bbox").get<std::array<double, 4>>();
       detection.box = {sides[0], sides[1], sides[2], sides[3]};
     }
-    if (item.contains("track")) detection.track = TrackId{item.at("track").get<std::int64_t>()};
+    if (item.contains("track")) detection.track = TrackId{integerOf<std::int64_t>(item.at("track"))};
     if (!sound(detection)) throw std::invalid_argument("box or score out of range");
     boxes.boxes.push_back(detection);
   }

@@ -3,6 +3,7 @@
 #include "roomgraph/estimation/pose_estimator.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "roomgraph/core/result_store.h"
 
@@ -162,6 +163,7 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
   };
   const auto decode = [&](const std::string& bytes) {
     std::vector<double> numbers = numbersFrom(bytes);
+    if (numbers.size() < 2) throw std::invalid_argument("too short");
     SolveReport report{.usable = numbers.end()[-2] != 0, .iterations = static_cast<int>(numbers.back())};
     numbers.resize(numbers.size() - 2);
     graph_.setValues(numbers);

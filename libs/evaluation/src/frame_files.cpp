@@ -7,6 +7,7 @@
 
 #include "json_lines.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/json_integer.h"
 
 namespace roomgraph {
 namespace {
@@ -17,7 +18,7 @@ using nlohmann::json;
 double probabilityOf(const json& posterior, int landmark, bool is_new) {
   for (const auto& entry : posterior) {
     const json& name = entry.at("landmark");
-    const bool chosen = is_new ? name == json("new") : name.is_number() && name.get<int>() == landmark;
+    const bool chosen = is_new ? name == json("new") : name.is_number() && integerOf<int>(name) == landmark;
     if (chosen) return entry.at("p").get<double>();
   }
   return std::numeric_limits<double>::quiet_NaN();
@@ -27,7 +28,7 @@ AssociatedBox associatedFrom(const json& record) {
   AssociatedBox out;
   out.class_name = record.at("class").get<std::string>();
   out.box = boxFrom(record.at("bbox"));
-  out.landmark = record.at("landmark").get<int>();
+  out.landmark = integerOf<int>(record.at("landmark"));
   out.is_new = record.at("new").get<bool>();
   out.probability = probabilityOf(record.value("posterior", json::array()), out.landmark, out.is_new);
   if (out.probability < 0 || out.probability > 1)
@@ -43,7 +44,7 @@ std::vector<TrueFrame> readTrueFrames(const std::filesystem::path& file) {
     TrueFrame frame{line.at("t").get<double>(), {}};
     for (const auto& object : line.at("objects")) {
       const auto name = object.at("class").get<std::string>();
-      frame.boxes.push_back({object.at("id").get<int>(), name, object.value("kind", name),
+      frame.boxes.push_back({integerOf<int>(object.at("id")), name, object.value("kind", name),
                              boxFrom(object.at("bbox")), object.at("visible").get<double>()});
     }
     frames.push_back(std::move(frame));

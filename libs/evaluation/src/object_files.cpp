@@ -5,6 +5,7 @@
 #include <map>
 
 #include "json_lines.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 EvaluatedObject toObject(const json& record) {
   EvaluatedObject out;
-  out.id = record.at("id").get<int>();
+  out.id = integerOf<int>(record.at("id"));
   out.class_name = record.at("class").get<std::string>();
   out.kind = record.value("kind", out.class_name);
   out.position = {record.at("x").get<double>(), record.at("y").get<double>(), record.at("z").get<double>()};
@@ -63,7 +64,7 @@ std::set<int> readSeenObjects(const std::filesystem::path& boxes_jsonl, const Vi
   std::map<int, int> good_frames;
   const int lines = forEachJsonLine(boxes_jsonl, [&](const json& frame) {
     for (const auto& object : frame.at("objects"))
-      if (isGoodView(object, rule)) ++good_frames[object.at("id").get<int>()];
+      if (isGoodView(object, rule)) ++good_frames[integerOf<int>(object.at("id"))];
   });
   if (lines == 0) throw InputError(boxes_jsonl.string() + ": is empty");
   std::set<int> seen;

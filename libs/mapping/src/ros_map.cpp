@@ -12,6 +12,7 @@
 #include "roomgraph/core/text_file.h"
 #include "roomgraph/geometry/plausible_pose.h"
 #include "roomgraph/mapping/map_files.h"
+#include "roomgraph/observations/image_file.h"
 
 namespace roomgraph {
 namespace {
@@ -93,9 +94,7 @@ void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::fi
 
 mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml) {
   const RosMap map = readYaml(yaml);
-  // Checked first, as OpenCV prints a warning about a missing file.
-  const bool exists = std::filesystem::is_regular_file(map.image);
-  const cv::Mat image = exists ? cv::imread(map.image.string(), cv::IMREAD_GRAYSCALE) : cv::Mat();
+  const cv::Mat image = readImageFile(map.image, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");
   mrpt::maps::COccupancyGridMap2D grid;
   try {

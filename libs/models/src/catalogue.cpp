@@ -7,6 +7,7 @@
 #include <set>
 
 #include "roomgraph/core/checksum.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/core/text_file.h"
 
@@ -34,7 +35,7 @@ KnownFile fileFrom(const Json& json, const LabelLists& labels) {
   KnownFile file;
   file.name = json.at("name").get<std::string>();
   requireName(file.name);
-  file.bytes = json.at("bytes").get<std::uint64_t>();
+  file.bytes = integerOf<std::uint64_t>(json.at("bytes"));
   file.sha256 = json.at("sha256").get<std::string>();
   requireDigits(file.sha256);
   file.url = json.value("url", "");

@@ -42,7 +42,8 @@ Landmark readLandmark(CArchive& in) {
       landmark.shape.depth >> landmark.shape.height;
   landmark.shape.kind = shapeKindFromString(kind);
   for (int i = 0; i < 3; ++i) in >> landmark.position[i];
-  in >> landmark.yaw >> landmark.has_yaw;
+  in >> landmark.yaw;
+  landmark.has_yaw = in.ReadAs<std::uint8_t>() != 0;  // any byte may be there
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) in >> landmark.covariance(i, j);
   in >> landmark.existence >> landmark.class_posterior;

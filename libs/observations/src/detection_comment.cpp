@@ -6,6 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "roomgraph/core/json_integer.h"
+
 namespace roomgraph {
 namespace {
 
@@ -47,7 +49,7 @@ CObservationDetections::Item itemFrom(const Json& json) {
   item.v_min = sides[1];
   item.u_max = sides[2];
   item.v_max = sides[3];
-  item.track = json.value("track", std::int64_t{-1});
+  item.track = integerOf<std::int64_t>(json, "track", -1);
   if (const auto mask = json.find("mask"); mask != json.end()) {
     item.mask.width = countFrom(mask->at("width"));
     item.mask.height = countFrom(mask->at("height"));
@@ -57,7 +59,7 @@ CObservationDetections::Item itemFrom(const Json& json) {
 }
 
 void fill(CObservationDetections& out, const Json& json) {
-  if (const int version = json.at(kMarker).get<int>(); version != kVersion)
+  if (const int version = integerOf<int>(json.at(kMarker)); version != kVersion)
     throw std::invalid_argument("version " + std::to_string(version) + " is not known");
   // MRPT 2.5 does not write the label of a comment; where a later one does, a tool may have changed it.
   if (out.sensorLabel.empty()) out.sensorLabel = json.at("sensor_label").get<std::string>();

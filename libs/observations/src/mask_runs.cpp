@@ -9,6 +9,7 @@ namespace roomgraph {
 namespace {
 
 constexpr std::uint32_t kLargestSide_px = 1u << 15;
+constexpr std::uint64_t kMostPixels = 1u << 26;  // few numbers may stand for any size
 
 }  // namespace
 
@@ -37,7 +38,7 @@ cv::Mat toMask(const MaskRuns& runs) {
   const std::uint64_t size = static_cast<std::uint64_t>(runs.width) * runs.height;
   std::uint64_t sum = 0;
   for (const auto run : runs.runs) sum += run;
-  if (sum != size || size == 0) return {};
+  if (sum != size || size == 0 || size > kMostPixels) return {};
   cv::Mat mask(static_cast<int>(runs.height), static_cast<int>(runs.width), CV_8UC1);
   unsigned char* pixel = mask.data;
   unsigned char value = 0;

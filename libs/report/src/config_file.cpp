@@ -8,6 +8,7 @@
 #include <set>
 
 #include "roomgraph/core/ini_text.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
@@ -33,7 +34,7 @@ std::vector<ReliabilityRow> reliabilityOf(const json& content) {
   std::vector<ReliabilityRow> rows;
   if (!content.contains("association_reliability")) return rows;
   for (const json& bin : content.at("association_reliability")) {
-    if (bin.at("count").get<int>() == 0) continue;
+    if (integerOf<int>(bin.at("count")) == 0) continue;
     rows.push_back(
         {bin.at("from"), bin.at("to"), bin.at("mean_probability"), bin.at("correct_share"), bin.at("count")});
   }

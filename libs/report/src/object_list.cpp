@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
@@ -33,7 +34,7 @@ ReportedObject objectOf(const json& entry) {
   object.yaw_sigma_rad = std::sqrt(covariance.at(3).at(3).get<double>());
   entry.at("existence").get_to(object.existence);
   entry.at("class_posterior").get_to(object.class_posterior);
-  object.observations = entry.value("observations", 0);
+  object.observations = integerOf<int>(entry, "observations", 0);
   if (entry.contains("evidence")) entry.at("evidence").get_to(object.evidence);
   return object;
 }

@@ -17,6 +17,7 @@
 #include "pose_curves.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/evaluation/trajectory_file.h"
 #include "roomgraph/report/graph_closures.h"
 #include "sightings.h"
@@ -145,7 +146,7 @@ void readViews(std::istream& lines, RunData& run) {
     bytes += line.size();
     if (bytes > kMostViewBytes) return;
     for (auto& object : run.objects)
-      if (object.id == id->get<std::int64_t>()) object.view = jpeg->get<std::string>();
+      if (object.id == integerOf<std::int64_t>(*id)) object.view = jpeg->get<std::string>();
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
@@ -28,17 +29,17 @@ double splitPosterior(const json& measurement, int chosen, bool made_new, std::m
     const double p = entry.at("p").get<double>();
     const json& landmark = entry.at("landmark");
     const bool is_new = !landmark.is_number();
-    if (is_new ? made_new : !made_new && landmark.get<int>() == chosen) {
+    if (is_new ? made_new : !made_new && integerOf<int>(landmark) == chosen) {
       probability += p;
     } else if (!is_new) {
-      rivals[landmark.get<int>()] += p;
+      rivals[integerOf<int>(landmark)] += p;
     }
   }
   return probability;
 }
 
 void addSighting(const json& measurement, double t, double duration_s, std::map<int, Growing>& all) {
-  const int id = measurement.at("landmark").get<int>();
+  const int id = integerOf<int>(measurement.at("landmark"));
   const bool made_new = measurement.at("new").get<bool>();
   Growing& of = all[id];
   SightingSummary& sum = of.summary;

@@ -6,7 +6,9 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/result_store.h"
 #include "sparse_bundle.h"
 
@@ -102,6 +104,7 @@ class LocalProblem {
   /// Takes over what solve() gave.
   void write(const std::vector<double>& solution) {
     if (solution.empty()) return;
+    requireFitting(solution);
     auto next = solution.begin();
     std::map<int, Pose3> refined;
     for (const auto& [index, moves] : window_) {
@@ -121,6 +124,17 @@ class LocalProblem {
   }
 
  private:
+  /// Throws InputError unless the numbers are those of solve(); a checkpoint may have been changed.
+  void requireFitting(const std::vector<double>& solution) const {
+    constexpr std::size_t kPointNumbers = 4;
+    const auto moving = std::count_if(window_.begin(), window_.end(), [](const auto& entry) { return entry.second; });
+    const std::size_t poses = static_cast<std::size_t>(moving) * std::tuple_size_v<PoseBlock>;
+    bool fits = solution.size() >= poses && (solution.size() - poses) % kPointNumbers == 0;
+    for (std::size_t i = poses; fits && i < solution.size(); i += kPointNumbers)
+      fits = solution[i] >= 0 && solution[i] < static_cast<double>(map_.points.size());
+    if (!fits) throw InputError("checkpoint: a local adjustment in it belongs to another map");
+  }
+
   /// A point with the keyframes of the window that see it; without terms when these are fewer than two.
   BundlePoint bundlePoint(std::int64_t id, const std::map<int, int>& cameras) const {
     const MapPoint& seen = map_.point(id);

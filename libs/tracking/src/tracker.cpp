@@ -11,6 +11,7 @@
 #include "bundle_adjustment.h"
 #include "keyframe_insertion.h"
 #include "place_recognition.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/result_store.h"
 #include "roomgraph/geometry/covariance.h"
 #include "view_bytes.h"
@@ -105,8 +106,18 @@ TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   return reference_ < 0 ? start(std::move(view)) : lost("too few inliers", &view);
 }
 
+// A view of another map would lead out of this one.
+void Tracker::requireKnown(const LocatedView& kept) const {
+  const auto known = [&](std::int64_t id) { return id < static_cast<std::int64_t>(map_.points.size()); };
+  if (kept.reference < 0 || kept.reference >= static_cast<int>(map_.keyframes.size()) ||
+      !std::all_of(kept.points.begin(), kept.points.end(), known) ||
+      !std::all_of(kept.in_view.begin(), kept.in_view.end(), known))
+    throw InputError("checkpoint: its view of second " + std::to_string(last_t_) + " shows what is not in the map");
+}
+
 TrackingResult Tracker::recall(const Frame& frame, const std::string& bytes) {
-  LocatedView kept = locatedView(bytes);
+  LocatedView kept = decodedResult("view", last_t_, bytes, locatedView);
+  requireKnown(kept);
   View view{.frame = &frame,
             .features = std::move(kept.features),
             .points = std::move(kept.points),

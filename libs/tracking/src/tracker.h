@@ -18,6 +18,8 @@ class ResultStore;
 
 namespace roomgraph::tracking {
 
+struct LocatedView;
+
 /// State and main loop of FeatureOdometry.
 class Tracker {
  public:
@@ -72,6 +74,7 @@ class Tracker {
   TrackingResult look(const Frame& frame, const TrackingPrior& prior);
   /// Takes over a located view that was kept.
   TrackingResult recall(const Frame& frame, const std::string& bytes);
+  void requireKnown(const LocatedView& kept) const;
   /// Keeps a located view for recall(); of a frame for which all has to be done again null.
   void keep(const View* view);
   /// Notes in the map which points were seen, and which might have been.

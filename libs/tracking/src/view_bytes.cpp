@@ -6,11 +6,15 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/stl_serialization.h>
 
+#include <stdexcept>
+
 namespace roomgraph::tracking {
 
 using mrpt::serialization::archiveFrom;
 
 namespace {
+
+constexpr std::size_t kPoseNumbers = 16, kCovarianceNumbers = 36;
 
 // Ids of points are indices: half the bytes will do.
 std::vector<std::uint32_t> shortened(const std::vector<std::int64_t>& ids) {
@@ -30,7 +34,7 @@ std::string bytesOf(const LocatedView& view) {
   mrpt::io::CMemoryStream memory;
   auto out = archiveFrom(memory);
   out << pixels << view.features.depth << shortened(view.points) << shortened(view.in_view);
-  out << std::vector<double>(pose, pose + 16) << std::vector<double>(covariance, covariance + 36);
+  out << std::vector<double>(pose, pose + kPoseNumbers) << std::vector<double>(covariance, covariance + kCovarianceNumbers);
   out << view.inliers << view.matches << view.reference << view.reference_inliers;
   return {static_cast<const char*>(memory.getRawBufferData()),
           static_cast<std::size_t>(memory.getTotalBytesCount())};
@@ -46,6 +50,9 @@ LocatedView locatedView(const std::string& bytes) {
   auto in = archiveFrom(memory);
   in >> pixels >> view.features.depth >> points >> in_view >> pose >> covariance;
   in >> view.inliers >> view.matches >> view.reference >> view.reference_inliers;
+  if (pixels.size() != 2 * points.size() || view.features.depth.size() != points.size() || pose.size() != kPoseNumbers ||
+      covariance.size() != kCovarianceNumbers)
+    throw std::invalid_argument("its lists do not have the same length");
   for (std::size_t i = 0; i + 1 < pixels.size(); i += 2)
     view.features.keypoints.emplace_back(cv::Point2f(pixels[i], pixels[i + 1]), 1.f);
   view.points.assign(points.begin(), points.end());

@@ -23,7 +23,7 @@ struct LocatedView {
 };
 
 std::string bytesOf(const LocatedView& view);
-/// What bytesOf() was given.
+/// What bytesOf() was given. Throws std::exception when they are no view.
 LocatedView locatedView(const std::string& bytes);
 
 }  // namespace roomgraph::tracking

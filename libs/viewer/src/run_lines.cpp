@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "roomgraph/core/base64.h"
+#include "roomgraph/core/json_integer.h"
 #include "roomgraph/core/text_file.h"
 
 namespace roomgraph {
@@ -33,7 +34,7 @@ json wholeOf(std::istream& in, const std::string& name) {
 }
 
 ShownSighting sightingOf(const json& entry, double t) {
-  ShownSighting out{.landmark = LandmarkId{entry.at("landmark").get<std::int64_t>()},
+  ShownSighting out{.landmark = LandmarkId{integerOf<std::int64_t>(entry.at("landmark"))},
                     .t = t,
                     .made_new = entry.at("new").get<bool>(),
                     .confidence = entry.value("confidence", 1.0),
@@ -41,7 +42,7 @@ ShownSighting sightingOf(const json& entry, double t) {
                     .source = entry.value("source", "")};
   for (const json& likely : entry.at("posterior")) {
     const json& id = likely.at("landmark");
-    out.posterior.emplace_back(id.is_number() ? LandmarkId{id.get<std::int64_t>()} : LandmarkId{},
+    out.posterior.emplace_back(id.is_number() ? LandmarkId{integerOf<std::int64_t>(id)} : LandmarkId{},
                                likely.at("p").get<double>());
     const auto& [landmark, probability] = out.posterior.back();
     if (landmark == (out.made_new ? LandmarkId{} : out.landmark)) out.probability += probability;
@@ -65,7 +66,7 @@ Detection boxOf(const json& entry) {
 
 Landmark candidateOf(const json& entry) {
   Landmark out;
-  out.id.value = entry.at("id").get<std::int64_t>();
+  out.id.value = integerOf<std::int64_t>(entry.at("id"));
   out.class_name = entry.at("class").get<std::string>();
   out.model = entry.value("model", "");
   const json& size = entry.at("size_wdh");
@@ -82,7 +83,7 @@ Landmark candidateOf(const json& entry) {
                                         .get<double>();
   out.existence = entry.at("existence").get<double>();
   entry.at("class_posterior").get_to(out.class_posterior);
-  out.observations = entry.value("observations", 0);
+  out.observations = integerOf<int>(entry, "observations", 0);
   return out;
 }
 
@@ -115,7 +116,7 @@ FrameReports readBoxLines(std::istream& lines, const std::string& name) {
 std::map<LandmarkId, std::string> readViewLines(std::istream& lines, const std::string& name) {
   std::map<LandmarkId, std::string> out;
   forEachLine(lines, name, [&](const json& view) {
-    out[LandmarkId{view.at("id").get<std::int64_t>()}] = fromBase64(view.at("jpeg").get<std::string>());
+    out[LandmarkId{integerOf<std::int64_t>(view.at("id"))}] = fromBase64(view.at("jpeg").get<std::string>());
   });
   return out;
 }

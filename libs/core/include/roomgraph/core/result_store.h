@@ -4,12 +4,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "roomgraph/core/allocation_limit.h"
+#include "roomgraph/core/error_text.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/journal.h"
 
 namespace roomgraph {
@@ -30,19 +34,35 @@ class ResultStore {
   virtual bool recalling() const { return false; }
 };
 
+/// Runs `decode(bytes)`. Throws InputError naming the result when they are none: only a file that somebody has changed,
+/// with its checksums, gets so far.
+template <class Decode>
+auto decodedResult(std::string_view name, double t, const std::string& bytes, const Decode& decode)
+    -> decltype(decode(bytes)) {
+  // What containers of a damaged length ask for is refused before it is there.
+  constexpr std::size_t kSpareBytes = 1u << 20, kBytesPerByte = 64;
+  try {
+    const AllocationLimit limit(kSpareBytes + kBytesPerByte * bytes.size());
+    return decode(bytes);
+  } catch (const std::exception& error) {
+    throw InputError("checkpoint: its result '" + std::string(name) + "' of second " + std::to_string(t) +
+                     " is damaged: " + firstLine(error));
+  }
+}
+
 /// `compute()`, or what it gave the first time. `store` may be null. `encode` turns the result into bytes,
-/// `decode` these into an equal result.
+/// `decode` these into an equal result. Throws InputError when these are none.
 template <class Compute, class Encode, class Decode>
 auto recalled(ResultStore* store, std::string_view name, double t, const Compute& compute,
               const Encode& encode, const Decode& decode) -> decltype(compute()) {
   if (!store) return compute();
-  if (const auto bytes = store->recall(name, t)) return decode(*bytes);
+  if (const auto bytes = store->recall(name, t)) return decodedResult(name, t, *bytes, decode);
   auto result = compute();
   store->keep(name, t, encode(result));
   return result;
 }
 
-/// Numbers as the bytes of a result on this machine, and back.
+/// Numbers as the bytes of a result on this machine, and back. Throws std::invalid_argument: half a number.
 std::string bytesOfNumbers(const std::vector<double>& numbers);
 std::vector<double> numbersFrom(const std::string& bytes);
 
