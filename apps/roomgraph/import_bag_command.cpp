@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph import rosbag`: bags of ROS 1 and ROS 2 into a rawlog, or a list of what is in them.
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -31,25 +29,10 @@ const std::map<std::string, BagTimes>& timesByName() {
   return times;
 }
 
-// A preset's name, or "fx,fy,cx,cy".
-PinholeCamera cameraOf(const std::string& text) {
-  if (const auto preset = findCameraPreset(text)) {
-    PinholeCamera camera = preset->camera;
-    camera.fy = std::abs(camera.fy);
-    return camera;
-  }
-  std::array<double, 4> v{};
-  int used = 0;
-  const bool numbers = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3], &used) == 4;
-  if (!numbers || text.size() != static_cast<std::size_t>(used) || !(v[0] > 0) || !(v[1] > 0))
-    throw ConfigError("--camera " + text + ": give FX,FY,CX,CY in pixels, or one of " + presetNames());
-  return {0, 0, v[0], v[1], v[2], v[3], {}};
-}
-
 BagImportOptions optionsOf(const BagArguments& arguments) {
   BagImportOptions options = arguments.options;
   options.times = timesByName().at(arguments.times);
-  if (!arguments.camera.empty()) options.camera = cameraOf(arguments.camera);
+  if (!arguments.camera.empty()) options.camera = cameraOption(arguments.camera);
   options.sensor_poses = posesOf(arguments.poses);
   return options;
 }

@@ -98,6 +98,8 @@ void addImportCommand(CLI::App& app) {
   tum->callback([arguments] { importFolder(*arguments); });
   addImportBag(*importer);
   addImportCarmen(*importer);
+  addImportRtabmap(*importer);
+  addImportOpenloris(*importer);
 }
 
 }  // namespace roomgraph

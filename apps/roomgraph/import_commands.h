@@ -9,11 +9,20 @@
 #include <vector>
 
 #include "roomgraph/datasets/sensor_poses.h"
+#include "roomgraph/geometry/camera.h"
 
 namespace roomgraph {
 
 /// `import carmen`.
 void addImportCarmen(CLI::App& importer);
+/// `import rtabmap`.
+void addImportRtabmap(CLI::App& importer);
+
+/// `import openloris`.
+void addImportOpenloris(CLI::App& importer);
+
+/// --camera: a published camera's name, or "fx,fy,cx,cy" in pixels, with size 0. Throws ConfigError.
+PinholeCamera cameraOption(const std::string& text);
 
 /// Places given as --pose LABEL=x,y,z,yaw,pitch,roll; of two for one label the last one counts. Throws
 /// ConfigError.

@@ -1,11 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What imports tell when they are done, and the places of sensors that they are given.
+// What imports tell when they are done, and the cameras and places of sensors that they are given.
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "import_commands.h"
+#include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/datasets/camera_presets.h"
 
 namespace roomgraph {
+
+PinholeCamera cameraOption(const std::string& text) {
+  if (const auto preset = findCameraPreset(text)) {
+    PinholeCamera camera = preset->camera;
+    camera.fy = std::abs(camera.fy);
+    return camera;
+  }
+  std::array<double, 4> v{};
+  int used = 0;
+  const bool numbers = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3], &used) == 4;
+  if (!numbers || text.size() != static_cast<std::size_t>(used) || !(v[0] > 0) || !(v[1] > 0))
+    throw ConfigError("--camera " + text + ": give FX,FY,CX,CY in pixels, or one of " + presetNames());
+  return {0, 0, v[0], v[1], v[2], v[3], {}};
+}
 
 SensorPoses posesOf(const std::vector<std::string>& options) {
   SensorPoses poses;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands import carmen: exit codes, one line for each error, the same run as with the rawlog itself.
+// The commands import carmen, rtabmap and openloris: exit codes, one line for each error; a log of a rawlog
+// gives its trajectory.
 #include "../regression/program.h"
 #include "carmen_maker.h"
+#include "openloris_maker.h"
 #include "roomgraph/observations/rawlog_writer.h"
+#include "rtabmap_maker.h"
 
 namespace roomgraph {
 namespace {
@@ -72,6 +75,46 @@ TEST(ImportCommand, CarmenErrorsAreOneLineWithTheirCode) {
   EXPECT_EQ(odometry_only.exit_code, 0) << odometry_only.err;
   EXPECT_THAT(odometry_only.err, HasSubstr("warning: no sweeps in it, only odometry"));
   EXPECT_THAT(import({"--help"}).out, HasSubstr("roomgraph import carmen intel.log -o intel.rawlog"));
+}
+
+TEST(ImportCommand, RtabmapTellsWhatItDidAndItsErrors) {
+  const TemporaryFolder folder;
+  const std::string rawlog = folder.file("y.rawlog").string();
+  const auto database =
+      writeDatabase(folder.file("x.db"), {smallNode(1, 1.7e9), smallNode(2, 1.7e9 + 1)}).string();
+  const auto import = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"import", "rtabmap"});
+    return call(folder.path(), words);
+  };
+  expectOneLine(import({kTinyRoom, "-o", rawlog}), 3, HasSubstr("is no database of RTAB-Map, or damaged"));
+  expectOneLine(import({database, "-o", rawlog, "--session", "4"}), 2, HasSubstr("has no session 4"));
+  expectOneLine(import({database, "-o", database}), 2, HasSubstr("is read by this import"));
+  EXPECT_FALSE(std::filesystem::exists(rawlog));
+  const auto done = import({database, "-o", rawlog});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, "version 0.20.16, session 0: 2 nodes\n" + rawlog + ": 2 'ODOMETRY', 2 'RGBD'\n");
+  const auto told = call(folder.path(), {"info", rawlog});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("on robot  x 0.200 y 0.000 z 0.800 m"));
+}
+
+TEST(ImportCommand, OpenlorisTellsWhatItDidAndItsErrors) {
+  const TemporaryFolder folder;
+  const std::string rawlog = folder.file("y.rawlog").string();
+  const auto sequence = writeSequence(folder, recordsIn(kTinyRoom)).string();
+  const auto import = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"import", "openloris"});
+    return call(folder.path(), words);
+  };
+  expectOneLine(import({folder.file("no").string(), "-o", rawlog}), 3, HasSubstr("no such folder"));
+  expectOneLine(import({sequence, "-o", rawlog, "--camera", "eye"}), 2, HasSubstr("give FX,FY,CX,CY"));
+  expectOneLine(import({sequence, "-o", sequence + "/odom.txt"}), 2, HasSubstr("is read by this import"));
+  EXPECT_FALSE(std::filesystem::exists(rawlog));
+  const auto done = import({sequence, "-o", rawlog});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, rawlog + ": 41 'D400', 81 'ODOMETRY'\n" + folder.file("y.groundtruth.txt").string() +
+                          ": ground truth, poses of the robot (base_link)\n");
+  EXPECT_EQ(done.err, "");
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 
 #include "depth_registration.h"
 #include "flag_repair.h"
+#include "image_memory.h"
 #include "record_source.h"
-#include "roomgraph/datasets/image_memory.h"
 #include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {

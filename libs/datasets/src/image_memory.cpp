@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OpenCV allocator with a size limit, and loading of images under an AllocationLimit.
-#include "roomgraph/datasets/image_memory.h"
+#include "image_memory.h"
 
 #include <new>
 #include <opencv2/core/mat.hpp>

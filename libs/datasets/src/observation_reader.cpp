@@ -10,10 +10,10 @@
 
 #include "frame_conversion.h"
 #include "image_folder.h"
+#include "image_memory.h"
 #include "odometry_sum.h"
 #include "plausibility.h"
 #include "record_source.h"
-#include "roomgraph/datasets/image_memory.h"
 
 namespace roomgraph {
 

@@ -17,9 +17,9 @@
 
 #include "action_check.h"
 #include "flag_repair.h"
+#include "image_memory.h"
 #include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/datasets/image_memory.h"
 #include "roomgraph/observations/register_classes.h"
 
 namespace roomgraph {

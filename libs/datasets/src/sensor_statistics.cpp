@@ -9,8 +9,8 @@
 
 #include "flag_repair.h"
 #include "frame_conversion.h"
+#include "image_memory.h"
 #include "roomgraph/core/order_statistics.h"
-#include "roomgraph/datasets/image_memory.h"
 
 namespace roomgraph {
 namespace {

@@ -14,9 +14,9 @@
 #include "flag_repair.h"
 #include "frame_conversion.h"
 #include "image_folder.h"
+#include "image_memory.h"
 #include "odometry_sum.h"
 #include "record_source.h"
-#include "roomgraph/datasets/image_memory.h"
 
 namespace roomgraph {
 
