@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph import rosbag`: bags of ROS 1 and ROS 2 into a rawlog, or a list of what is in them.
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <map>
 
 #include "bag_commands.h"
 #include "commands.h"
+#include "import_commands.h"
 #include "roomgraph/bags/bag_import.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
@@ -30,33 +29,12 @@ const std::map<std::string, BagTimes>& timesByName() {
   return times;
 }
 
-// A preset's name, or "fx,fy,cx,cy".
-PinholeCamera cameraOf(const std::string& text) {
-  if (const auto preset = findCameraPreset(text)) {
-    PinholeCamera camera = preset->camera;
-    camera.fy = std::abs(camera.fy);
-    return camera;
-  }
-  std::array<double, 4> v{};
-  int used = 0;
-  const bool numbers = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%n", &v[0], &v[1], &v[2], &v[3], &used) == 4;
-  if (!numbers || text.size() != static_cast<std::size_t>(used) || !(v[0] > 0) || !(v[1] > 0))
-    throw ConfigError("--camera " + text + ": give FX,FY,CX,CY in pixels, or one of " + presetNames());
-  return {0, 0, v[0], v[1], v[2], v[3], {}};
-}
-
 BagImportOptions optionsOf(const BagArguments& arguments) {
   BagImportOptions options = arguments.options;
   options.times = timesByName().at(arguments.times);
-  if (!arguments.camera.empty()) options.camera = cameraOf(arguments.camera);
-  for (const auto& pose : arguments.poses)
-    for (const auto& [label, place] : parseSensorPoses(pose, "--pose " + pose))
-      options.sensor_poses.insert_or_assign(label, place);
+  if (!arguments.camera.empty()) options.camera = cameraOption(arguments.camera);
+  options.sensor_poses = posesOf(arguments.poses);
   return options;
-}
-
-void warn(const std::vector<std::string>& warnings) {
-  for (const auto& warning : warnings) std::cerr << "roomgraph: warning: " << warning << "\n";
 }
 
 std::string delayOf(const BagTopicInfo& topic) {
@@ -70,7 +48,7 @@ void list(const BagArguments& arguments) {
   ShareProgress progress("list", "");
   const auto contents = listBag(arguments.bag, progress.function());
   progress.finish();
-  warn(contents.warnings);
+  tellWarnings(contents.warnings);
   std::printf("%-10s %8s %8s %8s  %-26s %s\n", "used as", "messages", "Hz", "header", "type", "topic");
   for (const auto& topic : contents.topics) {
     const double span = topic.last_s - topic.first_s;
@@ -90,19 +68,12 @@ void import(const BagArguments& arguments) {
   ShareProgress progress("import", arguments.rawlog.string());
   const auto result = importBag(arguments.bag, arguments.rawlog, optionsOf(arguments), progress.function());
   progress.finish();
-  warn(result.warnings);
+  tellWarnings(result.warnings);
   for (const auto& used : result.used) std::cout << used << "\n";
   std::cout << "robot: "
             << (result.base_frame.empty() ? "none, the camera is taken for handheld" : result.base_frame)
             << "\n";
-  std::vector<std::string> counts;
-  for (const auto& [label, count] : result.written)
-    counts.push_back(std::to_string(count) + " '" + label + "'");
-  std::cout << arguments.rawlog.string() << ": " << join(counts) << "\n";
-  for (const auto& [reason, count] : result.skipped)
-    std::cout << "left out: " << count << " x " << reason << "\n";
-  if (!result.ground_truth.empty())
-    std::cout << result.ground_truth.string() << ": ground truth, " << result.truth << "\n";
+  tellImport({arguments.rawlog, result.written, result.skipped, result.ground_truth, result.truth});
 }
 
 // How the messages are to be understood.

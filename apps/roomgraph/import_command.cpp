@@ -5,6 +5,7 @@
 
 #include "bag_commands.h"
 #include "commands.h"
+#include "import_commands.h"
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
@@ -54,7 +55,7 @@ void importFolder(const ImportArguments& arguments) {
           throw Interrupted("interrupted: " + arguments.rawlog.string() + " was not written");
       });
   if (line) line->finish();
-  for (const auto& warning : result.warnings) std::cerr << "roomgraph: warning: " << warning << "\n";
+  tellWarnings(result.warnings);
   std::cout << arguments.rawlog.string() << ": " << result.written << " records '" << arguments.options.label
             << "', " << result.camera.width << "x" << result.camera.height << " px";
   if (result.missing > 0) std::cout << "; " << result.missing << " pairs left out";
@@ -96,6 +97,9 @@ void addImportCommand(CLI::App& app) {
   tum->add_flag("--external-images", options.external_images, "keep the images as files in X_Images/");
   tum->callback([arguments] { importFolder(*arguments); });
   addImportBag(*importer);
+  addImportCarmen(*importer);
+  addImportRtabmap(*importer);
+  addImportOpenloris(*importer);
 }
 
 }  // namespace roomgraph

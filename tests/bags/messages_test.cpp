@@ -13,6 +13,7 @@
 #include "message_types.h"
 #include "message_writing.h"
 #include "record_making.h"
+#include "roomgraph/datasets/import_images.h"
 #include "ros1_records.h"
 #include "temporary_folder.h"
 

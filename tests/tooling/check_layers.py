@@ -14,7 +14,7 @@ import source_files
 LEVELS = {"core": 0, "models": 1, "geometry": 1, "catalogue": 1, "observations": 2,
           "datasets": 3, "detection": 3, "tracking": 3, "lidar": 3, "proposals": 3, "selection": 3, "association": 3,
           "backend": 3, "mapping": 3, "simulation": 3,
-          "estimation": 4, "evaluation": 4, "maptools": 4, "faults": 4, "calibration": 4, "bags": 5, "pipeline": 5, "report": 5, "rendering": 6, "graphslam": 6, "batch": 6, "viewer": 7}
+          "estimation": 4, "evaluation": 4, "maptools": 4, "faults": 4, "calibration": 4, "imports": 4, "bags": 5, "pipeline": 5, "report": 5, "rendering": 6, "graphslam": 6, "batch": 6, "viewer": 7}
 PRIVATE = re.compile(r"opencv2/(dnn|features2d|xfeatures2d|calib3d|video)\b|ceres/|nanoflann|CLI/|nlohmann/json\.hpp|curl/|openssl/|sqlite3\.h|yaml-cpp/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 LINK = re.compile(r"\broomgraph(?:::|_)(\w+)")

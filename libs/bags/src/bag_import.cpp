@@ -2,21 +2,17 @@
 // The two readings of a bag, and the files that come of them.
 #include "roomgraph/bags/bag_import.h"
 
-#include <mrpt/core/Clock.h>
-
 #include <algorithm>
-#include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 
 #include "conversion.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/import_images.h"
 #include "roomgraph/datasets/import_output.h"
 
 namespace roomgraph {
 namespace {
 
 namespace fs = std::filesystem;
-using mrpt::obs::CObservation3DRangeScan;
 
 constexpr double kSurveyShare = 0.3;  // of the time that both readings take
 
@@ -24,51 +20,6 @@ std::function<void(double)> partOf(const std::function<void(double)>& progress, 
   if (!progress) return nullptr;
   return [=](double share) { progress(from + (to - from) * share); };
 }
-
-void writeBytes(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
-  OutputFile out(file);
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.finish();
-}
-
-// Colour without further loss: as the bag has it, else PNG.
-void storeOutside(CObservation3DRangeScan& record, const std::vector<std::uint8_t>& picture,
-                  const ImportOutput& output) {
-  char stamp[64];
-  std::snprintf(stamp, sizeof stamp, "_%.6f", mrpt::Clock::toDouble(record.timestamp));
-  std::string name = record.sensorLabel + stamp;
-  std::replace(name.begin(), name.end(), '/', '_');
-  if (record.hasIntensityImage) {
-    const bool jpeg = picture.size() > 2 && picture[0] == 0xff && picture[1] == 0xd8;
-    const std::string file = name + (picture.empty() || !jpeg ? "_rgb.png" : "_rgb.jpg");
-    std::vector<std::uint8_t> bytes = picture;
-    if (bytes.empty() &&
-        !cv::imencode(".png", record.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY), bytes))
-      throw RunError("cannot write " + file + ": no PNG encoder");
-    writeBytes(output.images() / file, bytes);
-    record.intensityImage.setExternalStorage(file);
-  }
-  if (record.hasRangeImage) output.storeDepth(record, name + "_depth.bin");
-}
-
-// MRPT's setting for all images, put back at the end.
-class EmbeddedImages {
- public:
-  explicit EmbeddedImages(std::optional<int> jpeg_quality) {
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(!jpeg_quality);
-    if (jpeg_quality) mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(*jpeg_quality);
-  }
-  ~EmbeddedImages() {
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(disabled_);
-    mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(quality_);
-  }
-  EmbeddedImages(const EmbeddedImages&) = delete;
-  EmbeddedImages& operator=(const EmbeddedImages&) = delete;
-
- private:
-  const bool disabled_ = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-  const int quality_ = mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY();
-};
 
 ImportInputs inputsOf(const fs::path& bag) {
   const auto files = bags::filesOfBag(bag);
@@ -144,7 +95,7 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
   const EmbeddedImages embedded(options.jpeg_quality);
   bags::Conversion conversion(std::move(survey), plan, options,
                               [&](mrpt::obs::CObservation& record, const std::vector<std::uint8_t>& picture) {
-                                auto* images = dynamic_cast<CObservation3DRangeScan*>(&record);
+                                auto* images = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&record);
                                 if (images && options.external_images) storeOutside(*images, picture, output);
                                 output.rawlog().write(record);
                               });

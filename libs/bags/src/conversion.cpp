@@ -7,6 +7,7 @@
 
 #include "image_decoding.h"
 #include "record_making.h"
+#include "roomgraph/datasets/import_images.h"
 #include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph::bags {

@@ -8,13 +8,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "roomgraph/core/allocation_limit.h"
-#include "roomgraph/observations/image_file.h"
+#include "roomgraph/datasets/picture_decoding.h"
 
 namespace roomgraph::bags {
 namespace {
-
-constexpr std::size_t kDecoderBytes = 256u << 20;
 
 struct RawEncoding {
   int type;             ///< of the pixels as they stand in the message
@@ -67,63 +64,9 @@ void swapBytes(cv::Mat& image) {
       std::reverse(p, p + width);
 }
 
-// Memory of decoders is bounded: a damaged size in a picture's header may ask for anything.
-cv::Mat decodePicture(Bytes bytes, int flags) {
-  if (bytes.empty()) throw BadMessage("compressed image is empty");
-  countImageMemory();
-  cv::Mat image;
-  try {
-    const AllocationLimit limit(kDecoderBytes);
-    image = cv::imdecode(
-        cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<std::uint8_t*>(bytes.data())), flags);
-  } catch (const std::exception&) {
-    image.release();
-  }
-  if (image.empty()) throw BadMessage("compressed image is damaged, or neither JPEG nor PNG");
-  return image;
-}
-
-// Run lengths of zeros and of values, these as differences in nibbles with a continuation bit (A. D. Wilson,
-// "Fast lossless depth image compression", ISS 2017).
-cv::Mat decodeRvl(Bytes bytes) {
-  Ros1Reader in(bytes);
-  const auto cols = in.number<std::uint32_t>(), rows = in.number<std::uint32_t>();
-  constexpr std::uint64_t kMostPixels = 1u << 26, kPixelsPerByte = 1u << 20;
-  const std::uint64_t pixels = static_cast<std::uint64_t>(cols) * rows;
-  if (pixels == 0 || pixels > kMostPixels || pixels > in.left() * kPixelsPerByte)
-    throw BadMessage("RVL image has an impossible size");
-  cv::Mat image = cv::Mat::zeros(static_cast<int>(rows), static_cast<int>(cols), CV_16UC1);
-  auto* out = image.ptr<std::uint16_t>();
-  auto* const end = out + pixels;
-  std::uint32_t word = 0;
-  int nibbles = 0;
-  const auto next = [&] {
-    std::uint32_t value = 0, nibble = 0;
-    int shift = 0;
-    do {
-      if (nibbles == 0) {
-        word = in.number<std::uint32_t>();
-        nibbles = 8;
-      }
-      nibble = word >> 28;
-      word <<= 4;
-      --nibbles;
-      if (shift > 30) throw BadMessage("RVL image is damaged");
-      value |= (nibble & 7u) << shift;
-      shift += 3;
-    } while (nibble & 8u);
-    return value;
-  };
-  std::uint16_t previous = 0;
-  while (out < end) {
-    out += std::min<std::ptrdiff_t>(next(), end - out);
-    for (std::uint32_t values = next(); values > 0 && out < end; --values) {
-      const std::uint32_t zigzag = next();
-      previous = static_cast<std::uint16_t>(previous + ((zigzag >> 1) ^ (0u - (zigzag & 1u))));
-      *out++ = previous;
-    }
-  }
-  return image;
+cv::Mat valueOr(const Outcome<cv::Mat>& image) {
+  if (!image) throw BadMessage(image.reason());
+  return *image;
 }
 
 // 12 bytes (format, two parameters of the quantisation), then PNG or RVL. Floats are stored as their inverse.
@@ -133,8 +76,8 @@ cv::Mat decodeCompressedDepth(const ImageMessage& image) {
   const auto a = in.number<float>(), b = in.number<float>();
   const Bytes rest = in.take(in.left());
   cv::Mat stored = image.encoding.find("rvl") != std::string::npos
-                       ? decodeRvl(rest)
-                       : decodePicture(rest, cv::IMREAD_UNCHANGED);
+                       ? valueOr(decodeRvl(rest))
+                       : valueOr(decodePicture(rest, cv::IMREAD_UNCHANGED));
   if (stored.type() != CV_16UC1) throw BadMessage("compressed depth is not of 16 bit");
   if (!image.encoding.starts_with("32FC1")) return stored;
   cv::Mat metres(stored.size(), CV_32FC1);
@@ -150,7 +93,7 @@ cv::Mat decodeCompressedDepth(const ImageMessage& image) {
 
 cv::Mat colorImageOf(const ImageMessage& image, bool compressed) {
   if (compressed) {
-    const cv::Mat out = decodePicture(image.data, cv::IMREAD_ANYCOLOR);
+    const cv::Mat out = valueOr(decodePicture(image.data, cv::IMREAD_ANYCOLOR));
     if (out.type() != CV_8UC3 && out.type() != CV_8UC1) throw BadMessage("compressed image is not of 8 bit");
     return out;
   }
@@ -174,7 +117,7 @@ cv::Mat colorImageOf(const ImageMessage& image, bool compressed) {
 cv::Mat depthImageOf(const ImageMessage& image, bool compressed) {
   if (compressed) {
     if (image.encoding.find("compressedDepth") != std::string::npos) return decodeCompressedDepth(image);
-    const cv::Mat out = decodePicture(image.data, cv::IMREAD_UNCHANGED);
+    const cv::Mat out = valueOr(decodePicture(image.data, cv::IMREAD_UNCHANGED));
     if (out.type() != CV_16UC1) throw BadMessage("compressed depth is not of 16 bit");
     return out;
   }

@@ -98,27 +98,4 @@ mrpt::obs::CObservationIMU::Ptr makeImu(const ImuMessage& message) {
   return imu;
 }
 
-double depthUnit(const cv::Mat& depth) {
-  constexpr double kMillimetre = 0.001, kFine = 0.0002;
-  return depth.type() == CV_16UC1 ? kMillimetre : kFine;
-}
-
-void setDepth(mrpt::obs::CObservation3DRangeScan& record, const cv::Mat& depth) {
-  constexpr float kLargest = 65535;
-  record.hasRangeImage = true;
-  record.range_is_depth = true;
-  record.rangeUnits = static_cast<float>(depthUnit(depth));
-  record.rangeImage_setSize(depth.rows, depth.cols);
-  const auto per_metre = static_cast<float>(1 / depthUnit(depth));
-  for (int v = 0; v < depth.rows; ++v)
-    for (int u = 0; u < depth.cols; ++u) {
-      if (depth.type() == CV_16UC1) {
-        record.rangeImage(v, u) = depth.at<std::uint16_t>(v, u);
-        continue;
-      }
-      const float value = std::round(depth.at<float>(v, u) * per_metre);
-      record.rangeImage(v, u) = value > 0 && value <= kLargest ? static_cast<std::uint16_t>(value) : 0;
-    }
-}
-
 }  // namespace roomgraph::bags

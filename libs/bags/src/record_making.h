@@ -4,11 +4,8 @@
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
-
-#include <opencv2/core/mat.hpp>
 
 #include "messages.h"
 
@@ -30,10 +27,5 @@ mrpt::obs::CObservationOdometry::Ptr makeOdometry(const OdometryMessage& message
 
 /// Throws BadMessage when it measures nothing.
 mrpt::obs::CObservationIMU::Ptr makeImu(const ImuMessage& message);
-
-/// Unit in which depth is kept, m: of 16UC1 a millimetre (REP 118), of 32FC1 0.2 mm (up to 13.1 m).
-double depthUnit(const cv::Mat& depth);
-/// Sets range image and unit. Values that are not finite, negative or beyond 16 bit become 0: no measurement.
-void setDepth(mrpt::obs::CObservation3DRangeScan& record, const cv::Mat& depth);
 
 }  // namespace roomgraph::bags

@@ -19,7 +19,7 @@
 #include "roomgraph/observations/mrpt_camera.h"
 #include "tum_camera.h"
 #include "tum_ground_truth.h"
-#include "tum_lists.h"
+#include "roomgraph/datasets/tum_lists.h"
 
 namespace roomgraph {
 namespace {

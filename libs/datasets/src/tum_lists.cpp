@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parsing of associations.txt, rgb.txt and depth.txt; greedy pairing by time difference.
-#include "tum_lists.h"
+#include "roomgraph/datasets/tum_lists.h"
 
 #include <algorithm>
 #include <charconv>
@@ -45,20 +45,6 @@ void warnOfRows(const fs::path& file, int count, std::vector<std::string>& warni
   if (count > 0)
     warnings.push_back(file.filename().string() + ": " + std::to_string(count) +
                        " lines left out: not understood");
-}
-
-std::vector<TumEntry> readEntries(const fs::path& file, std::vector<std::string>& warnings) {
-  std::vector<TumEntry> entries;
-  int odd = 0;
-  for (const auto& row : readRows(file)) {
-    const auto t = row.size() == 2 ? toNumber(row[0]) : std::nullopt;
-    if (t)
-      entries.push_back({*t, row[1]});
-    else
-      ++odd;
-  }
-  warnOfRows(file, odd, warnings);
-  return entries;
 }
 
 struct Row {
@@ -107,8 +93,8 @@ std::vector<TumPair> fromAssociations(const fs::path& folder, const fs::path& fi
 
 std::vector<TumPair> fromTwoLists(const fs::path& folder, double max_difference_s,
                                   std::vector<std::string>& warnings) {
-  const auto color = readEntries(folder / "rgb.txt", warnings),
-             depth = readEntries(folder / "depth.txt", warnings);
+  const auto color = readTumEntries(folder / "rgb.txt", warnings),
+             depth = readTumEntries(folder / "depth.txt", warnings);
   std::vector<TumPair> pairs;
   for (const auto& [i, j] : pairByTime(color, depth, max_difference_s))
     pairs.push_back({color[i].t, folder / color[i].file, folder / depth[j].file});
@@ -120,6 +106,20 @@ std::vector<TumPair> fromTwoLists(const fs::path& folder, double max_difference_
 }
 
 }  // namespace
+
+std::vector<TumEntry> readTumEntries(const fs::path& file, std::vector<std::string>& warnings) {
+  std::vector<TumEntry> entries;
+  int odd = 0;
+  for (const auto& row : readRows(file)) {
+    const auto t = row.size() == 2 ? toNumber(row[0]) : std::nullopt;
+    if (t)
+      entries.push_back({*t, row[1]});
+    else
+      ++odd;
+  }
+  warnOfRows(file, odd, warnings);
+  return entries;
+}
 
 std::vector<std::pair<std::size_t, std::size_t>> pairByTime(const std::vector<TumEntry>& color,
                                                             const std::vector<TumEntry>& depth,

@@ -19,6 +19,10 @@ struct TumPair {
   std::filesystem::path color, depth;
 };
 
+/// A list of images: "timestamp file" on each line that is no comment. Throws InputError when it cannot be
+/// read; `warnings` receives how many lines were not understood.
+std::vector<TumEntry> readTumEntries(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
 /// Pairs every entry of `color` with at most one of `depth`, and conversely: closest pairs first, no further
 /// apart than `max_difference_s`. Returns indices (color, depth) ordered by the time of the colour image.
 std::vector<std::pair<std::size_t, std::size_t>> pairByTime(const std::vector<TumEntry>& color,
