@@ -46,10 +46,11 @@ class CClosuresERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<
     const std::size_t count = this->m_graph->nodeCount();
     const double t = timeOfStep(observations, observation);
     if (count == known_nodes_ || (std::isnan(t) && front_end_.nodes() < count)) return true;
-    known_nodes_ = count;
+    const auto first_new = std::exchange(known_nodes_, count);
     front_end_.noteNodes(count, t);
     showNodes(*this->m_graph, front_end_);
     for (const auto& closure : source_(front_end_)) registerClosure(closure);
+    afterNodes(first_new);
     return true;
   }
 
@@ -63,6 +64,11 @@ class CClosuresERD : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<
     *report += mrpt::format("[%s]: %d loop closures\n", this->getClassName().c_str(), closures_);
     *report += this->getLogAsString();
   }
+
+ protected:
+  /// After new nodes were seen, the first of which is this one.
+  virtual void afterNodes(mrpt::graphs::TNodeID first_new) { (void)first_new; }
+  EngineFrontEnd& frontEnd() const { return front_end_; }
 
  private:
   void registerClosure(const BetweenFactor& closure) {

@@ -7,6 +7,7 @@
 #include "factor_graph_optimizer.h"
 #include "hosted_engine.h"
 #include "key_pose_decider.h"
+#include "object_decider.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/graphslam/decider_names.h"
 
@@ -66,6 +67,7 @@ class PartMaker {
     if (name == "CImageClosuresERD")
       return std::make_unique<CClosuresERD<GRAPH>>(name, "ICP3D", *front_end_,
                                                    [](EngineFrontEnd& f) { return f.takeImageClosures(); });
+    if (name == "CObjectClosuresERD") return std::make_unique<CObjectClosuresERD<GRAPH>>(*front_end_);
     if (name == "CEmptyERD") return std::make_unique<CEmptyERD<GRAPH>>();
     if constexpr (kPlanar<GRAPH>) {
       if (name == "CICPCriteriaERD") return std::make_unique<CICPCriteriaERD<GRAPH>>();

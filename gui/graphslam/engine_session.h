@@ -45,6 +45,7 @@ class EngineSession {
     outcome_.parts = ini.parts;
     if (ini.parts.anyOfOurs())
       front_end_ = std::make_unique<EngineFrontEnd>(request.make_setup(), request.rawlog);
+    if (ini.parts.has("CObjectClosuresERD")) front_end_->mapObjects(request.make_setup());
     if (request.window) window_ = std::make_unique<EngineWindow>("roomgraph graphslam: " + request.rawlog.filename().string());
     try {
       parts_ = PartMaker<GRAPH>(front_end_.get()).make(ini.parts);
@@ -76,6 +77,8 @@ class EngineSession {
   }
 
  private:
+  static constexpr mrpt::graphs::TNodeID kNearNodes = 10;  // edges of local maps are no loop closures
+
   void setConsole() {
     for (mrpt::system::COutputLogger* logger :
          {static_cast<mrpt::system::COutputLogger*>(parts_.node.get()),
@@ -136,7 +139,7 @@ class EngineSession {
     for (const auto& [ends, edge] : graph.edges) {
       const auto apart = ends.first < ends.second ? ends.second - ends.first : ends.first - ends.second;
       ++outcome_.edges;
-      outcome_.closures += apart > 1;
+      outcome_.closures += apart > kNearNodes;
     }
     warn();
     if (outcome_.nodes == 0) {
@@ -167,6 +170,8 @@ class EngineSession {
     if (ini_.save_graph) graph.saveToTextFile(files.pending(ini_.graph_file).string());
     if (ini_.save_map) writeMap(files);
     writeTrajectory(files.pending("trajectory.tum"), path_.poses(graph));
+    if (ini_.parts.has("CObjectClosuresERD"))
+      writeObjects(files.pending("landmarks.json"), objectsIn(graph, front_end_->confirmedLandmarks()));
     if (window_) showAndSave(files);
     {
       const QuietConsole quiet(!request_.verbose);

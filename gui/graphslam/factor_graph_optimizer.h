@@ -24,8 +24,8 @@ class PoseKeeper {
   virtual void finish() = 0;
 };
 
-/// Robust least squares over the engine's graph. Edges between nodes that follow each other are movements, all others
-/// loop closures, with a robust loss of their own (closure_robust_width of [backend]). Solves when a closure
+/// Robust least squares over the engine's graph. Edges within local_map_nodes of [backend] are movements, all others loop
+/// closures, with a robust loss of their own (closure_robust_width). Solves when a closure
 /// disagrees with the estimate, or else now and then; to the end in finish().
 template <class GRAPH>
 class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<GRAPH>, public PoseKeeper {
@@ -73,7 +73,7 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
   void finish() override {
     takeEdges();
     takeNodes();
-    if (closures_ > 0 || edges_.size() + 1 > network_.poses.size())
+    if (edges_.size() + 1 > network_.poses.size())
       solve({.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true});
     restore();
   }
@@ -108,9 +108,13 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
   static BetweenFactor toFactor(const Edge& edge, const BackendOptions& options) {
     const Movement movement = toMovement(edge.second);
     const NodeId a{static_cast<std::int64_t>(edge.first.first)}, b{static_cast<std::int64_t>(edge.first.second)};
-    const bool closure = std::abs(a.value - b.value) > 1;
-    return {a, b, movement.a_from_b, movement.covariance,
-            closure ? options.closure_robust_width : kMovementRobustWidth};
+    BetweenFactor out{a, b, movement.a_from_b, movement.covariance, kMovementRobustWidth};
+    if (isClosure(out, options)) out.robust_width = options.closure_robust_width;
+    return out;
+  }
+
+  static bool isClosure(const BetweenFactor& edge, const BackendOptions& options) {
+    return std::abs(edge.a.value - edge.b.value) > std::max(1, options.local_map_nodes);
   }
 
   // Edges are never removed from a graph while an engine runs, and have fixed places in it.
@@ -119,7 +123,7 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
     for (const Edge& edge : this->m_graph->edges)
       if (edge.first.first != edge.first.second && !edges_.contains(&edge)) fresh_.push_back(toFactor(edge, options_));
     for (const Edge& edge : this->m_graph->edges) edges_.insert(&edge);
-    for (const auto& factor : fresh_) closures_ += std::abs(factor.a.value - factor.b.value) > 1;
+    for (const auto& factor : fresh_) closures_ += isClosure(factor, options_);
   }
 
   // New nodes continue our estimate by the first edge that leads to them.
@@ -135,7 +139,7 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
       ++unsolved_;
     }
     for (const auto& factor : fresh_) {
-      if (std::abs(factor.a.value - factor.b.value) > 1) surprised_ = surprised_ || surprising(factor);
+      if (isClosure(factor, options_)) surprised_ = surprised_ || surprising(factor);
       network_.edges.push_back(factor);
     }
     fresh_.clear();
@@ -153,7 +157,7 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
     const int nodes = static_cast<int>(network_.poses.size());
     const int pause = surprised_ ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
                                  : std::max(options_.optimize_every_nodes, nodes / 10);
-    return closures_ > 0 && unsolved_ >= pause;
+    return edges_.size() + 1 > network_.poses.size() && unsolved_ >= pause;
   }
 
   void solve(const SolveOptions& until) {

@@ -11,7 +11,9 @@
 namespace roomgraph {
 
 /// Registers a node when the robot has moved far enough since the last one, by scan matching, RGB-D odometry and
-/// wheels, whichever there are: an edge by the best of them, and one by each of the others.
+/// wheels, whichever there are. The edge from the last node is that of the wheels, if there are any. Scans and images
+/// are matched to local maps: their edges lead from the node at the beginning of one to each of the next nodes
+/// ([backend] local_map_nodes), as in a run (method.md sec. 4.4, factor 1).
 ///
 /// [NodeRegistrationDeciderParameters]: registration_max_distance (m), registration_max_angle (deg),
 /// registration_max_interval (s); those of [backend] of the configuration when they are not there.
@@ -47,12 +49,12 @@ class CKeyPosesNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<
     const bool first = this->m_prev_registered_nodeID == mrpt::graphs::INVALID_NODEID;
     const double since = first ? *front_end_.firstTime() : front_end_.timeOf(lastNode());
     if (*now <= since) return false;
-    const auto movements = front_end_.movementsSince(since, kPlanar<GRAPH>);
-    toConstraint(movements.front(), this->m_since_prev_node_PDF);
-    const Pose3& moved = movements.front().a_from_b;
+    const Movement movement = front_end_.movementSince(since, kPlanar<GRAPH>);
+    toConstraint(movement, this->m_since_prev_node_PDF);
+    const Pose3& moved = movement.a_from_b;
     if (moved.translation().norm() <= distance_m_ && rotationAngle(moved) <= angle_rad_ && *now - since <= interval_s_)
       return false;
-    registerNode(movements, first);
+    registerNode(since, first);
     front_end_.noteNodes(this->m_graph->nodeCount(), *now);
     return true;
   }
@@ -72,20 +74,33 @@ class CKeyPosesNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<
  private:
   NodeId lastNode() const { return NodeId{static_cast<std::int64_t>(this->m_prev_registered_nodeID)}; }
 
-  void registerNode(const std::vector<Movement>& movements, bool first) {
+  void registerNode(double since, bool first) {
+    toConstraint(front_end_.stepSince(since, kPlanar<GRAPH>), this->m_since_prev_node_PDF);
     this->registerNewNodeAtEnd(constraint_t(this->m_since_prev_node_PDF));
-    const auto to = this->m_prev_registered_nodeID;
-    const auto from = to - 1;
-    // The base class puts the root where the robot is now.
-    if (first) this->m_graph->nodes[this->m_graph->root] = typename GRAPH::constraint_no_pdf_t();
-    for (std::size_t i = 1; i < movements.size(); ++i) {
-      constraint_t further;
-      toConstraint(movements[i], further);
-      this->m_graph->insertEdge(from, to, further);
+    if (first) {
+      // The base class puts the root where the robot is now.
+      this->m_graph->nodes[this->m_graph->root] = typename GRAPH::constraint_no_pdf_t();
+      front_end_.noteNodes(1, *front_end_.firstTime());
     }
+    addLocalMapEdges(this->m_prev_registered_nodeID);
     this->resetPDF(&this->m_since_prev_node_PDF);
   }
 
+  // The last node of a local map is the first one of the next. One that lost its sources begins anew.
+  void addLocalMapEdges(mrpt::graphs::TNodeID to) {
+    const auto length = static_cast<mrpt::graphs::TNodeID>(std::max(1, front_end_.setup().options.backend.local_map_nodes));
+    if (to - local_map_ > length) local_map_ = to - 1;
+    const auto timeOf = [&](auto id) { return front_end_.timeOf(NodeId{static_cast<std::int64_t>(id)}); };
+    auto movements = front_end_.inLocalMapSince(timeOf(local_map_));
+    if (movements.empty()) movements = front_end_.inLocalMapSince(timeOf(local_map_ = to - 1));
+    for (const Movement& movement : movements) {
+      constraint_t edge;
+      toConstraint(movement, edge);
+      this->m_graph->insertEdge(local_map_, to, edge);
+    }
+  }
+
+  mrpt::graphs::TNodeID local_map_ = 0;  ///< where it begins
   EngineFrontEnd& front_end_;
   double distance_m_, angle_rad_, interval_s_;
 };

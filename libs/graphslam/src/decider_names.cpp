@@ -44,6 +44,7 @@ const std::vector<DeciderKind>& deciderKinds() {
       {"CEmptyERD", kEdge, false, true, "MRPT: none"},
       {"CScanClosuresERD", kEdge, true, true, "loops closed by scans against submaps"},
       {"CImageClosuresERD", kEdge, true, true, "loops closed by images"},
+      {"CObjectClosuresERD", kEdge, true, true, "loops closed by objects; objects as annotations of the nodes"},
       {"CLevMarqGSO", kOptimizer, false, true, "MRPT: Levenberg-Marquardt"},
       {"CEmptyGSO", kOptimizer, false, true, "MRPT: none"},
       {"CFactorGraphGSO", kOptimizer, true, true, "factor graph with robust losses on loop closures"},

@@ -12,12 +12,28 @@ namespace roomgraph {
 std::vector<std::string> engineFileNames(const EngineIni& ini) {
   return {"CGraphSlamEngine.log", "timings.log",    "node_registrar.log",          "edge_registrar.log",
           "optimizer.log",        "SLAM_evaluation_metric.log", ini.graph_file, ini.scene_file,
-          ini.map_file + ".png",  ini.map_file + "_limits.txt", "trajectory.tum", "summary.json"};
+          ini.map_file + ".png",  ini.map_file + "_limits.txt", "landmarks.json", "trajectory.tum", "summary.json"};
 }
 
 void writeTrajectory(const std::filesystem::path& file, const std::vector<StampedPose>& world_from_robot) {
   OutputFile out(file);
   writeTum(out, world_from_robot);
+  out.finish();
+}
+
+void writeObjects(const std::filesystem::path& file, const std::map<LandmarkId, PlacedObject>& objects) {
+  nlohmann::ordered_json json{{"landmarks", nlohmann::ordered_json::array()}};
+  for (const auto& [id, object] : objects)
+    json["landmarks"].push_back({{"id", id.value},
+                                 {"class", object.class_name},
+                                 {"x", object.position.x()},
+                                 {"y", object.position.y()},
+                                 {"z", object.position.z()},
+                                 {"yaw", object.yaw},
+                                 {"size_wdh", {object.size_m.x(), object.size_m.y(), object.size_m.z()}},
+                                 {"nodes", object.nodes}});
+  OutputFile out(file);
+  out << json.dump(1) << "\n";
   out.finish();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "object_front_end.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/pipeline/read_options.h"
 
@@ -28,13 +29,17 @@ EngineFrontEnd::EngineFrontEnd(std::unique_ptr<Setup> setup, const std::filesyst
       converter_(readOptionsOf(setup_->options), recording),
       front_ends_(setup_->stages, setup_->options),
       poses_(front_ends_.motion()) {}
+EngineFrontEnd::~EngineFrontEnd() = default;
 
 void EngineFrontEnd::take(const std::vector<mrpt::serialization::CSerializable::Ptr>& step) {
   if (step == latest_step_) return;
   latest_step_ = step;
   for (const auto& object : step)
     if (object) converter_.take(object);
-  while (const auto record = converter_.next()) process(*record);
+  while (const auto record = converter_.next()) {
+    process(*record);
+    if (objects_) objects_->process(*record);
+  }
 }
 
 // A frame or a scan begins the poses anew when there were only odometry readings before it and no node.
@@ -87,14 +92,24 @@ void EngineFrontEnd::process(const Record& record) {
   }
 }
 
-std::vector<Movement> EngineFrontEnd::movementsSince(double t, bool planar) const {
+Movement EngineFrontEnd::movementSince(double t, bool planar) const {
   const Motion& motion = front_ends_.motion();
   std::vector<const MotionSource*> sources = {&motion.lidar, &motion.visual, &motion.odometry};
   if (!planar) std::swap(sources[0], sources[1]);
-  std::vector<Movement> out;
   for (const auto* source : sources)
-    if (auto moved = source->between(t, now_.value_or(t), kSilence_s)) out.push_back(std::move(*moved));
-  if (out.empty()) out.push_back(unknownMovement(now_.value_or(t) - t));
+    if (auto moved = source->between(t, now_.value_or(t), kSilence_s)) return *moved;
+  return unknownMovement(now_.value_or(t) - t);
+}
+
+Movement EngineFrontEnd::stepSince(double t, bool planar) const {
+  const auto moved = front_ends_.motion().odometry.between(t, now_.value_or(t), kSilence_s);
+  return moved ? *moved : movementSince(t, planar);
+}
+
+std::vector<Movement> EngineFrontEnd::inLocalMapSince(double t) const {
+  std::vector<Movement> out;
+  for (const auto* source : {&front_ends_.motion().lidar, &front_ends_.motion().visual})
+    if (auto moved = source->inLocalMap(t, now_.value_or(t), kSilence_s)) out.push_back(std::move(*moved));
   return out;
 }
 
@@ -123,6 +138,29 @@ std::vector<BetweenFactor> EngineFrontEnd::takeScanClosures() {
 
 std::vector<BetweenFactor> EngineFrontEnd::takeImageClosures() {
   return betweenNodes(front_ends_.takeImageClosures());
+}
+
+void EngineFrontEnd::mapObjects(std::unique_ptr<Setup> setup) {
+  objects_ = std::make_unique<ObjectFrontEnd>(std::move(setup));
+}
+
+std::vector<BetweenFactor> EngineFrontEnd::takeObjectClosures() {
+  return objects_ ? betweenNodes(objects_->takeClosures()) : std::vector<BetweenFactor>();
+}
+
+std::vector<std::pair<NodeId, SeenObject>> EngineFrontEnd::takeSeenObjects() {
+  std::vector<std::pair<NodeId, SeenObject>> out;
+  if (!objects_) return out;
+  for (auto& [t, object] : objects_->takeSeen()) {
+    const KeyPose& node = poses_.nearest(t);
+    object.node_from_object = poses_.offset(node, t) * object.node_from_object;
+    out.emplace_back(node.id, std::move(object));
+  }
+  return out;
+}
+
+std::set<LandmarkId> EngineFrontEnd::confirmedLandmarks() const {
+  return objects_ ? objects_->confirmed() : std::set<LandmarkId>();
 }
 
 }  // namespace roomgraph

@@ -7,15 +7,20 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "roomgraph/backend/factors.h"
 #include "roomgraph/datasets/record_converter.h"
 #include "roomgraph/estimation/key_poses.h"
+#include "roomgraph/graphslam/seen_object.h"
 #include "roomgraph/pipeline/front_ends.h"
 #include "roomgraph/pipeline/setup.h"
 
 namespace roomgraph {
+
+class ObjectFrontEnd;
 
 /// How often records were used, and how often not.
 struct FrontEndCounts {
@@ -29,6 +34,7 @@ class EngineFrontEnd {
  public:
   /// `recording`: beside which external images are.
   EngineFrontEnd(std::unique_ptr<Setup> setup, const std::filesystem::path& recording);
+  ~EngineFrontEnd();
 
   /// What one step of the engine is about: an action and a sensory frame, or an observation; null ones are left
   /// out. Handed over again, it changes nothing.
@@ -41,9 +47,13 @@ class EngineFrontEnd {
   /// odometry. Nothing before it.
   std::optional<double> firstTime() const { return first_t_; }
   std::optional<double> now() const { return now_; }
-  /// Movements from time t until now, one of each source that covers them, the best first: for a planar graph
-  /// scans, images, wheels; else images, scans, wheels. One that is bounded by the speed of a robot when none does.
-  std::vector<Movement> movementsSince(double t, bool planar) const;
+  /// Movement from time t until now by the best source that covers it: for a planar graph scans, images, wheels; else
+  /// images, scans, wheels; one that is bounded by the speed of a robot when none does.
+  Movement movementSince(double t, bool planar) const;
+  /// The same by wheels, whose errors add up from node to node; by the best source when they do not cover it.
+  Movement stepSince(double t, bool planar) const;
+  /// Movements from the beginning of a local map at time t until now, as scans and images were matched in it.
+  std::vector<Movement> inLocalMapSince(double t) const;
 
   /// The engine's graph has so many nodes; those that are new are of time t, the first one of firstTime().
   void noteNodes(std::size_t count, double t);
@@ -59,6 +69,15 @@ class EngineFrontEnd {
   std::vector<BetweenFactor> takeScanClosures();
   std::vector<BetweenFactor> takeImageClosures();
 
+  /// From now on objects are mapped, too. Their setup is one of its own, as its stages keep what they see.
+  void mapObjects(std::unique_ptr<Setup> setup);
+  /// Nothing, or the same as of scans and images, by objects. Without mapObjects(): none.
+  std::vector<BetweenFactor> takeObjectClosures();
+  /// Objects seen since the last call, each from the node nearest in time. There must be a node.
+  std::vector<std::pair<NodeId, SeenObject>> takeSeenObjects();
+  /// Landmarks that are sure enough for a map.
+  std::set<LandmarkId> confirmedLandmarks() const;
+
  private:
   void process(const Record& record);
   void process(const Scan& scan);
@@ -70,6 +89,7 @@ class EngineFrontEnd {
   RecordConverter converter_;
   FrontEnds front_ends_;
   KeyPoses poses_;
+  std::unique_ptr<ObjectFrontEnd> objects_;  ///< null: none are mapped
   FrontEndCounts counts_;
   std::vector<mrpt::serialization::CSerializable::Ptr> latest_step_;
   std::optional<double> first_t_, now_, last_scan_t_, last_frame_t_;

@@ -19,7 +19,7 @@ struct EngineRequest {
   std::filesystem::path truth;  ///< lines "t x y phi" as MRPT's simulator writes; empty: none
   std::filesystem::path output;
   AskedParts asked;
-  /// Called once if a part of the engine is ours.
+  /// Called if a part of the engine is ours; once more for objects.
   std::function<std::unique_ptr<Setup>()> make_setup;
   std::function<void(double share)> progress = [](double) {};
   std::function<bool()> interrupted = [] { return false; };
@@ -32,14 +32,14 @@ struct EngineRequest {
 /// What came of it.
 struct EngineOutcome {
   EngineParts parts;
-  int nodes = 0, edges = 0, closures = 0;  ///< closures: edges between nodes that do not follow each other
+  int nodes = 0, edges = 0, closures = 0;  ///< closures: edges between nodes more than ten apart
   int records = 0;                         ///< steps of the engine
   double share = 0;                        ///< of the recording, [0, 1]
   bool interrupted = false;
   std::vector<std::string> warnings;  ///< one line each
 };
 
-/// Writes the engine's report files, its graph and map, and trajectory.tum into the output folder. Throws
+/// Writes the engine's report files, its graph and map, trajectory.tum and, with CObjectClosuresERD, landmarks.json into the output folder. Throws
 /// ConfigError (ini), InputError (recording, truth), RunError (no node was registered, output, no display).
 using RunEngine = EngineOutcome(const EngineRequest& request);
 /// The module with the engine, which brings a GUI library with it, and the name under which it has that function.
