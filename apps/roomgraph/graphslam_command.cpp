@@ -12,6 +12,7 @@
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/progress.h"
+#include "roomgraph/core/progress_file.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/graphslam/engine_run.h"
 #include "roomgraph/pipeline/read_options.h"
@@ -22,7 +23,7 @@ namespace {
 
 struct GraphSlamArguments {
   EngineRequest request;
-  std::string config;
+  std::string config, progress;
   std::vector<std::string> overrides, poses;
   ModelSource networks;
   int threads = 0;
@@ -66,13 +67,16 @@ void run(GraphSlamArguments& arguments) {
   if (request.rawlog.empty()) throw CLI::RequiredError("RAWLOG");
   if (request.ini.empty()) throw CLI::RequiredError("--ini");
   if (request.output.empty()) throw CLI::RequiredError("--output");
-  if (!request.window && !request.picture.empty()) throw ConfigError("--save is a picture of the window: add --window");
   const ThreadLimit limit(arguments.threads);
   Configuration configuration = readConfiguration(arguments.config, arguments.overrides);
   for (const auto& pose : arguments.poses) placeSensor(configuration.config, pose);
   request.make_setup = [&] { return makeRunSetup(configuration, request.rawlog, arguments.networks).setup; };
   Progress line(arguments.quiet ? nullptr : &std::cerr, "engine", "", 1);
-  request.progress = [&](double share) { line.update(share); };
+  ProgressFile file(arguments.progress);
+  request.progress = [&](double share) {
+    line.update(share);
+    file.update(share);
+  };
   request.interrupted = interrupted;
   catchInterrupts();
   const EngineOutcome outcome = loadEngine()(request);
@@ -89,7 +93,6 @@ void addWindowOptions(CLI::App& command, EngineRequest& request) {
   command.add_option("--exit-after", request.exit_after_s, "close it so many seconds after the last record")
       ->check(atLeastZero())
       ->needs(window);
-  command.add_option("--save", request.picture, "PNG of the window at the end");
 }
 
 void addOptions(CLI::App& command, GraphSlamArguments& arguments) {
@@ -113,6 +116,8 @@ void addOptions(CLI::App& command, GraphSlamArguments& arguments) {
   command.add_option("--threads", arguments.threads, "upper limit of threads; 0: all cores")->check(atLeastZero());
   addWindowOptions(command, request);
   command.add_flag("--verbose", request.verbose, "print what the engine and its parts log");
+  command.add_option("--progress-file", arguments.progress,
+                     "file that holds the share that is done, for programs that watch");
   command.add_flag("--quiet", arguments.quiet, "no progress");
 }
 

@@ -18,10 +18,12 @@ namespace roomgraph {
 /// What the engine and its deciders print goes nowhere meanwhile; their report files have it.
 class QuietConsole {
  public:
-  explicit QuietConsole(bool quiet) : quiet_(quiet), out_(std::cout.rdbuf()), err_(std::cerr.rdbuf()) {
+  enum class Streams { kBoth, kOut };
+  explicit QuietConsole(bool quiet, Streams streams = Streams::kBoth)
+      : quiet_(quiet), out_(std::cout.rdbuf()), err_(std::cerr.rdbuf()) {
     if (!quiet_) return;
     std::cout.rdbuf(&nothing_);
-    std::cerr.rdbuf(&nothing_);
+    if (streams == Streams::kBoth) std::cerr.rdbuf(&nothing_);
   }
   ~QuietConsole() {
     std::cout.rdbuf(out_);
@@ -41,7 +43,10 @@ class EngineSession {
  public:
   /// Throws like RunEngine.
   EngineSession(const EngineRequest& request, const EngineIni& ini)
-      : request_(request), ini_(ini), recording_(request.rawlog) {
+      : request_(request),
+        ini_(ini),
+        recording_(request.rawlog),
+        files_(request.output, engineFileNames(ini), inputsOf(request)) {
     outcome_.parts = ini.parts;
     if (ini.parts.anyOfOurs())
       front_end_ = std::make_unique<EngineFrontEnd>(request.make_setup(), request.rawlog);
@@ -62,6 +67,7 @@ class EngineSession {
   }
 
   EngineOutcome run() {
+    const QuietConsole quiet(!request_.verbose, QuietConsole::Streams::kOut);  // the window prints its events
     bool goes_on = true;
     while (goes_on && !(outcome_.interrupted = request_.interrupted())) {
       const auto object = recording_.next();
@@ -71,13 +77,19 @@ class EngineSession {
     }
     if (!goes_on) outcome_.interrupted = true;  // Ctrl-C in the window
     if (!outcome_.interrupted) outcome_.share = 1;
-    engine_->finish();
+    engine_->finish(front_end_.get());
     conclude();
     return outcome_;
   }
 
  private:
   static constexpr mrpt::graphs::TNodeID kNearNodes = 10;  // edges of local maps are no loop closures
+
+  static std::vector<std::filesystem::path> inputsOf(const EngineRequest& request) {
+    std::vector<std::filesystem::path> inputs{request.rawlog, request.ini};
+    if (!request.truth.empty()) inputs.push_back(request.truth);
+    return inputs;
+  }
 
   void setConsole() {
     for (mrpt::system::COutputLogger* logger :
@@ -163,7 +175,7 @@ class EngineSession {
   }
 
   void write() {
-    OutputFolder files(request_.output, engineFileNames(ini_), {request_.rawlog, request_.ini, request_.truth});
+    OutputFolder& files = files_;
     const auto folder = files.pending("summary.json").parent_path();
     const GRAPH& graph = engine_->getGraph();
     engine_->generateReportFiles(folder.string());
@@ -191,7 +203,6 @@ class EngineSession {
 
   void showAndSave(OutputFolder& files) {
     if (!outcome_.interrupted) window_->wait(request_.exit_after_s, request_.interrupted);
-    if (!request_.picture.empty()) window_->save(request_.picture);
     const std::string scene = files.pending(ini_.scene_file).string();
     if (ini_.save_scene) engine_->save3DScene(&scene);
   }
@@ -199,6 +210,7 @@ class EngineSession {
   const EngineRequest& request_;
   const EngineIni& ini_;
   RawlogObjects recording_;
+  OutputFolder files_;  ///< made first: that it cannot be written is no news for the end
   std::unique_ptr<EngineFrontEnd> front_end_;
   std::unique_ptr<EngineWindow> window_;
   OwnedParts<GRAPH> parts_;

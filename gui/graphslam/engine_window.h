@@ -42,19 +42,6 @@ class EngineWindow {
     }
   }
 
-  /// Writes what is shown as PNG. Throws RunError.
-  void save(const std::filesystem::path& file) {
-    window_->captureImagesStart();
-    mrpt::img::CImage::Ptr image;
-    for (int attempt = 0; attempt < 100 && !image; ++attempt) {  // drawn by another thread
-      window_->forceRepaint();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      image = window_->getLastWindowImagePtr();
-    }
-    window_->captureImagesStop();
-    if (!image || !image->saveToFile(file.string())) throw RunError("cannot write " + file.string());
-  }
-
  private:
   mrpt::graphslam::CWindowObserver observer_;
   std::unique_ptr<mrpt::gui::CDisplayWindow3D> window_;

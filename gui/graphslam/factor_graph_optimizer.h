@@ -2,6 +2,7 @@
 // Optimizer: our back end on the engine's graph.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <set>
 
@@ -92,6 +93,11 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
     this->m_win_manager->assignTextMessageParameters(&text_offset_, &text_index_);
   }
   void updateVisuals() override;
+  void notifyOfWindowEvents(const std::map<std::string, bool>& events) override {
+    mrpt::graphslam::CRegistrationDeciderOrOptimizer<GRAPH>::notifyOfWindowEvents(events);
+    const auto clicked = events.find("mouse_clicked");
+    if (clicked != events.end() && clicked->second) follow_ = false;
+  }
 
  protected:
   void optimizeGraph() override {
@@ -177,8 +183,17 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
   int unsolved_ = 0, closures_ = 0, solutions_ = 0, failures_ = 0;
   double cost_ = 0, text_offset_ = 0;
   int text_index_ = 0;
-  bool surprised_ = false, just_solved_ = false;
+  bool surprised_ = false, just_solved_ = false, follow_ = true;
 };
+
+/// Turns the camera to all nodes.
+template <class GRAPH>
+void showAll(const GRAPH& graph, mrpt::gui::CDisplayWindow3D& window) {
+  Eigen::AlignedBox2d box;
+  for (const auto& [id, node] : graph.nodes) box.extend(Eigen::Vector2d(node.x(), node.y()));
+  window.setCameraPointingToPoint(static_cast<float>(box.center().x()), static_cast<float>(box.center().y()), 0);
+  window.setCameraZoom(static_cast<float>(6 + 2 * box.sizes().maxCoeff()));
+}
 
 /// Draws the graph as MRPT's optimizers do, under the same name.
 template <class GRAPH>
@@ -196,6 +211,7 @@ void CFactorGraphGSO<GRAPH>::updateVisuals() {
   this->m_win_manager->addTextMessage(
       5, -text_offset_, mrpt::format("Factor graph: %zu nodes, %d closures", network_.poses.size(), closures_),
       mrpt::img::TColorf(0, 0, 0), static_cast<std::size_t>(text_index_));
+  if (follow_) showAll(*this->m_graph, *this->m_win);  // until somebody moves it
   this->m_win->forceRepaint();
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine_step.h"
 #include "factor_graph_optimizer.h"
+#include "object_decider.h"
 
 namespace roomgraph {
 
@@ -45,19 +46,23 @@ class HostedEngine : public mrpt::graphslam::CGraphSlamEngine<GRAPH> {
     return goes_on;
   }
 
-  /// All optimizers of ours solve to the end.
-  void finish() {
-    if (!keeper_) return;
+  /// No more steps will come: our optimizer solves to the end, and what our front end (null: there is none) saw last
+  /// becomes annotations.
+  void finish(EngineFrontEnd* front_end) {
     {
       const std::lock_guard lock(this->m_graph_section);
-      keeper_->finish();
+      if (front_end) front_end->end();
+      if (front_end && front_end->nodes() > 0) annotateNodes(this->m_graph, *front_end);
+      if (keeper_) keeper_->finish();
     }
+    if (!keeper_) return;
     this->m_map_is_cached = false;
     if (!this->m_enable_visuals || this->m_graph.nodes.empty()) return;
     if (this->m_visualize_map) {
       const std::lock_guard lock(this->m_graph_section);
       this->updateMapVisualization(this->m_nodes_to_laser_scans2D, true);
     }
+    this->updateAllVisuals();
     this->updateEstimatedTrajectoryVisualization(true);
   }
 

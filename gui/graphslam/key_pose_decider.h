@@ -59,6 +59,11 @@ class CKeyPosesNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecider<
     return true;
   }
 
+  // A node begins as a copy of the one before, annotations and all.
+  void addNodeAnnotsToPose(typename GRAPH::global_pose_t* pose) const override {
+    static_cast<typename GRAPH::node_annotations_t&>(*pose) = {};
+  }
+
   void getDescriptiveReport(std::string* report) const override {
     mrpt::graphslam::deciders::CNodeRegistrationDecider<GRAPH>::getDescriptiveReport(report);
     const FrontEndCounts& counts = front_end_.counts();

@@ -22,6 +22,20 @@ std::map<LandmarkId, PlacedObject> objectsIn(const GRAPH& graph, const std::set<
   return out;
 }
 
+/// Takes over what was seen since the last call.
+template <class GRAPH>
+void annotateNodes(GRAPH& graph, EngineFrontEnd& front_end) {
+  for (auto& [id, seen] : front_end.takeSeenObjects()) {
+    auto& objects = graph.nodes.at(static_cast<mrpt::graphs::TNodeID>(id.value)).objects;
+    const auto before = std::find_if(objects.begin(), objects.end(),
+                                     [&](const auto& other) { return other.landmark == seen.landmark; });
+    if (before != objects.end())
+      *before = seen;
+    else
+      objects.push_back(seen);
+  }
+}
+
 /// Registers the loops that objects close, and annotates each node with the landmarks seen nearest to it.
 template <class GRAPH>
 class CObjectClosuresERD : public CClosuresERD<GRAPH> {
@@ -48,15 +62,7 @@ class CObjectClosuresERD : public CClosuresERD<GRAPH> {
     auto& nodes = this->m_graph->nodes;
     // A node decider begins a node as a copy of the one before.
     for (auto node = nodes.lower_bound(first_new); node != nodes.end(); ++node) node->second.objects.clear();
-    for (auto& [id, seen] : this->frontEnd().takeSeenObjects()) {
-      auto& objects = nodes.at(static_cast<mrpt::graphs::TNodeID>(id.value)).objects;
-      const auto before = std::find_if(objects.begin(), objects.end(),
-                                       [&](const auto& other) { return other.landmark == seen.landmark; });
-      if (before != objects.end())
-        *before = seen;
-      else
-        objects.push_back(seen);
-    }
+    annotateNodes(*this->m_graph, this->frontEnd());
   }
 
  private:

@@ -36,6 +36,16 @@ void EngineFrontEnd::take(const std::vector<mrpt::serialization::CSerializable::
   latest_step_ = step;
   for (const auto& object : step)
     if (object) converter_.take(object);
+  drain();
+}
+
+void EngineFrontEnd::end() {
+  converter_.end();
+  drain();
+  if (objects_) objects_->end();
+}
+
+void EngineFrontEnd::drain() {
   while (const auto record = converter_.next()) {
     process(*record);
     if (objects_) objects_->process(*record);

@@ -51,10 +51,21 @@ class ObjectFrontEnd::Sightings : public Sink {
 };
 
 ObjectFrontEnd::ObjectFrontEnd(std::unique_ptr<Setup> setup)
-    : slam_(closingByObjects(std::move(setup))), sightings_(std::make_shared<Sightings>()) {
+    : slam_(closingByObjects(std::move(setup))),
+      sorter_(slam_.setup().options.general.lookahead_s),
+      sightings_(std::make_shared<Sightings>()) {
   slam_.addSink(sightings_);
 }
 ObjectFrontEnd::~ObjectFrontEnd() = default;
+
+void ObjectFrontEnd::process(const Record& record) {
+  sorter_.push(record);
+  while (const auto next = sorter_.pop(false)) slam_.process(*next);
+}
+
+void ObjectFrontEnd::end() {
+  while (const auto next = sorter_.pop(true)) slam_.process(*next);
+}
 
 std::vector<RelativePose> ObjectFrontEnd::takeClosures() {
   const auto& all = slam_.loopClosures();

@@ -9,6 +9,7 @@
 
 #include "roomgraph/graphslam/seen_object.h"
 #include "roomgraph/observations/trajectory.h"
+#include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph {
@@ -20,7 +21,10 @@ class ObjectFrontEnd {
   explicit ObjectFrontEnd(std::unique_ptr<Setup> setup);
   ~ObjectFrontEnd();
 
-  void process(const Record& record) { slam_.process(record); }
+  /// Records are put in order of time within [pipeline] lookahead_s first: boxes may be recorded after their image.
+  void process(const Record& record);
+  /// No more records will come.
+  void end();
   /// Loops closed since the last call.
   std::vector<RelativePose> takeClosures();
   /// Objects seen since the last call, each with the time; node_from_object is robot_from_object at that time.
@@ -31,6 +35,7 @@ class ObjectFrontEnd {
   class Sightings;
 
   SemanticSlam slam_;
+  RecordSorter sorter_;
   std::shared_ptr<Sightings> sightings_;
   std::size_t taken_ = 0;  ///< closures
 };

@@ -40,6 +40,9 @@ class EngineFrontEnd {
   /// out. Handed over again, it changes nothing.
   void take(const std::vector<mrpt::serialization::CSerializable::Ptr>& step);
 
+  /// No more steps will come: objects, which are mapped with some delay, are seen to the end.
+  void end();
+
   const Setup& setup() const { return *setup_; }
   const FrontEndCounts& counts() const { return counts_; }
   const ReadStatistics& statistics() const { return converter_.statistics(); }
@@ -79,6 +82,7 @@ class EngineFrontEnd {
   std::set<LandmarkId> confirmedLandmarks() const;
 
  private:
+  void drain();
   void process(const Record& record);
   void process(const Scan& scan);
   void process(const Frame& frame);

@@ -26,7 +26,6 @@ struct EngineRequest {
   bool verbose = false;  ///< what the engine and its deciders log goes to the console, too
   bool window = false;
   double exit_after_s = -1;       ///< the window closes so long after the last record; negative: when it is closed
-  std::filesystem::path picture;  ///< PNG of the window at the end; empty: none
 };
 
 /// What came of it.
