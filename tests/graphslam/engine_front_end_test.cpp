@@ -104,7 +104,7 @@ TEST(EngineFrontEnd, SeesObjectsWhereTheyAre) {
   const auto confirmed = front_end.confirmedLandmarks();
   int chairs = 0;
   for (const auto& [id, object] : placeObjects(nodes)) {
-    if (object.class_name != "chair" || !confirmed.contains(id)) continue;
+    if (object.class_name != "swivel_chair" || !confirmed.contains(id)) continue;
     const Eigen::Vector2d in_room = object.position.head<2>() + Eigen::Vector2d(0.8, 1.2);
     const double off = std::min((in_room - Eigen::Vector2d(3.3, 2.75)).norm(), (in_room - Eigen::Vector2d(3.85, 1.95)).norm());
     EXPECT_LT(off, 0.25) << in_room.transpose();

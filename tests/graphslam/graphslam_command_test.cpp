@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "../datasets/rawlog_maker.h"
 #include "../regression/program.h"
 #include "../regression/tiny_recording.h"
 #include "roomgraph/evaluation/trajectory_error.h"
@@ -89,14 +88,14 @@ TEST(GraphSlamCommand, AnnotatesNodesWithObjects) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto lines = linesOf(contentOf(out / "output_graph.graph"));
   const auto annotated = std::count_if(lines.begin(), lines.end(), [](const auto& line) {
-    return line.starts_with("VERTEX_SE2") && line.find(" | ") != std::string::npos && line.find("chair ") != std::string::npos;
+    return line.starts_with("VERTEX_SE2") && line.find(" | ") != std::string::npos && line.find("swivel_chair ") != std::string::npos;
   });
   EXPECT_GE(annotated, 5);
   const auto objects = nlohmann::json::parse(contentOf(out / "landmarks.json"))["landmarks"];
   // The robot begins at (0.8, 1.2) of the room, facing along x.
   int chairs = 0;
   for (const auto& object : objects) {
-    if (object["class"] != "chair") continue;
+    if (object["class"] != "swivel_chair") continue;
     const double x = object["x"].get<double>() + 0.8, y = object["y"].get<double>() + 1.2;
     EXPECT_LT(std::min(std::hypot(x - 3.3, y - 2.75), std::hypot(x - 3.85, y - 1.95)), 0.25);
     ++chairs;

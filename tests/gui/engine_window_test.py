@@ -23,7 +23,7 @@ PATIENCE_S = 90
 def is_orange(color):
     """A chair in its colour (#e7a25f), lit from wherever."""
     red, green, blue = color
-    return red > 90 and 0.55 < green / red < 0.85 and 0.25 < blue / red < 0.6
+    return red > 90 and 0.55 < green / red < 0.85 and 0.1 < blue / red < 0.6
 
 
 def is_scan(color):
