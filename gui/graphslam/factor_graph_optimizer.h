@@ -82,9 +82,10 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
   void getDescriptiveReport(std::string* report) const override {
     *report += mrpt::format(
         "Factor graph with robust losses [CFactorGraphGSO]\n"
-        "%zu nodes, %zu edges, %d of them loop closures; solved %d times, %d without a usable solution\n"
+        "%zu nodes, %zu edges, %d of them loop closures, %d left out as they hold no numbers; solved %d times, %d without "
+        "a usable solution\n"
         "cost of the last solution: %g\n",
-        network_.poses.size(), edges_.size(), closures_, solutions_, failures_, cost_);
+        network_.poses.size(), edges_.size(), closures_, unusable_, solutions_, failures_, cost_);
     *report += this->getLogAsString();
   }
 
@@ -123,11 +124,19 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
     return std::abs(edge.a.value - edge.b.value) > std::max(1, options.local_map_nodes);
   }
 
+  // MRPT's ICP of images gives edges without numbers.
+  void takeEdge(const Edge& edge) {
+    if (edge.second.cov_inv.asEigen().allFinite() && poseOf(edge.second.mean).matrix().allFinite())
+      fresh_.push_back(toFactor(edge, options_));
+    else
+      ++unusable_;
+  }
+
   // Edges are never removed from a graph while an engine runs, and have fixed places in it.
   void takeEdges() {
     if (this->m_graph->edges.size() == edges_.size()) return;
     for (const Edge& edge : this->m_graph->edges)
-      if (edge.first.first != edge.first.second && !edges_.contains(&edge)) fresh_.push_back(toFactor(edge, options_));
+      if (edge.first.first != edge.first.second && !edges_.contains(&edge)) takeEdge(edge);
     for (const Edge& edge : this->m_graph->edges) edges_.insert(&edge);
     for (const auto& factor : fresh_) closures_ += isClosure(factor, options_);
   }
@@ -180,7 +189,7 @@ class CFactorGraphGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<
   std::set<const Edge*> edges_;  ///< those in the network
   std::vector<BetweenFactor> fresh_;
   mrpt::containers::yaml drawing_ = mrpt::containers::yaml::Map();
-  int unsolved_ = 0, closures_ = 0, solutions_ = 0, failures_ = 0;
+  int unsolved_ = 0, closures_ = 0, unusable_ = 0, solutions_ = 0, failures_ = 0;
   double cost_ = 0, text_offset_ = 0;
   int text_index_ = 0;
   bool surprised_ = false, just_solved_ = false, follow_ = true;

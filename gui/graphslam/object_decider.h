@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mrpt/opengl/CBox.h>
-#include <mrpt/opengl/CText3D.h>
+#include <mrpt/opengl/CText.h>
 
 #include <algorithm>
 
@@ -85,7 +85,7 @@ class CObjectClosuresERD : public CClosuresERD<GRAPH> {
     box->setColor_u8(colorOf(object.class_name));
     box->setPose(pose);
     into.insert(box);
-    auto name = mrpt::opengl::CText3D::Create(object.class_name + " " + std::to_string(id.value), "sans", 0.2);
+    auto name = mrpt::opengl::CText::Create(object.class_name + " " + std::to_string(id.value));
     name->setPose(mrpt::poses::CPose3D(p.x(), p.y(), p.z() + height + 0.1, 0, 0, 0));
     name->setColor_u8(mrpt::img::TColor(0, 0, 0));
     into.insert(name);
