@@ -92,7 +92,7 @@ TEST(EngineFrontEnd, NodesAreInOrderOfTime) {
 
 // Two chairs, a sofa and a plant stand in the room; the robot begins at (0.8, 1.2), facing along x.
 TEST(EngineFrontEnd, SeesObjectsWhereTheyAre) {
-  EngineFrontEnd front_end(setupWith(kNoImages), kTinyRoom);
+  EngineFrontEnd front_end(setupWith(kQuick), kTinyRoom);
   front_end.mapObjects(setupWith(kQuick));
   const Fed fed(front_end);
   std::map<NodeId, std::vector<SeenObject>> seen;

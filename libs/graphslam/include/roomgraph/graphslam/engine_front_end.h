@@ -72,7 +72,8 @@ class EngineFrontEnd {
   std::vector<BetweenFactor> takeScanClosures();
   std::vector<BetweenFactor> takeImageClosures();
 
-  /// From now on objects are mapped, too. Their setup is one of its own, as its stages keep what they see.
+  /// From now on objects are mapped, too, from the records that the first setup reads. Their setup is one of its own,
+  /// as its stages keep what they see.
   void mapObjects(std::unique_ptr<Setup> setup);
   /// Nothing, or the same as of scans and images, by objects. Without mapObjects(): none.
   std::vector<BetweenFactor> takeObjectClosures();
