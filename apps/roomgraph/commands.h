@@ -16,6 +16,7 @@ void addCalibrateCommand(CLI::App& app);
 
 void addOptimizeCommand(CLI::App& app);
 void addRunCommand(CLI::App& app);
+void addGraphSlamCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addEvaluateCommand(CLI::App& app);
 void addSnapshotCommand(CLI::App& app);

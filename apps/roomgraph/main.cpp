@@ -79,6 +79,7 @@ void addCommands(CLI::App& app) {
   addMapCommand(app);
   addModelsCommand(app);
   addViewCommand(app);
+  addGraphSlamCommand(app);
   addCompletionCommand(app);
   addManualCommand(app);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // RecordSorter: order at equal times, look-ahead and delays.
-#include "record_sorter.h"
+#include "roomgraph/pipeline/record_sorter.h"
 
 #include <gtest/gtest.h>
 

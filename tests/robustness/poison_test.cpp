@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "memory_limit.h"
-#include "record_sorter.h"
+#include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 #include "temporary_folder.h"
 #include "three_frames.h"

@@ -36,22 +36,6 @@ void addLooseAnchor(FactorGraph& graph, const KeyPose& first) {
                           Matrix6d(sigma.cwiseAbs2().asDiagonal()), 0});
 }
 
-std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const KeyPoses& poses, double width) {
-  const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
-  if (a.id == b.id) return std::nullopt;
-  BetweenFactor factor{
-      a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
-      closure.covariance, width};
-  if (closure.planar) {
-    for (int i : {2, 3, 4}) {
-      factor.covariance.row(i).setZero();
-      factor.covariance.col(i).setZero();
-      factor.covariance(i, i) = 0.25;
-    }
-  }
-  return factor;
-}
-
 constexpr double kOnFloorSigma_m = 0.02;
 constexpr double kSameYaw_rad = 0.5;
 
@@ -124,6 +108,22 @@ bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})
     if (source->between(a.t, b.t, kSourceGap_s)) return true;
   return false;
+}
+
+std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const KeyPoses& poses, double width) {
+  const KeyPose &a = poses.nearest(closure.t_a), &b = poses.nearest(closure.t_b);
+  if (a.id == b.id) return std::nullopt;
+  BetweenFactor factor{
+      a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
+      closure.covariance, width};
+  if (closure.planar) {
+    for (int i : {2, 3, 4}) {
+      factor.covariance.row(i).setZero();
+      factor.covariance.col(i).setZero();
+      factor.covariance(i, i) = 0.25;
+    }
+  }
+  return factor;
 }
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Insertion by time and kind of record, release after the look-ahead.
-#include "record_sorter.h"
+#include "roomgraph/pipeline/record_sorter.h"
 
 #include <algorithm>
 #include <tuple>

@@ -8,7 +8,7 @@
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
-#include "record_sorter.h"
+#include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/core/read_ahead.h"
 
 namespace roomgraph {

@@ -30,6 +30,10 @@ struct Measurements {
 /// Whether any source of motion covers the time from one key pose to the other.
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b);
 
+/// A closure between two times as a factor between the key poses nearest to them; nothing when that is one key
+/// pose. What a planar closure did not measure has a variance of 0.25. There must be a key pose.
+std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const KeyPoses& poses, double robust_width);
+
 /// What a source of motion matched against one local map: consecutive key poses, [first, end) of all. The
 /// map's own pose is that of the robot at the first one, as the source saw it.
 struct LocalMap {
