@@ -62,6 +62,21 @@ TEST(MotionSource, StampMustComeAfterTheLast) {
   EXPECT_EQ(source.poses().size(), 1u);
 }
 
+TEST(MotionSource, APoseBeyondTheLastHasTheErrorsOfTheTwoThatItIsDrawnFrom) {
+  MotionSource source(kNoise, false);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, Pose3::Identity(), 0, 0.02 * Matrix6d::Identity());
+  source.add(1.1, Pose3::Identity(), 0, 0.02 * Matrix6d::Identity());
+  // b + r (b - a) with independent errors of variance v has v ((1 + r)^2 + r^2); one v is the match's own.
+  const double r = 0.05 / 0.1, drawn = 0.02 * ((1 + r) * (1 + r) + r * r - 1);
+  const double sped_up_m = 0.5 * 0.5 * 0.05 * 0.05, sped_up_rad = 0.5 * 1 * 0.05 * 0.05;
+  const Matrix6d at_last = source.inLocalMap(1.1, 1.1, 0.2)->covariance, beyond = source.inLocalMap(1.1, 1.15, 0.2)->covariance;
+  EXPECT_NEAR(beyond(0, 0) - at_last(0, 0), drawn + sped_up_m * sped_up_m, 1e-12);
+  EXPECT_NEAR(beyond(5, 5) - at_last(5, 5), drawn + sped_up_rad * sped_up_rad, 1e-12);
+  EXPECT_NEAR(source.between(1.1, 1.15, 0.2)->covariance(0, 0) - source.between(1.1, 1.1, 0.2)->covariance(0, 0),
+              drawn + sped_up_m * sped_up_m, 1e-12);
+}
+
 MotionSource movingBy(double metres) {
   MotionSource source(kNoise, true);
   source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());

@@ -26,6 +26,7 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
 constexpr double kSourceWidth = 3;  // Cauchy, in standard deviations: wheels slip, images mislead
 
 // Of two movements: translation, and the turn that leads from one rotation to the other, both in the frame of a.
@@ -71,11 +72,25 @@ Matrix6d MotionSource::stepSum(double t_a, double t_b) const {
   return until(std::max(t_a, t_b)) - until(std::min(t_a, t_b));
 }
 
+// A pose beyond the last two, a and b, is b + r (b - a), r the share of their interval: both errors are in it, and how the movement has
+// changed since.
+Matrix6d MotionSource::extrapolation(double t) const {
+  const auto& poses = poses_.poses();
+  if (poses.size() < 2 || t <= poses.back().t) return Matrix6d::Zero();
+  const double beyond_s = t - poses.back().t;
+  const double r = beyond_s / (poses.back().t - poses[poses.size() - 2].t);
+  Vector6d change;
+  change << Eigen::Vector3d::Constant(kAcceleration_m_s2), Eigen::Vector3d::Constant(kAcceleration_rad_s2);
+  change *= 0.5 * beyond_s * beyond_s;
+  return 2 * r * (1 + r) * stepAt(poses.back().t) + Matrix6d(change.cwiseAbs2().asDiagonal());
+}
+
 std::optional<Movement> MotionSource::between(double t_a, double t_b, double horizon_s) const {
   if (poses_.empty()) return std::nullopt;
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;
-  return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b)};
+  return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b) +
+                                 extrapolation(std::max(t_a, t_b))};
 }
 
 // Of the step that ends at t or as the first one after it. No step leads to the pose that begins a segment: it is
@@ -99,7 +114,8 @@ std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, d
   if (!movement) return std::nullopt;
   // A match is told in the frame of the robot, the movement in that of its beginning.
   const Matrix6d match =
-      modelCovariance(noise_, Pose3::Identity(), planar_) + rotateCovariance(stepAt(t_b), movement->linear());
+      modelCovariance(noise_, Pose3::Identity(), planar_) +
+      rotateCovariance(Matrix6d(stepAt(t_b) + extrapolation(t_b)), movement->linear());
   const Matrix6d steps = modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b);
   return Movement{*movement, match + drift_share * steps};
 }

@@ -32,7 +32,7 @@ class MotionSource {
   void refine(const Trajectory& poses) { poses_ = poses; }
 
   const Trajectory& poses() const { return poses_; }
-  /// Covariance: noise model and sum of the steps.
+  /// Covariance: noise model, sum of the steps, and more for a time after the last pose.
   std::optional<Movement> between(double t_a, double t_b, double horizon_s) const;
   /// As seen in a local map that begins at `t_a`: the covariance is that of the match at `t_b`, and does not
   /// grow with the movement. A segment's first pose is matched to nothing: it has the noise model's alone.
@@ -45,6 +45,8 @@ class MotionSource {
  private:
   Matrix6d stepSum(double t_a, double t_b) const;
   Matrix6d stepAt(double t) const;
+  /// What a pose after the last one is more unsure than that.
+  Matrix6d extrapolation(double t) const;
 
   MotionNoise noise_;
   bool planar_;
