@@ -109,5 +109,20 @@ TEST(AllocationLimit, SmallThingsHaveAReserveAndHandlersAlwaysGetThem) {
   EXPECT_EQ(length, 5000u);
 }
 
+// A destructor that throws while the stack is unwound ends the program.
+TEST(AllocationLimit, DestructorsGetSmallThingsWhileAnExceptionIsUnderWay) {
+  if (!test::kMemoryCanBeLimited) GTEST_SKIP() << "the sanitizer has its own operator new";
+  struct TidiesUp {
+    ~TidiesUp() { left_behind += std::string(5000, 'x').size(); }
+    std::size_t& left_behind;
+  };
+  std::size_t left_behind = 0;
+  EXPECT_TRUE(isRefused(0, [&] {
+    const TidiesUp last{left_behind};
+    for (int i = 0; i < 1000; ++i) std::string(5000, 'x');
+  }));
+  EXPECT_EQ(left_behind, 5000u);
+}
+
 }  // namespace
 }  // namespace roomgraph

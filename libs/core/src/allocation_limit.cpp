@@ -22,7 +22,8 @@ constexpr std::size_t kSmall = 1u << 14, kReserve = 1u << 18;
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t reserve = kReserve;
 
 // MRPT's exceptions note the call stack and compose their text in functions that must not throw: small things
-// have a reserve of their own, and handlers get them in any case.
+// have a reserve of their own, and handlers get them in any case; so do destructors while the stack is unwound (those of MRPT's observations
+// hand their memory to a pool), which would end the program.
 bool allowed(std::size_t size) {
   if (left == kUnlimited) return true;
   if (size <= left) {
@@ -30,6 +31,7 @@ bool allowed(std::size_t size) {
     return true;
   }
   if (size > kSmall) return false;
+  if (std::uncaught_exceptions() > 0) return true;
   if (size > reserve) return std::current_exception() != nullptr;
   reserve -= size;
   return true;
