@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <limits>
 #include <random>
 
 #include "surface_refinement.h"
@@ -62,6 +63,10 @@ TEST(SurfaceCells, NoLineOfFewReturnsAndOfAHeap) {
   cells.insert(facing(heap, 0));
   EXPECT_FALSE(cells.around({5, 5}, 0));
   EXPECT_FALSE(cells.around({-20, 3}, 0)) << "nothing there";
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  cells.insert(facing(Points2(10, Eigen::Vector2d(nan, 1e300)), 0));
+  EXPECT_FALSE(cells.around({nan, 0}, 0));
+  EXPECT_FALSE(cells.around({1e300, 0}, 0));
 }
 
 TEST(SurfaceCells, TheTwoSidesOfAThinWallStayTwoLines) {

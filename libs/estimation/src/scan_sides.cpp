@@ -21,7 +21,7 @@ constexpr double kNearLegs_m = 0.15;   // outside a cylinder
 constexpr double kSameThing_m = 0.1;   // between neighbouring returns on one surface
 constexpr double kLeastFacing = 0.25;  // cosine between the side's normal and the direction to the lidar
 constexpr double kCorner_m = 0.05;     // at the ends of a side returns may be on the next one
-constexpr double kWallBeside_m = 0.6;  // of the wall on both sides of a door
+constexpr double kWallBeside_m = 1.2;  // of the wall on both sides of a door
 constexpr double kLeastShown = 0.5;    // share of the length of a cuboid's side that returns must lie along
 constexpr double kSpread_m = 0.05, kMostAlike = 0.7;        // so many of a side's returns are so near a line
 constexpr std::size_t kLeastReturns = 4, kMostReturns = 6;  // of one side in one scan

@@ -17,6 +17,12 @@ constexpr double kLongestAcross = 0.15;  // variance across over variance along:
 constexpr int kReach = 6;                // neighbours on either side of a return, in the order of the beams
 constexpr double kNear_m = 0.15, kNearPerRange = 0.06;  // farther returns are no neighbours
 
+// Numbers of cells must fit 32 bits.
+bool isReachable(const Eigen::Vector2d& point) {
+  constexpr double kFarthest_m = 1e6;
+  return std::abs(point.x()) < kFarthest_m && std::abs(point.y()) < kFarthest_m;  // false for what is not finite
+}
+
 /// Sums over points, from some origin.
 struct Scatter {
   double count = 0;
@@ -60,6 +66,7 @@ SurfaceCells::Sums& SurfaceCells::sumsOf(std::uint64_t cell, int sector) {
 void SurfaceCells::insert(const FacedScan& scan) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
+    if (!isReachable(p)) continue;
     const double cx = std::floor(p.x() / cell_m_), cy = std::floor(p.y() / cell_m_);
     Sums& sums = sumsOf(key(static_cast<std::int32_t>(cx), static_cast<std::int32_t>(cy)), sectorOf(scan.facing_rad[i]));
     const Eigen::Vector2f offset = (p - cell_m_ * Eigen::Vector2d(cx, cy)).cast<float>();
@@ -70,6 +77,7 @@ void SurfaceCells::insert(const FacedScan& scan) {
 }
 
 std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
+  if (!isReachable(point)) return std::nullopt;
   const auto cx = static_cast<std::int32_t>(std::floor(point.x() / cell_m_));
   const auto cy = static_cast<std::int32_t>(std::floor(point.y() / cell_m_));
   const int sector = sectorOf(facing_rad);

@@ -14,7 +14,6 @@ constexpr double kLeastSigma_m = 0.01;                // of a return and the une
 constexpr double kRobustWidth = 2, kFarthest = 4;     // standard deviations; Cauchy
 constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
-
 constexpr double kFarthestFromGrid_m = 1;             // farther away it is another place
 
 struct NormalEquations {
