@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Test bags by the Python writers beside this file, imports of them, and records of rawlogs.
+// Test bags by the Python writers beside this file, and imports of them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "rawlog_records.h"
 #include "roomgraph/bags/bag_import.h"
-#include "roomgraph/datasets/observation_reader.h"
 #include "temporary_folder.h"
 
 namespace roomgraph::test {
@@ -33,25 +33,6 @@ inline std::filesystem::path makeBag(const TemporaryFolder& folder, const std::s
                                      const std::string& name = "x.bag") {
   runPython("write_bag.py", "'" + folder.file(name).string() + "' '" + json + "'");
   return folder.file(name);
-}
-
-inline std::vector<mrpt::obs::CObservation::Ptr> recordsIn(const std::filesystem::path& rawlog) {
-  std::vector<mrpt::obs::CObservation::Ptr> records;
-  ObservationReader reader(rawlog);
-  while (auto record = reader.next()) records.push_back(std::move(record));
-  return records;
-}
-
-template <class Class>
-std::vector<std::shared_ptr<Class>> only(const std::vector<mrpt::obs::CObservation::Ptr>& records) {
-  std::vector<std::shared_ptr<Class>> found;
-  for (const auto& record : records)
-    if (auto match = std::dynamic_pointer_cast<Class>(record)) found.push_back(match);
-  return found;
-}
-
-inline double secondsOf(const mrpt::obs::CObservation& record) {
-  return mrpt::Clock::toDouble(record.timestamp);
 }
 
 /// A bag with these options, imported.

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "records_of.h"
+#include "rawlog_records.h"
 #include "roomgraph/geometry/pose.h"
 #include "roomgraph/imports/carmen_import.h"
 #include "temporary_folder.h"

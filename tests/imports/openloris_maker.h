@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "records_of.h"
+#include "rawlog_records.h"
 #include "roomgraph/geometry/pose.h"
 #include "roomgraph/imports/openloris_import.h"
 #include "temporary_folder.h"

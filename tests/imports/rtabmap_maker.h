@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "records_of.h"
+#include "rawlog_records.h"
 #include "roomgraph/geometry/pose.h"
 #include "roomgraph/imports/rtabmap_import.h"
 #include "temporary_folder.h"
