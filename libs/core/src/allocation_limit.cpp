@@ -5,10 +5,13 @@
 #include <mrpt/core/aligned_allocator.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <limits>
 #include <new>
+
+#include "roomgraph/core/unexpected.h"
 
 namespace roomgraph {
 namespace {
@@ -20,6 +23,7 @@ constexpr std::size_t kSmall = 1u << 14, kReserve = 1u << 18;
 // Read by every allocation of the process: "initial-exec" makes that one instruction.
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t left = kUnlimited;
 [[gnu::tls_model("initial-exec")]] constinit thread_local std::size_t reserve = kReserve;
+constinit std::atomic<std::size_t> shortages = 0;
 
 // MRPT's exceptions note the call stack and compose their text in functions that must not throw: small things
 // have a reserve of their own, and handlers get them in any case; so do destructors while the stack is unwound (those of MRPT's observations
@@ -39,9 +43,12 @@ bool allowed(std::size_t size) {
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (!allowed(size)) return nullptr;
-  if (alignment <= alignof(std::max_align_t)) return std::malloc(std::max<std::size_t>(size, 1));
   if (size > kUnlimited - alignment) return nullptr;
-  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* memory = alignment <= alignof(std::max_align_t)
+                     ? std::malloc(std::max<std::size_t>(size, 1))
+                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (!memory) ++shortages;
+  return memory;
 }
 
 void* allocateOrThrow(std::size_t size, std::size_t alignment) {
@@ -62,6 +69,10 @@ AllocationLimit::AllocationLimit(std::size_t bytes) : outer_(left) {
 
 AllocationLimit::~AllocationLimit() {
   left = outer_;
+}
+
+std::size_t memoryShortages() {
+  return shortages;
 }
 
 bool AllocationLimit::active() {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "roomgraph/core/errors.h"
+
 namespace roomgraph {
 namespace {
 
@@ -32,6 +34,10 @@ std::string textOfUnexpected(const std::exception& error) {
                "--threads 1 (") +
            error.what() + ")";
   return std::string("internal error: ") + error.what();
+}
+
+void throwIfShort(const std::exception& error, std::size_t before) {
+  if (memoryShortages() != before || std::strstr(error.what(), kOpenCvMemory)) throw RunError(kNotEnough);
 }
 
 }  // namespace roomgraph

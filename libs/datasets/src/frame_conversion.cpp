@@ -15,6 +15,7 @@
 #include "flag_repair.h"
 #include "image_memory.h"
 #include "record_source.h"
+#include "roomgraph/core/unexpected.h"
 #include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {
@@ -150,9 +151,11 @@ std::string missingExternalFile(const CObservation3DRangeScan& observation, cons
 }
 
 Outcome<Frame> toFrame(CObservation3DRangeScan& observation, const std::string& image_folder) {
+  const std::size_t shortages = memoryShortages();
   try {
     return convert(observation, image_folder);
   } catch (const std::exception& error) {
+    throwIfShort(error, shortages);
     return Outcome<Frame>::failure("CObservation3DRangeScan: image unreadable: " + firstLine(error));
   }
 }

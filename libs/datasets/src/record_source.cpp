@@ -19,6 +19,7 @@
 #include "flag_repair.h"
 #include "roomgraph/core/allocation_limit.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/unexpected.h"
 #include "roomgraph/observations/image_file.h"
 #include "roomgraph/observations/register_classes.h"
 
@@ -192,12 +193,15 @@ std::optional<RecordSource::Item> RecordSource::next() {
   if (name.empty()) return recover(item, "no object header");
   if (!skip_class_.empty() && shortClassName(name) == skip_class_) return stepOver(item);
   if (kindOf(name) == Kind::kUnknown) return recover(item, "unknown class " + name);
+  const std::size_t shortages = memoryShortages();
   try {
     parse(item, name);
     return item;
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc& error) {
+    throwIfShort(error, shortages);
     return recover(item, shortClassName(name) + ": a size in it does not fit its length");
   } catch (const std::exception& error) {
+    throwIfShort(error, shortages);
     return recover(item, stream_.metEnd() ? shortClassName(name) + ": data is missing"
                                           : shortClassName(name) + ": " + firstLine(error));
   }

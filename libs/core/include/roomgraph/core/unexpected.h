@@ -2,6 +2,7 @@
 // What is told about an exception that no part of the program has an answer to.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <string>
 
@@ -11,5 +12,13 @@ namespace roomgraph {
 /// where the system refuses one, both with what helps; else "internal error: " and the text of the exception.
 /// One line or more.
 std::string textOfUnexpected(const std::exception& error);
+
+/// How often the system has refused memory to this process, through operator new or mrpt::aligned_malloc.
+/// What an AllocationLimit refuses does not count.
+std::size_t memoryShortages();
+
+/// For those who take an exception for damaged input: throws RunError when it was the machine that had no
+/// memory, as since there were `before` shortages it refused some, or as OpenCV says so.
+void throwIfShort(const std::exception& error, std::size_t before);
 
 }  // namespace roomgraph
