@@ -10,6 +10,7 @@
 
 #include "roomgraph/pipeline/record_sorter.h"
 #include "roomgraph/core/read_ahead.h"
+#include "stage_borders.h"
 
 namespace roomgraph {
 namespace {
@@ -60,6 +61,7 @@ class SpanReader {
     const Meter reading;
     auto record = nextInOrder();
     if (!record) return std::nullopt;
+    if (!hasTime(*record)) return Upcoming{std::move(*record), stream_.progress(), {}, {}};
     const double t = timeOf(*record);
     if (!start_) start_ = t;
     behind_ = span_.until_s > 0 && t - *start_ > span_.until_s;
@@ -78,7 +80,9 @@ class SpanReader {
     while (true) {
       if (auto record = sorter_.pop(ended_)) return record;
       if (ended_) return std::nullopt;
-      if (auto read = stream_.next())
+      if (auto read = stream_.next(); read && !hasTime(*read))
+        return read;  // it has no place in an order
+      else if (read)
         sorter_.push(std::move(*read));
       else
         ended_ = true;
@@ -119,6 +123,10 @@ ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& s
   while (!(state.interrupted = watch.interrupted())) {
     const auto next = ahead.next();
     if (!next) break;
+    if (!hasTime(next->record)) {  // which is counted
+      slam.process(next->record);
+      continue;
+    }
     const double t = timeOf(next->record);
     if (!start) state.start_t = *(start = t);
     if (t - *start > until_s) break;

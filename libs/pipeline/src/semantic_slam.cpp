@@ -4,10 +4,9 @@
 
 #include <limits>
 
-#include "continued_map.h"
 #include "detection_schedule.h"
 #include "people_in_view.h"
-#include "roomgraph/core/errors.h"
+#include "stage_borders.h"
 
 namespace roomgraph {
 namespace {
@@ -18,14 +17,6 @@ constexpr int kMaxClosingRounds = 3, kMaxDescents = 5;
 // A sensor on a robot has a place on it; a handheld camera has none.
 bool isMounted(const Frame& frame) {
   return frame.robot_from_camera.translation().z() > 0.1;
-}
-
-std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const LandmarkMap& map,
-                            const ExistenceOptions& options) {
-  std::vector<Landmark> sure;
-  for (const auto& [landmark, evidence] : candidates)
-    if (options.enabled ? options.isSure(landmark) : map.isConfirmed(landmark)) sure.push_back(landmark);
-  return map.exclusive(std::move(sure));
 }
 
 }  // namespace
@@ -55,9 +46,14 @@ void SemanticSlam::setResultStore(ResultStore& store) {
 }
 
 void SemanticSlam::process(const Record& record) {
+  if (const std::string problem = problemOfRecord(record); !problem.empty()) {
+    ++counts_.reasons["record left out: " + problem];
+    return;
+  }
   times_.startRecord(timeOf(record));
   if (!first_t_) first_t_ = timeOf(record);
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
+  requirePose(report.world_from_robot, record);
   for (const auto& sink : sinks_) sink->onStep(report);
 }
 
@@ -164,7 +160,7 @@ FrameDetections SemanticSlam::detect(const Frame& frame) {
   const auto timing = times_.measure("detection");
   if (detection_schedule_->due(frame.t)) {
     const auto found = detector->detect(frame);
-    if (found) return detection_schedule_->detected(*found, frame);
+    if (found) return detection_schedule_->detected(withoutBroken(*found, counts_.reasons), frame);
     ++counts_.reasons["detection: " + found.reason()];
   }
   return detection_schedule_->missed(frame, cameraMovement(frame));
@@ -240,6 +236,7 @@ std::vector<ObjectMeasurement> SemanticSlam::select(const Frame& frame, const Fr
   auto measurements =
       setup_->stages.proposal_selector->select(proposals, {frame.camera, world_from_camera, features});
   std::erase_if(measurements, [this](const ObjectMeasurement& measurement) {
+    if (isBroken("selection", problemOfMeasurement(measurement), counts_.reasons)) return true;
     const auto* model = setup_->database.find(measurement.proposal.class_name);
     return !model || !model->landmark;
   });
@@ -275,7 +272,7 @@ void SemanticSlam::localize(double t) {
   if (estimator_.due()) {
     const auto timing = times_.measure("whole graph");
     objects_.tidy();
-    if (const auto landmarks = estimator_.optimizeLive(inGraph())) objects_.apply(*landmarks);
+    if (const auto landmarks = estimator_.optimizeLive(inGraph())) objects_.apply(sound(*landmarks));
   } else {
     const auto timing = times_.measure("window of poses");
     estimator_.optimizeWindow();
@@ -293,7 +290,7 @@ bool SemanticSlam::closeLoopsOfScans() {
 }
 
 void SemanticSlam::addClosures(const std::vector<RelativePose>& closures) {
-  for (const PathShift& shift : estimator_.addClosures(closures)) objects_.move(shift);
+  for (const PathShift& shift : estimator_.addClosures(withoutBroken(closures, counts_.reasons))) objects_.move(shift);
 }
 
 ObjectsInGraph SemanticSlam::inGraph() const {
@@ -304,7 +301,7 @@ ObjectsInGraph SemanticSlam::inGraph() const {
 void SemanticSlam::optimizeAll() {
   objects_.tidy();
   if (const auto landmarks = estimator_.optimizeAll(inGraph()))
-    objects_.apply(*landmarks);
+    objects_.apply(sound(*landmarks));
   else
     ++counts_.reasons["back end: no usable solution"];
 }
@@ -352,47 +349,6 @@ void SemanticSlam::refine() {
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
   continueInMap();
   optimizeAll();  // the map is the optimum: the last re-association set places of its own
-}
-
-SlamResult SemanticSlam::collect() {
-  const KeyPoses& poses = estimator_.poses();
-  SlamResult result;
-  result.counts = counts_;
-  result.counts.key_poses = static_cast<int>(poses.nodes().size());
-  result.counts.loop_closures = static_cast<int>(estimator_.closures().size());
-  result.map.planar = estimator_.planar();
-  if (poses.empty()) return result;
-  const ExistenceOptions& existence = setup_->options.existence;
-  result.candidates = objects_.candidates(setup_->database, existence.enabled ? &existence_ : nullptr);
-  if (const auto covariances = graph().landmarkCovariances())
-    for (auto& [landmark, evidence] : result.candidates)
-      if (const auto found = covariances->find(landmark.id); found != covariances->end())
-        landmark.covariance = found->second;
-  result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
-  result.seen = objects_.seenSpans();
-  for (const Landmark& landmark : result.map.landmarks)
-    result.map.weights[landmark.id] = objects_.landmarks().weightOf(landmark.id);
-  if (map_) result.earlier = earlierMapOf(*map_, first_t_.value_or(0));
-  if (map_ && map_->anchoring()) continueMap(*map_, {objects_, setup_->database, setup_->options}, result);
-  Trajectory dense;
-  for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
-    if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
-  result.world_from_robot = result.map.world_from_robot = dense.poses();
-  for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
-  mapOccupancy(result, dense);
-  return result;
-}
-
-// The grid and the views, of an earlier map, too.
-void SemanticSlam::mapOccupancy(SlamResult& result, const Trajectory& dense) {
-  const auto timing = times_.measure("occupancy map");
-  const CSemanticMap* earlier = map_ && map_->anchoring() ? &map_->map() : nullptr;
-  result.map.views = views_.views(estimator_.poses(), earlier ? earlier->views : std::vector<KeyView>());
-  try {
-    result.map.occupancy = mapper_.build(dense, earlier ? earlier->occupancy.get() : nullptr);
-  } catch (const RunError& error) {  // all else is still good
-    ++result.counts.reasons[error.what()];
-  }
 }
 
 }  // namespace roomgraph

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map and the trajectories at the end of a run.
+#include "continued_map.h"
+#include "roomgraph/core/errors.h"
+#include "roomgraph/pipeline/semantic_slam.h"
+#include "stage_borders.h"
+
+namespace roomgraph {
+namespace {
+
+std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const LandmarkMap& map,
+                            const ExistenceOptions& options) {
+  std::vector<Landmark> sure;
+  for (const auto& [landmark, evidence] : candidates)
+    if (options.enabled ? options.isSure(landmark) : map.isConfirmed(landmark)) sure.push_back(landmark);
+  return map.exclusive(std::move(sure));
+}
+
+}  // namespace
+
+SlamResult SemanticSlam::collect() {
+  const KeyPoses& poses = estimator_.poses();
+  SlamResult result;
+  result.counts = counts_;
+  result.counts.key_poses = static_cast<int>(poses.nodes().size());
+  result.counts.loop_closures = static_cast<int>(estimator_.closures().size());
+  result.map.planar = estimator_.planar();
+  if (poses.empty()) return result;
+  const ExistenceOptions& existence = setup_->options.existence;
+  result.candidates = objects_.candidates(setup_->database, existence.enabled ? &existence_ : nullptr);
+  if (const auto covariances = graph().landmarkCovariances())
+    for (auto& [landmark, evidence] : result.candidates)
+      if (const auto found = covariances->find(landmark.id);
+          found != covariances->end() &&
+          !isBroken("back end", problemOfCovariance(found->second), result.counts.reasons))
+        landmark.covariance = found->second;
+  result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
+  result.seen = objects_.seenSpans();
+  for (const Landmark& landmark : result.map.landmarks)
+    result.map.weights[landmark.id] = objects_.landmarks().weightOf(landmark.id);
+  if (map_) result.earlier = earlierMapOf(*map_, first_t_.value_or(0));
+  if (map_ && map_->anchoring()) continueMap(*map_, {objects_, setup_->database, setup_->options}, result);
+  Trajectory dense;
+  for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
+    if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
+  result.world_from_robot = result.map.world_from_robot = dense.poses();
+  for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
+  mapOccupancy(result, dense);
+  return result;
+}
+
+// The grid and the views, of an earlier map, too.
+void SemanticSlam::mapOccupancy(SlamResult& result, const Trajectory& dense) {
+  const auto timing = times_.measure("occupancy map");
+  const CSemanticMap* earlier = map_ && map_->anchoring() ? &map_->map() : nullptr;
+  result.map.views = views_.views(estimator_.poses(), earlier ? earlier->views : std::vector<KeyView>());
+  try {
+    result.map.occupancy = mapper_.build(dense, earlier ? earlier->occupancy.get() : nullptr);
+  } catch (const RunError& error) {  // all else is still good
+    ++result.counts.reasons[error.what()];
+  }
+}
+
+}  // namespace roomgraph
