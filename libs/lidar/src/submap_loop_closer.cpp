@@ -81,6 +81,10 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
         {.doc = "Largest share of the returns that may lie in space that the submap saw free.",
          .min = 0,
          .max = 1});
+  v.add("max_wrong_side", max_wrong_side_,
+        {.doc = "Largest share of the returns on known surfaces that may lie on one seen from behind.",
+         .min = 0,
+         .max = 1});
   v.add("ambiguity_ratio", ambiguity_ratio_,
         {.doc = "A match is ambiguous when a second pose reaches this share of the best score.",
          .min = 0,
@@ -275,7 +279,9 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b
   if (candidate.path_m > trusted_path_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
     return std::nullopt;
 
-  refineFurther(stored.submap->surfaces, faced(scans_[static_cast<std::size_t>(b)].planar), PosePrior{coarse->grid_from_scan}, fine);
+  const FacedScan scan = faced(scans_[static_cast<std::size_t>(b)].planar);
+  refineFurther(stored.submap->surfaces, scan, PosePrior{coarse->grid_from_scan}, fine);
+  if (shareOnWrongSide(stored.submap->surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;

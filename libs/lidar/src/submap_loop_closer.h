@@ -68,6 +68,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double drift_per_m_ = 0.03, drift_rad_per_m_ = 0.0087266;
   double window_m_ = 0.3, window_rad_ = 0.13963, max_window_m_ = 6, max_window_rad_ = 1.0472;
   double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
+  double max_wrong_side_ = 0.15;
   double ambiguity_ratio_ = 0.93;
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
