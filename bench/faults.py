@@ -7,6 +7,7 @@
 
     bench/faults.py full-disk                 every command that writes, on disks that are too small (needs root)
     bench/faults.py signals  [--cases 60]     runs over former results, ended by signals at random moments
+    bench/faults.py batch-signals [--cases 60]  batches of two runs, ended by signals at random moments and gone on with
 
     bench/faults.py poison mutate --program build/release/bin/roomgraph --out out/faults
 
@@ -308,6 +309,7 @@ def mutate(options):
 
 EXPERIMENTS = {"poison": (poison, 1000), "mutate": (mutate, 3100),
                "full-disk": (lambda options: faults_files.full_disk(options.program), 20),
+               "batch-signals": (lambda options: faults_files.batch_signals(options.program, options.cases["batch-signals"]), 60),
                "signals": (lambda options: faults_files.signals(options.program, options.cases["signals"]), 60)}
 
 

@@ -2,6 +2,7 @@
 """Faults of files and processes: disks that are full, signals at any moment. Used by faults.py.
 
 A case is good when the folder holds the former results or the complete new ones, never some of each."""
+import json
 import os
 import random
 import shutil
@@ -192,3 +193,61 @@ def signals(program, count, seed=1):
             rows[key] = rows.get(key, 0) + 1
     lines = ["| signal | exit code (negative: signal) | folder holds | runs |", "| --- | --- | --- | --- |"]
     return "\n".join(lines + [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]) + "\n"
+
+
+BATCH_SAME = ("trajectory.tum", "landmarks.json", "map.pgm", "graph.g2o", "associations.jsonl", "live.tum")
+
+
+def runs_in(folder):
+    """Results of complete runs by name; what else has been left."""
+    complete, unfinished = {}, 0
+    for run in sorted((folder / "runs").glob("*")):
+        try:
+            status = json.loads((run / "result.json").read_text())["status"]
+        except (OSError, ValueError, KeyError):
+            status = "none"
+        if status == "complete":
+            complete[run.name] = {name: (run / name).read_bytes() for name in BATCH_SAME if (run / name).exists()}
+        else:
+            unfinished += 1
+    return complete, unfinished
+
+
+def batch_signals(program, count, seed=1):
+    """A table of batches of two runs, two at a time, told to end at random moments by each signal in turn. One that was not
+    over is gone on with until it is, over several signals. Runs that say they are complete must have the same bits as undisturbed
+    ones, at every moment; the batch at its end, too."""
+    rows, kinds = {}, [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+    generator = random.Random(seed)
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = Path(scratch)
+        for name in ("tiny_room", "tiny_handheld"):
+            shutil.copy(RECORDINGS / f"{name}.rawlog", scratch)
+
+        def command(out):
+            return [program, "batch", scratch / "tiny_room.rawlog", scratch / "tiny_handheld.rawlog", "-o", out, "--quiet", "--jobs", "2",
+                    "--keep", "all"]
+        started = time.monotonic()
+        call(command(scratch / "whole"), check=True)
+        usual = time.monotonic() - started
+        whole, _ = runs_in(scratch / "whole")
+        out, ended = scratch / "out", 0
+        for i in range(count):
+            kind = kinds[i % len(kinds)]
+            batch = subprocess.Popen(command(out), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(generator.uniform(0, 0.7 * usual))
+            batch.send_signal(kind)
+            code = batch.wait()
+            complete, _ = runs_in(out) if (out / "runs").exists() else ({}, 0)
+            right = all(files == whole[name] for name, files in complete.items())
+            if code == 0:
+                right = right and len(complete) == len(whole)
+                ended += 1
+                shutil.rmtree(out)
+            key = (kind.name, code, len(complete), "the same bits" if right else "WRONG")
+            rows[key] = rows.get(key, 0) + 1
+        call(command(out), check=True)
+        last = "the same bits" if runs_in(out)[0] == whole else "WRONG"
+    lines = ["| signal | exit code (negative: signal) | complete runs | they have | batches |", "| --- " * 5 + "|"]
+    lines += [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]
+    return "\n".join(lines) + f"\n\n{ended} batches came to their end; the last one, gone on with: {last}\n"

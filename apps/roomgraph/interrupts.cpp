@@ -3,27 +3,32 @@
 #include "interrupts.h"
 
 #include <csignal>
+#include <iterator>
 
 namespace roomgraph {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t raised = 0;
+volatile std::sig_atomic_t ignored[std::size(kSignals)] = {};
 
 void raise(int number) {
   raised = number;
   // A terminal that closes says so twice, the shell and the kernel: that is no wish to end at once.
-  std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    if (!ignored[i]) std::signal(kSignals[i], kSignals[i] == SIGHUP ? SIG_IGN : SIG_DFL);
 }
 
 }  // namespace
 
 void catchInterrupts() {
-  // What is ignored stays so: nohup does that with SIGHUP.
-  for (const int signal : kSignals)
-    if (std::signal(signal, raise) == SIG_IGN) std::signal(signal, SIG_IGN);
+  // What is ignored stays so, also after another signal: nohup does that with SIGHUP, a batch with SIGTERM.
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    struct sigaction former {};
+    sigaction(kSignals[i], nullptr, &former);
+    ignored[i] = former.sa_handler == SIG_IGN;
+    if (!ignored[i]) std::signal(kSignals[i], raise);
+  }
 }
 
 bool interrupted() {

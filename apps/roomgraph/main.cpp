@@ -9,6 +9,7 @@
 #include "program.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/core/unexpected.h"
 #include "roomgraph/observations/register_classes.h"
 
 namespace roomgraph {
@@ -92,7 +93,7 @@ int runCommand(CLI::App& app, int argc, char** argv) {
   } catch (const Error& error) {
     return fail(error.what(), error.exit_code);
   } catch (const std::exception& error) {
-    return fail(std::string("internal error: ") + error.what(), 1);
+    return fail(textOfUnexpected(error), 1);
   }
   return 0;
 }
@@ -104,20 +105,29 @@ int flushOutput(int exit_code) {
   return exit_code == 0 ? failed : exit_code;
 }
 
-}  // namespace
-}  // namespace roomgraph
-
-// NOLINTNEXTLINE(bugprone-exception-escape): only a wrong declaration of the options throws out of here
-int main(int argc, char** argv) {
-  roomgraph::holdStandardStreams();
+int startProgram(int argc, char** argv) {
   CLI::App app{"Object-level semantic SLAM on MRPT rawlogs (RGB-D, 2D lidar, odometry).", "roomgraph"};
-  app.set_version_flag("--version", std::string(roomgraph::kVersion) + " (" + roomgraph::kRevision + ")");
+  app.set_version_flag("--version", std::string(kVersion) + " (" + kRevision + ")");
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 the run failed, 2 wrong usage or config, 3 input cannot be read, 4 interrupted "
       "(results cover what was done until then; an import writes nothing).\n"
       "All keys of the configuration: roomgraph config-reference.");
-  roomgraph::observations::registerClasses();
-  roomgraph::addCommands(app);
-  return roomgraph::flushOutput(roomgraph::runCommand(app, argc, argv));
+  observations::registerClasses();
+  addCommands(app);
+  return runCommand(app, argc, argv);
+}
+
+}  // namespace
+}  // namespace roomgraph
+
+int main(int argc, char** argv) {
+  roomgraph::holdStandardStreams();
+  int exit_code = 1;
+  try {
+    exit_code = roomgraph::startProgram(argc, argv);
+  } catch (const std::exception& error) {  // before there was a command: a machine without memory
+    roomgraph::fail(roomgraph::textOfUnexpected(error), exit_code);
+  }
+  return roomgraph::flushOutput(exit_code);
 }

@@ -25,6 +25,7 @@ constexpr std::uintmax_t kSamples = 64, kSampleBytes = 1 << 16;
 
 // A recording may be many GB long: what changes it also changes its size or its time, or most of its bytes.
 std::string sampledBytes(const fs::path& file, std::uintmax_t size) {
+  errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string bytes;
   std::vector<char> block(kSampleBytes);
@@ -34,7 +35,9 @@ std::string sampledBytes(const fs::path& file, std::uintmax_t size) {
     in.read(block.data(), static_cast<std::streamsize>(std::min(size, kSampleBytes)));
     bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
   }
-  if (!in) throw InputError(file.string() + ": cannot be read");
+  if (!in)
+    throw InputError(file.string() + ": cannot be read" +
+                     (errno ? std::string(": ") + std::strerror(errno) : ""));
   return sha256Of(bytes);
 }
 

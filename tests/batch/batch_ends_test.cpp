@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "child_process.h"
 #include "small_batch.h"
 
 namespace roomgraph::test {
@@ -75,6 +76,27 @@ TEST_F(BatchEnds, TwiceCtrlCKills) {
   kill(program.pid(), SIGINT);
   EXPECT_EQ(program.wait().exit_code, -1);
   EXPECT_TRUE(waitUntil([&] { return tasks().empty(); }, 5));
+}
+
+// A queue sends SIGTERM to all processes of a job, to some of them after their parent has told them by SIGINT.
+TEST_F(BatchEnds, WhoWasToldByItsParentIgnoresTheQueueFromThenOnToo) {
+  makeRecording("long", 400);
+  ChildProcess run({ROOMGRAPH_PROGRAM, "run", folder.file("data/long.rawlog").string(), "-o",
+                    folder.file("out").string(), "--no-report", "--no-snapshot"},
+                   folder.file("log"), false);
+  const auto live = folder.file("out/roomgraph_unfinished/live.tum");
+  std::error_code none_yet;
+  ASSERT_TRUE(waitUntil([&] { return std::filesystem::file_size(live, none_yet) > 2000 && !none_yet; }));
+  run.signal(SIGTERM);
+  run.signal(SIGINT);
+  std::optional<ChildEnd> end;
+  ASSERT_TRUE(waitUntil([&] {
+    if ((end = run.ended())) return true;
+    run.signal(SIGTERM);
+    return false;
+  }));
+  EXPECT_EQ(end->exit_code, 4) << folder.read("log");
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out/summary.json"))) << "what it had is written";
 }
 
 TEST_F(BatchEnds, ARunThatIsKilledIsTriedAgain) {

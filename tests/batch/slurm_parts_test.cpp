@@ -225,6 +225,23 @@ TEST_F(OfAnArray, OnlyTheParentTellsAChildToEnd) {
   EXPECT_EQ(folder.read("told"), "told\n");
 }
 
+// Whatever kills a task that was told to end, the queue may begin it again.
+TEST_F(OfAnArray, WhoIsKilledAfterItWasToldMayBeBegunAgain) {
+  const std::string ready = folder.file("ready").string();
+  const std::vector<std::string> scripts{
+      "echo > " + ready + "; exec sleep 60",
+      "trap 'kill -KILL $$' INT; echo > " + ready + "; while true; do sleep 0.05; done"};
+  for (const auto& script : scripts) {
+    fs::remove(ready);
+    writeArray(script, 10);
+    EXPECT_EQ(performArrayTask(folder.path(), 1, [&] { return fs::exists(ready); }), 4) << script;
+    ASSERT_TRUE(readTaskEnd(folder.path(), 1).has_value()) << script;
+    EXPECT_EQ(readTaskEnd(folder.path(), 1)->exit_code, 4) << script;
+  }
+  writeArray("kill -KILL $$", 10);
+  EXPECT_EQ(perform(), 137) << "nobody told it";
+}
+
 TEST(ToolCalls, AnswersComeBack) {
   const TemporaryFolder folder;
   ToolCall call({"sh", "-c", "echo one; echo two >&2; exit 3"}, folder.file("a/answer"));

@@ -2,22 +2,18 @@
 // Lines of the display, and the escape sequences that draw it anew.
 #include "display.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "roomgraph/core/terminal.h"
+
 namespace roomgraph {
 namespace {
 
 constexpr int kBar = 24;
-
-std::size_t terminalWidth() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
-}
 
 }  // namespace
 
@@ -82,7 +78,7 @@ void BatchDisplay::draw(const ShownTotals& totals, const std::vector<ShownTask>&
   last_ = std::chrono::steady_clock::now();
   std::size_t name_width = 8;
   for (const auto& task : running) name_width = std::max(name_width, task.name.size());
-  const std::size_t width = terminalWidth() - 1, room = width > 50 ? width - 50 : 8;
+  const std::size_t width = terminalWidth(STDERR_FILENO) - 1, room = width > 50 ? width - 50 : 8;
   std::vector<std::string> lines;
   for (const auto& task : running) lines.push_back(taskLine(task, std::min(name_width, room)));
   lines.push_back(totalsLine(totals, running, elapsed()));

@@ -58,8 +58,10 @@ int performArrayTask(const fs::path& folder, std::size_t index, const std::funct
   bool told = false;
   for (auto looked = Clock::now();; std::this_thread::sleep_for(kLookAtChild)) {
     if (const auto end = child.ended()) {
-      if (!isGivenUp(folder, index)) writeTaskEnd(folder, index, {end->exit_code, ""});
-      return end->exit_code;
+      // One that does not end in good order when it is told to has been told all the same.
+      const int exit_code = told && end->exit_code > 128 ? kInterrupted : end->exit_code;
+      if (!isGivenUp(folder, index)) writeTaskEnd(folder, index, {exit_code, ""});
+      return exit_code;
     }
     if (!told && interrupted()) {
       child.signal(SIGINT);

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <iostream>
 
+#include "roomgraph/core/terminal.h"
+
 namespace roomgraph {
 
 Progress::Progress(std::ostream* out, std::string label, std::string unit, double total)
@@ -46,8 +48,10 @@ void Progress::update(double done, const std::string& note) {
   last_ = now;
   std::string text = line(done, note);
   if (terminal_) {
-    const std::size_t width = text.size();
-    text.resize(std::max(width, width_), ' ');
+    // A line that goes on in the next row cannot be written over.
+    const std::size_t room = terminalWidth(STDERR_FILENO) - 1, width = std::min(text.size(), room);
+    text.resize(width);
+    text.resize(std::max(width, std::min(width_, room)), ' ');
     width_ = width;
     *out_ << '\r' << text << std::flush;
   } else {
@@ -57,7 +61,10 @@ void Progress::update(double done, const std::string& note) {
 
 void Progress::finish(const std::string& note) {
   if (!out_) return;
-  if (terminal_) *out_ << '\r' << std::string(width_, ' ') << '\r';
+  if (terminal_) {
+    const std::size_t written = std::min(width_, terminalWidth(STDERR_FILENO) - 1);
+    *out_ << '\r' << std::string(written, ' ') << '\r';
+  }
   if (!note.empty()) *out_ << note << std::endl;
 }
 
