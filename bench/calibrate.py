@@ -3,20 +3,16 @@
 """Calibrates recordings of random flats whose calibration is deliberately wrong, and compares with the truth.
 
     bench/calibrate.py [--seeds 1-20] [--rooms 1] [--out DIR]
-    bench/calibrate.py --recordings FOLDER [--seeds 1-16] [--out DIR]
 
-For each seed: simulates the flat, calibrates its recording beginning with sensor poses off by 5 cm and 5 degrees and clocks off by
-30 ms (the records change, not the world), and prints errors and stated standard deviations. At the end: by parameter
-the largest and the median error, how many seeds are within 5 mm, 0.2 degrees and 3 ms, and the mean squared error in stated
-standard deviations, which is 1 when these are right. Recordings are simulated: DIR keeps them for later calls, and what was found,
-which is used again while the program is the same. With --recordings nothing is simulated: FOLDER/flat_N is what `roomgraph
-simulate --flat N -o FOLDER/flat_N` wrote.
+For each seed: simulates the flat, writes a recording with sensor poses off by 5 cm and 5 degrees and clocks off by 30 ms
+(the records change, not the world), calibrates it, and prints errors and stated standard deviations. At the end: by parameter
+the largest error, how many seeds are within 5 mm, 0.2 degrees and 3 ms, and the mean squared error in stated standard
+deviations, which is 1 when these are right. Recordings are simulated: DIR keeps them for later calls.
 """
 import argparse
 import json
 import math
 import random
-import statistics
 import subprocess
 from pathlib import Path
 
@@ -78,38 +74,19 @@ def wrong_file(truth, world, rng, file):
     return -late, -wheels_late
 
 
-def recording_of(seed, rooms, recordings, out):
-    """Folder of the flat with its recording and world; simulated where no folder of recordings is given."""
-    if recordings:
-        folder = recordings / f"flat_{seed}"
-        missing = [n for n in (f"flat_{seed}.rawlog", "world.json", "objects.json") if not (folder / n).exists()]
-        if missing:
-            raise SystemExit(f"{folder}: no {missing[0]}: not a finished recording of `roomgraph simulate --flat {seed}`")
-        return folder
+def calibrate(seed, rooms, out):
     folder = out / f"flat_{seed}"
     if not (folder / "objects.json").exists():
         call("simulate", "--flat", seed, "--rooms", rooms, "-o", folder, "--quiet")
-    return folder
-
-
-def built():
-    """When the program and its libraries were last built."""
-    libraries = (PROGRAM.parent.parent / "lib").glob("libroomgraph_*.so.*")
-    return max(file.stat().st_mtime for file in (PROGRAM, *libraries))
-
-
-def calibrate(seed, rooms, recordings, out):
-    source = recording_of(seed, rooms, recordings, out)
-    folder = out / f"flat_{seed}"
-    folder.mkdir(parents=True, exist_ok=True)
-    world = json.loads((source / "world.json").read_text())
+    world = json.loads((folder / "world.json").read_text())
+    recording = next(folder.glob("*.rawlog"))
     truth = truth_of(world)
-    wrong, result = folder / "wrong.ini", folder / "found.json"
+    wrong = folder / "wrong.ini"
     truth["camera time offset"], truth["wheel time offset"] = wrong_file(truth, world, random.Random(seed), wrong)
-    if not result.exists() or result.stat().st_mtime < built():
-        call("calibrate", next(source.glob("*.rawlog")), "--calibration", wrong, "-o", folder / "found.ini", "--json", result,
-             "--quiet")
-    found = json.loads(result.read_text())["parameters"]
+    call("calibrate", recording, "--apply", wrong, "--rawlog", folder / "wrong.rawlog.gz", "--jpeg", 95, "--quiet")
+    call("calibrate", folder / "wrong.rawlog.gz", "-o", folder / "found.ini", "--json", folder / "found.json", "--quiet")
+    (folder / "wrong.rawlog.gz").unlink()
+    found = json.loads((folder / "found.json").read_text())["parameters"]
     return {p["name"]: (p["after"] - truth[p["name"]], p["sigma"], p["fixed"], p["unit"]) for p in found}
 
 
@@ -123,16 +100,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", default="1-20")
     parser.add_argument("--rooms", type=int, default=1)
-    parser.add_argument("--recordings", type=Path, help="folder of flats that are simulated already")
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "calibrate")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
     results = {}
     for seed in seeds_of(arguments.seeds):
-        results[seed] = calibrate(seed, arguments.rooms, arguments.recordings, arguments.out)
+        results[seed] = calibrate(seed, arguments.rooms, arguments.out)
         print(f"seed {seed}: " + ", ".join(f"{name} {shown(e, u)} +-{shown(s, u)}{'' if f == 'yes' else ' (' + f + ')'}"
                                            for name, (e, s, f, u) in results[seed].items()), flush=True)
-    print("\n| parameter | largest error | median error | within the limit | fixed | mean square over stated variance |\n"
+    print("\n| parameter | largest error | root mean square | within the limit | fixed | mean square over stated variance |\n"
           "| --- | --- | --- | --- | --- | --- |")
     for name in next(iter(results.values())):
         values = [r[name] for r in results.values()]
@@ -141,7 +117,8 @@ def main():
         limit = LIMITS.get(unit) if name in PLACES else None
         chi = sum((e / s) ** 2 for e, s, _, _ in fixed) / len(fixed) if fixed else float("nan")
         within = f"{sum(e <= limit for e in errors)} of {len(errors)}" if limit else "-"
-        print(f"| {name} | {shown(max(errors), unit)} | {shown(statistics.median(errors), unit)} | {within} | {len(fixed)} | {chi:.2f} |")
+        rms = math.sqrt(sum(e * e for e in errors) / len(errors))
+        print(f"| {name} | {shown(max(errors), unit)} | {shown(rms, unit)} | {within} | {len(fixed)} | {chi:.2f} |")
     (arguments.out / "figures.json").write_text(json.dumps(results, indent=1))
 
 

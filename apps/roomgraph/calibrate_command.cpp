@@ -21,7 +21,7 @@ namespace {
 
 struct CalibrateArguments {
   std::vector<std::filesystem::path> recordings;
-  std::filesystem::path output, json, rawlog, apply, former;
+  std::filesystem::path output, json, rawlog, apply;
   std::vector<std::string> poses;
   std::optional<int> jpeg_quality;
   ReadOptions read;
@@ -135,13 +135,6 @@ void runCalibrate(CalibrateArguments& arguments) {
   if (!arguments.rawlog.empty() && arguments.recordings.size() != 1)
     throw ConfigError("--rawlog corrects one recording; " + std::to_string(arguments.recordings.size()) +
                       " are given");
-  if (!arguments.apply.empty() && !arguments.former.empty())
-    throw ConfigError("--calibration is where an estimate begins; --apply estimates nothing");
-  if (!arguments.former.empty()) {
-    const Calibration former = readCalibration(arguments.former);
-    arguments.read.sensor_poses = former.poses;
-    arguments.read.corrections = former.corrections;
-  }
   for (const auto& text : arguments.poses)
     for (const auto& [label, pose] : parseSensorPoses(text, "--pose " + text))
       arguments.read.sensor_poses.insert_or_assign(label, pose);
@@ -169,8 +162,6 @@ void addCalibrateCommand(CLI::App& app) {
   command->add_option("-o,--output", a->output, "calibration file to write");
   command->add_option("--apply", a->apply,
                       "estimate nothing: write --rawlog with this calibration file applied");
-  command->add_option("--calibration", a->former,
-                      "calibration file to begin with; what is found takes its place");
   command->add_option("--json", a->json, "also write all parameters and their covariance to this file");
   command->add_option("--rawlog", a->rawlog, "also write the recording, corrected (gzip inside)");
   command
@@ -194,7 +185,6 @@ void addCalibrateCommand(CLI::App& app) {
       "  roomgraph run lab.rawlog -o out/lab --calibration calibration.ini\n"
       "  roomgraph calibrate monday.rawlog tuesday.rawlog -o calibration.ini --json calibration.json\n"
       "  roomgraph calibrate lab.rawlog -o calibration.ini --rawlog lab_corrected.rawlog\n"
-      "  roomgraph calibrate friday.rawlog --calibration calibration.ini -o better.ini\n"
       "  roomgraph calibrate other.rawlog --apply calibration.ini --rawlog other_corrected.rawlog\n"
       "Drive a minute or two along walls, with turns to both sides, and with some floor in view.\n"
       "What fixes which parameter, and how: docs/calibration.md.");

@@ -101,15 +101,6 @@ TEST_F(CalibrateCommand, FindsWhereSensorsSitAndWritesIt) {
       call(folder.path(), {"run", wrong, "-o", at("out"), "--calibration", at("found.ini"), "--quiet",
                            "--no-report", "--no-snapshot", "--set", "detection.enabled=false"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-
-  // The true recording read by the wrong calibration: what is found takes that back.
-  const auto begun =
-      calibrate({at("true/room.rawlog"), "--calibration", at("wrong.ini"), "-o", at("back.ini")});
-  ASSERT_EQ(begun.exit_code, 0) << begun.err;
-  const Calibration back = readCalibration(folder.file("back.ini"));
-  EXPECT_LT((back.poses.at("LIDAR").translation() - Eigen::Vector3d(0.05, 0, 0.3)).norm(), 0.012);
-  EXPECT_NEAR(back.corrections.time_offsets_s.at("KINECT"), 0, 0.005);
-  EXPECT_NEAR(back.corrections.wheels_time_offset_s, 0, 0.005);
 }
 
 TEST_F(CalibrateCommand, ErrorsAreOneLineWithTheirCode) {
@@ -124,10 +115,6 @@ TEST_F(CalibrateCommand, ErrorsAreOneLineWithTheirCode) {
       calibrate({room, "--apply", write("c.ini", "[wheels]\nsize = 1\n"), "--rawlog", at("x.rawlog")}), 2,
       HasSubstr("c.ini:2"));
   expectOneLine(calibrate({room, "--apply", at("c.ini")}), 2, HasSubstr("--rawlog"));
-  expectOneLine(calibrate({room, "--calibration", at("none.ini"), "-o", at("d.ini")}), 3,
-                HasSubstr("none.ini"));
-  expectOneLine(calibrate({room, "--calibration", at("c.ini"), "--apply", at("c.ini")}), 2,
-                HasSubstr("estimates nothing"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.rawlog")));
 }
 

@@ -49,25 +49,6 @@ TEST(WallMatches, KeepToTheGateAndToTheHeightOfTheLidar) {
   EXPECT_TRUE(matchWalls({}, off, 0.3, {}).empty());
 }
 
-// Skirting boards stand before the wall that the lidar sees above them.
-TEST(WallMatches, AreOfTheWallAboveItsSkirtingBoard) {
-  MadeUpDrive drive({.seconds = 10});
-  auto evidence = drive.evidence();
-  const ParameterVector p = trueParameters();
-  int boards = 0;
-  for (DepthView& view : evidence.views)
-    for (DepthCell& cell : view.upright) {
-      if (patchOnRobot(p.data(), cell.patch).z() > 0.12) continue;
-      cell.patch.point += 0.03 * cell.normal;
-      ++boards;
-    }
-  ASSERT_GT(boards, 100);
-  const auto matches = matchWalls(evidence, p, MadeUpDrive::kLidarZ, {0.08, 0.2});
-  ASSERT_GT(matches.size(), 20u);
-  for (const auto& match : matches) EXPECT_LT(offOf(evidence, match, p), 2e-3);
-  EXPECT_FALSE(matchWalls(evidence, p, 0.1, {0.08, 0.2}).empty()) << "a lidar lower than that sees no other";
-}
-
 TEST(CoarseOffsets, AreNearTheTruth) {
   MadeUpDrive drive({});
   const auto task = drive.task();

@@ -4,7 +4,6 @@
 
 #include <mrpt/poses/CPose3D.h>
 
-#include "composed_corrections.h"
 #include "estimate_calibration.h"
 #include "read_evidence.h"
 #include "roomgraph/core/errors.h"
@@ -74,11 +73,8 @@ Pose3 cameraPose(const ParameterVector& p) {
   return out;
 }
 
-// `read`: what the records were corrected by before they were looked at.
-Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimate& estimate,
-                          const RecordCorrections& read) {
+Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimate& estimate) {
   Calibration out;
-  out.corrections = read;
   const ParameterVector& p = estimate.after;
   if (sensors.robot_from_lidar) {
     const Pose2 before = planarPart(*sensors.robot_from_lidar);
@@ -89,12 +85,12 @@ Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimat
   if (sensors.robot_from_camera) {
     out.poses[sensors.camera_label] =
         normalized(cameraPose(p) * sensors.robot_from_camera->inverse() * sensors.robot_from_depth);
-    corrections.time_offsets_s[sensors.camera_label] += p[kCameraTime];
-    corrections.depth = composed(read.depth, {p[kDepthScale], p[kDepthBias]});
+    corrections.time_offsets_s[sensors.camera_label] = p[kCameraTime];
+    corrections.depth = {p[kDepthScale], p[kDepthBias]};
   }
   if (sensors.wheels) {
-    corrections.wheels_time_offset_s += p[kWheelTime];
-    corrections.wheels = composed(read.wheels, {p[kWheelScale], p[kTurnScale], p[kHeadingDrift]});
+    corrections.wheels_time_offset_s = p[kWheelTime];
+    corrections.wheels = {p[kWheelScale], p[kTurnScale], p[kHeadingDrift]};
   }
   return out;
 }
@@ -132,7 +128,7 @@ CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings
     if (progress) progress("estimate", share);
   });
   addModelErrors(out.estimate);
-  out.calibration = calibrationOf(out.sensors, out.estimate, read.corrections);
+  out.calibration = calibrationOf(out.sensors, out.estimate);
   out.frame = frameOf(out.sensors);
   return out;
 }

@@ -6,7 +6,6 @@
 #include <ceres/normal_prior.h>
 #include <glog/logging.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 
@@ -18,8 +17,7 @@ namespace {
 
 constexpr double kRobust = 2.5;        // standard deviations
 constexpr double kPathMargin_s = 0.3;  // as much as times may move while solving
-constexpr double kShortWheels_s = 0.2, kLongWheels_s = 2.4;
-constexpr double kLidarMove_m = 0.003, kLengthError = 0.02;  // of a movement; of lengths, per root of a metre
+constexpr double kShortWheels_s = 0.3, kLongWheels_s = 1.2, kStandsStill = 0.02;  // the last in m + rad
 constexpr double kTurnSigma_rad = 0.002, kMoveSigma_m = 0.004;  // of visual odometry between two images
 constexpr std::size_t kLeastResiduals = 8;                      // of fewer the scatter says nothing
 constexpr double kBin_s = 0.5;                                  // of gradients that are added up
@@ -29,17 +27,32 @@ double sigmaOf(const WallMatch& match) {
   return std::hypot(match.wall_sigma_m, patchSigma(match.patch.point.z()));
 }
 
-// Rows: along the direction in which errors of lengths spread most, and across it. Errors of lengths grow
-// like a random walk; those of the lidar do not.
-Eigen::Matrix2d whiteningOf(const WheelMovement& movement, double forward, double side) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(movement.directions);
-  const double spread_most = std::max(0.0, axes.eigenvalues()[1]),
-               spread_least = std::max(0.0, axes.eigenvalues()[0]);
-  Eigen::Matrix2d out;
-  out.row(0) = axes.eigenvectors().col(1).transpose() /
-               std::hypot(side * kLidarMove_m, forward * kLengthError * std::sqrt(spread_most));
-  out.row(1) = axes.eigenvectors().col(0).transpose() /
-               std::hypot(side * kLidarMove_m, forward * kLengthError * std::sqrt(spread_least));
+double lengthOf(const WheelMovement& movement) {
+  double out = 0;
+  for (const auto& step : movement.read) out += std::hypot(step[0], step[1]);
+  return out;
+}
+
+double turnOf(const WheelMovement& movement) {
+  double out = 0;
+  for (const auto& step : movement.read) out += std::abs(step[2]);
+  return out;
+}
+
+std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, const PlanarPath& wheels,
+                                          double offset, double seconds) {
+  std::vector<WheelMovement> out;
+  WheelMovement now{nullptr, wheels.time(0), 0, {}};
+  for (std::size_t i = 1; i < wheels.size(); ++i) {
+    now.read.push_back(planarBetween(wheels.values(i - 1), wheels.values(i)));
+    now.t_b = wheels.time(i);
+    if (now.t_b - now.t_a < seconds) continue;
+    now.lidar = pathAt(recording.lidar, now.t_a + offset, kPathMargin_s);
+    if (now.lidar && now.lidar->covers(now.t_b + offset, kPathMargin_s) && now.t_b - now.t_a < 2 * seconds &&
+        lengthOf(now) + turnOf(now) > kStandsStill)
+      out.push_back(now);
+    now = {nullptr, wheels.time(i), 0, {}};
+  }
   return out;
 }
 
@@ -77,16 +90,17 @@ void CalibrationProblem::add(ceres::CostFunction* cost, int recording, double t,
   blocks_.push_back({id, recording, t, std::move(kinds)});
 }
 
-// Short movements tell when the robot turns; long ones lead it far enough to show where on it the lidar is.
+// Short movements tell when the robot turns; long ones turn it far enough to show where on it the lidar is.
 void CalibrationProblem::addWheels(const RecordingEvidence& recording, int index) {
   for (const PlanarPath& wheels : recording.wheels) {
-    for (const WheelMovement& m : wheelMovements(recording.lidar, wheels, parameters_, kShortWheels_s))
+    for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kShortWheels_s))
       add(new ceres::AutoDiffCostFunction<WheelTurnCost, 1, kParameterCount>(
-              new WheelTurnCost{m, sigma(NoiseKind::kWheelTurn, turnSigma(m.length_m, m.turn_rad))}),
+              new WheelTurnCost{m, sigma(NoiseKind::kWheelTurn, turnSigma(lengthOf(m), turnOf(m)))}),
           index, m.t_b, {NoiseKind::kWheelTurn});
-    for (const WheelMovement& m : wheelMovements(recording.lidar, wheels, parameters_, kLongWheels_s))
+    for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kLongWheels_s))
       add(new ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(new WheelMoveCost{
-              m, whiteningOf(m, sigma(NoiseKind::kWheelForward, 1), sigma(NoiseKind::kWheelSide, 1))}),
+              m, parameters_[kWheelTime], sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
+              sigma(NoiseKind::kWheelSide, sideSigma(lengthOf(m), turnOf(m)))}),
           index, m.t_b, {NoiseKind::kWheelForward, NoiseKind::kWheelSide});
   }
 }

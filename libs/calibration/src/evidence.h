@@ -16,8 +16,8 @@ struct ScanWall {
   Eigen::Vector2d normal, along;         ///< unit vectors; along: normal turned by +90 deg
   double distance_m = 0;                 ///< not positive
   double from_m = 0, to_m = 0;           ///< extent, as along . p
-  double middle_m = 0;                   ///< along . p where the line is known best
-  double sigma_m = 0, spread_m = 0;      ///< of the distance there; how far from there it is sqrt(2) as much
+  double middle_m = 0;                   ///< mean of along . p of the returns
+  double sigma_m = 0, spread_m = 0;      ///< of the distance at the middle; standard deviation of along . p
   double sigmaAt(double along_m) const;  ///< of the distance there
 };
 

@@ -13,8 +13,14 @@ inline constexpr std::size_t kNoiseKinds = 7;
 /// On nominal standard deviations.
 using NoiseFactors = std::array<double, kNoiseKinds>;
 
-/// Of a turn by wheels against scan matching (rad): of the latter a constant, of the former what grows like a
-/// random walk.
+/// Of a movement by wheels against scan matching, forward and sideways (m) and of the turn (rad): of the
+/// latter a constant, of the former what grows like a random walk.
+inline double forwardSigma(double length_m) {
+  return std::hypot(0.003, 0.02 * std::sqrt(length_m));
+}
+inline double sideSigma(double length_m, double turn_rad) {
+  return std::hypot(0.003, 0.015 * length_m * std::sqrt(turn_rad));
+}
 inline double turnSigma(double length_m, double turn_rad) {
   return std::hypot(0.0015, 0.03 * std::sqrt(turn_rad), 0.005 * std::sqrt(length_m));
 }

@@ -5,28 +5,45 @@
 #include <ceres/rotation.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <vector>
 
 #include "sensor_model.h"
 #include "wall_matches.h"
-#include "wheel_movements.h"
 
 namespace roomgraph {
 
-// Of wheels and lidar, the wheels err more by far. Their residuals are errors of their readings, so by the
-// scale that corrects these: errors of what they measure, after correction, would be least with scales that
-// are too small.
+/// Movement of the robot by its wheels from one reading over others to a last one, against that of the lidar.
+/// The times are those of readings: of movements with independent errors, those in between would share some.
+struct WheelMovement {
+  const PlanarPath* lidar;
+  double t_a, t_b;
+  std::vector<PlanarValues<double>> read;  ///< from reading to reading
 
-/// Place after a movement. The time offset is the one found so far: of the speed that the curve has at an
-/// instant, noise is too large a part to tell it from.
+  /// Lidar minus wheels: forward, sideways, turn. `offset_s` is added to the stamps of the wheels.
+  template <class T>
+  PlanarValues<T> difference(const T* p, const T& offset_s) const {
+    const PlanarValues<T> by_lidar =
+        robotMovement(p, planarBetween(lidar->at(T(t_a + offset_s)), lidar->at(T(t_b + offset_s))));
+    PlanarValues<T> by_wheels{T(0), T(0), T(0)};
+    for (const auto& step : read)
+      by_wheels =
+          planarProduct(by_wheels, correctedMovement(p, PlanarValues<T>{T(step[0]), T(step[1]), T(step[2])}));
+    return {by_lidar[0] - by_wheels[0], by_lidar[1] - by_wheels[1], by_lidar[2] - by_wheels[2]};
+  }
+};
+
+/// The time offset is the one found so far: of the speed that the curve has at an instant, noise is too large
+/// a part to tell it from.
 struct WheelMoveCost {
   WheelMovement movement;
-  Eigen::Matrix2d whitening;  ///< gives the difference of places standard deviation 1 along each row
+  double offset_s, sigma_forward_m, sigma_side_m;
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    const Eigen::Matrix<T, 2, 1> off = whitening.cast<T>() * movement.placeDifference(p);
-    residuals[0] = off.x() / p[kWheelScale];
-    residuals[1] = off.y() / p[kWheelScale];
+    const auto off = movement.difference(p, T(offset_s));
+    residuals[0] = off[0] / sigma_forward_m;
+    residuals[1] = off[1] / sigma_side_m;
     return true;
   }
 };
@@ -37,7 +54,7 @@ struct WheelTurnCost {
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    residuals[0] = movement.turnDifference(p, p[kWheelTime]) / (sigma_rad * p[kTurnScale]);
+    residuals[0] = movement.difference(p, p[kWheelTime])[2] / sigma_rad;
     return true;
   }
 };
@@ -76,7 +93,7 @@ struct FloorCost {
 
 /// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
 /// of the robot by the lidar. Turn (3), then movement (3), in the
-/// earlier camera's frame. Only the angle depends on the time offset, as for wheels.
+/// earlier camera's frame. Only the angle depends on the time offset, as in WheelMoveCost.
 struct CameraStepCost {
   const PlanarPath* reference;
   CameraStep step;

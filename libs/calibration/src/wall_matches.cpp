@@ -15,7 +15,6 @@ namespace {
 constexpr double kLongestWait_s = 0.15;
 constexpr double kViewMargin_s = 0.3;
 constexpr double kSameHeight_m = 0.25;   // of heights around the lidar's
-constexpr double kSkirting_m = 0.14;     // skirting boards, feet of walls: below, where the lidar is not
 constexpr double kGatePerM2 = 0.004;     // by which gates are wider at depth z, times squared z
 constexpr double kEnd_m = 0.05;          // of a wall's extent that is left out at each end
 constexpr std::size_t kLeastCells = 12;  // of a match
@@ -102,9 +101,7 @@ void matchView(const DepthView& view, const WallScan& scan, const PlanarValues<d
   std::vector<std::vector<SeenCell>> of_wall(scan.walls.size());
   for (const DepthCell& cell : view.upright) {
     const Placed placed = place(cell, p, scan_from_view);
-    if (std::abs(placed.height_m - lidar_z_m) > kSameHeight_m ||
-        placed.height_m < std::min(kSkirting_m, lidar_z_m))
-      continue;
+    if (std::abs(placed.height_m - lidar_z_m) > kSameHeight_m) continue;
     std::optional<std::size_t> best;
     const double z = cell.patch.point.z();
     SeenCell seen{&cell, gate.distance_m + kGatePerM2 * z * z, 0};

@@ -33,11 +33,10 @@ struct CalibrationReport {
 /// What is being done, and the share of it that is done.
 using CalibrationProgress = std::function<void(const std::string& what, double share)>;
 
-/// Reads the recordings, which must be of the same sensors in the same places. `read`: chosen sensors, poses
-/// to begin with, and corrections of a former calibration: the estimate is then of what is left, the
-/// calibration of both together. Throws InputError or ConfigError like RawlogReader, InputError when a
-/// recording has other sensors or moves them on the robot, RunError when nothing in the recordings says
-/// anything. `progress` may throw to end it.
+/// Reads the recordings, which must be of the same sensors in the same places. `read`: chosen sensors, and
+/// poses to begin with. Throws InputError or ConfigError like RawlogReader, InputError when a recording has
+/// other sensors or moves them on the robot, RunError when nothing in the recordings says anything.
+/// `progress` may throw to end it.
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
                             const CalibrationProgress& progress = nullptr);
 
