@@ -109,7 +109,9 @@ void addMeaning(CLI::App& command, BagArguments& a) {
 void addCommand(CLI::App& importer, const std::string& name, const std::string& description) {
   auto* command = importer.add_subcommand(name, description);
   auto a = std::make_shared<BagArguments>();
-  command->add_option("BAG", a->bag, "X.bag of ROS 1; X.db3 of ROS 2, or the folder with metadata.yaml")
+  command
+      ->add_option("BAG", a->bag,
+                   "X.bag of ROS 1; X.db3 or X.mcap of ROS 2, or the folder with metadata.yaml")
       ->required();
   command->add_option("-o,--output", a->rawlog, "rawlog to write (gzip inside)");
   command->add_flag("--list", a->list, "only list topics, frames and clocks");

@@ -7,6 +7,7 @@
 
 #include "bag_reader.h"
 #include "corpus.h"
+#include "mcap_maker.h"
 #include "three_frames.h"
 
 namespace roomgraph::fuzz {
@@ -107,6 +108,11 @@ void addBags(Corpus& corpus) {
     }
     corpus.add(ros2 ? "bag_ros2" : "bag_ros1", name, bytes);
     addMessages(corpus, folder.file(bag), name);
+    if (!ros2) continue;
+    corpus.add("bag_mcap", name + "_lz4", test::mcapOf(folder.file(bag), {.compression = "lz4"}));
+    corpus.add("bag_mcap", name + "_zstd",
+               test::mcapOf(folder.file(bag), {.compression = "zstd", .checksums = false, .summary = true}));
+    corpus.add("bag_mcap", name + "_plain", test::mcapOf(folder.file(bag), {.chunk_bytes = 0}));
   }
 }
 

@@ -19,6 +19,12 @@ ROOMGRAPH_FUZZ_TARGET(bag_ros2) {
   importBag(bag, scratchFolder() / "bag.rawlog");
 }
 
+ROOMGRAPH_FUZZ_TARGET(bag_mcap) {
+  const auto bag = scratchFile("x.mcap", bytes);
+  listBag(bag);
+  importBag(bag, scratchFolder() / "bag.rawlog");
+}
+
 template <class Message>
 void decodeMessage(const bags::RawMessage& message) {
   bags::decode<Message>(message);

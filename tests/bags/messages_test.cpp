@@ -10,6 +10,8 @@
 #include <random>
 
 #include "byte_writer.h"
+#include "decompression.h"
+#include "file_window.h"
 #include "message_types.h"
 #include "message_writing.h"
 #include "record_making.h"

@@ -144,12 +144,12 @@ TEST(Ros2Folder, FilesAreReadByNumberAndTopicsAreOne) {
   EXPECT_DOUBLE_EQ(reader->progress(), 1);
 }
 
-TEST(Ros2Folder, OneOfAnotherStorageSaysSo) {
+TEST(Ros2Folder, OneThatIsCompressedSaysSo) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.file("rec"));
-  folder.write("rec/rec_0.mcap", "\x89MCAP0\r\n");
+  folder.write("rec/rec_0.db3.zstd", "\x28\xb5\x2f\xfd....");
   EXPECT_THAT(messageOf<InputError>([&] { openBag(folder.file("rec")); }),
-              ::testing::HasSubstr("rec_0.mcap: is in MCAP"));
+              ::testing::HasSubstr("rec_0.db3.zstd: is compressed (zstd)"));
   makeBag(folder, R"({"ros2": "<", "seconds": 0.2})", "rec/rec_0.db3");
   EXPECT_EQ(countsOf(*openBag(folder.file("rec"))).at("/scan"), 2) << "the one that can be read is";
 }

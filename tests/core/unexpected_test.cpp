@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 TEST(Unexpected, WantOfMemoryIsNoFaultOfTheProgram) {
   try {
     volatile std::size_t all = std::numeric_limits<std::size_t>::max() / 4;
-    delete[] new char[all];
+    ::operator delete(::operator new(all));  // a pair of new and delete expressions may be left out
     FAIL() << "so much memory has nobody";
   } catch (const std::exception& error) {
     EXPECT_THAT(textOfUnexpected(error), StartsWith("not enough memory: "));

@@ -2,8 +2,10 @@
 // Probability grid, refinement and score pyramid: derivatives, covariance, corridor, maxima.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
 #include "grid_refinement.h"
 #include "score_pyramid.h"
@@ -143,18 +145,99 @@ TEST(WeakDirectionWeight, ActsAlongTheWeakAxisOnly) {
   EXPECT_NEAR(weight(1, 1), 0, 1e-9);
 }
 
-TEST(ScorePyramid, LevelsAreMaximaOverSquares) {
-  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}});
+// `says`: what the pyramid is to show; `grid`: what it is made of.
+void expectMaxima(const ProbabilityGrid& says, const ProbabilityGrid& grid) {
   const ScorePyramid pyramid(grid, 4);
   for (int level = 0; level < 4; ++level)
-    for (int x = -9; x < grid.width() + 2; x += 5)
-      for (int y = -9; y < grid.height() + 2; y += 3) {
+    for (int x = -9; x < says.width() + 2; x += 5)
+      for (int y = -9; y < says.height() + 2; y += 3) {
         int largest = 0;
         for (int i = 0; i < 1 << level; ++i)
           for (int j = 0; j < 1 << level; ++j)
-            largest = std::max(largest, static_cast<int>(grid.at(x + i, y + j) * 255.f));
+            largest = std::max(largest, static_cast<int>(says.at(x + i, y + j) * 255.f));
         ASSERT_EQ(pyramid.at(level, x, y), largest) << level << " " << x << " " << y;
       }
+}
+
+TEST(ScorePyramid, LevelsAreMaximaOverSquares) {
+  ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}});
+  expectMaxima(grid, grid);
+  const ProbabilityGrid before = grid;
+  grid.finish();
+  expectMaxima(before, grid);
+}
+
+TEST(RecentPyramids, AreThoseAskedForLast) {
+  std::vector<ProbabilityGrid> grids;
+  for (int i = 0; i < 5; ++i) grids.push_back(mapOf(asymmetricRoom(), {{0.3 * i, 0, 0}}));
+  RecentPyramids recent(2, 3);
+  std::mt19937 random(1);
+  std::vector<std::size_t> asked;
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t number = random() % grids.size();
+    std::erase(asked, number);
+    asked.push_back(number);
+    const ScorePyramid& pyramid = recent.of(number, grids[number]);
+    const ScorePyramid fresh(grids[number], 2);
+    for (int x = 0; x < grids[number].width(); x += 3)
+      for (int y = 0; y < grids[number].height(); y += 3) ASSERT_EQ(pyramid.at(1, x, y), fresh.at(1, x, y));
+    for (std::size_t other = 0; other < grids.size(); ++other) {
+      const auto place = std::find(asked.rbegin(), asked.rend(), other);
+      EXPECT_EQ(recent.holds(other), place < asked.rbegin() + std::min<std::ptrdiff_t>(3, std::ssize(asked))) << i;
+    }
+  }
+}
+
+TEST(FinishedGrid, SaysTheSameToTheLastBit) {
+  ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}, {0.73, 0.21, 0.9}, {-0.4, 0.33, -2}});
+  const ProbabilityGrid before = grid;
+  grid.finish();
+  EXPECT_EQ(grid.corner(), before.corner());
+  for (int x = -3; x < before.width() + 3; ++x)
+    for (int y = -3; y < before.height() + 3; ++y) {
+      ASSERT_EQ(grid.at(x, y), before.at(x, y)) << x << " " << y;
+      ASSERT_EQ(grid.known(x, y), before.known(x, y)) << x << " " << y;
+    }
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> along(-1, 1 + 0.05 * std::max(before.width(), before.height()));
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector2d point = before.corner() + Eigen::Vector2d(along(random), along(random));
+    Eigen::Vector2d slope, slope_before;
+    ASSERT_EQ(grid.interpolate(point, &slope), before.interpolate(point, &slope_before)) << point.transpose();
+    ASSERT_EQ(slope, slope_before) << point.transpose();
+    ASSERT_EQ(grid.cellOf(point), before.cellOf(point));
+  }
+}
+
+TEST(FinishedGrid, KeepsNothingAroundTheCellsThatWereSeen) {
+  ProbabilityGrid grid(0.1);
+  grid.insert({{0.05, 0.05}, {{1.05, 0.05}, {0.55, 0.35}}}, {}, {0.6, 0.4});
+  grid.finish();
+  const Eigen::Vector2i lidar = grid.cellOf({0.05, 0.05});
+  const ProbabilityGrid::Block& block = grid.storedBlock();
+  EXPECT_EQ(block.x0, lidar.x());
+  EXPECT_EQ(block.y0, lidar.y());
+  EXPECT_EQ(block.width, 11);
+  EXPECT_EQ(block.height, 4);
+  EXPECT_THROW(grid.insert({{0.05, 0.05}, {{1.05, 0.05}}}, {}, {0.6, 0.4}), std::logic_error);
+}
+
+TEST(FinishedGrid, MayHaveMoreValuesThanCodes) {
+  constexpr int kSide = 300;
+  std::vector<float> cells;
+  for (int i = 0; i < kSide * kSide; ++i) cells.push_back(0.1f + 1e-6f * static_cast<float>(i));
+  ProbabilityGrid grid(0.05, {1, 2}, kSide, kSide, cells);
+  grid.finish();
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) ASSERT_EQ(grid.at(x, y), cells[static_cast<std::size_t>(y * kSide + x)]);
+}
+
+TEST(FinishedGrid, MayBeEmpty) {
+  ProbabilityGrid grid(0.1);
+  grid.finish();
+  EXPECT_FALSE(grid.known(0, 0));
+  EXPECT_EQ(grid.interpolate({0.3, 0.2}), static_cast<double>(ProbabilityGrid::kMin));
+  EXPECT_EQ(ScorePyramid(grid, 3).at(2, 0, 0), static_cast<int>(ProbabilityGrid::kMin * 255.f));
 }
 
 }  // namespace

@@ -134,6 +134,34 @@ TEST(SubmapLoopCloser, ACorridorConfirmsNothing) {
   EXPECT_FALSE(in_a_corridor.verify(proposed)) << "a metre farther along it looks the same";
 }
 
+// The map holds the walls of a room as they are seen inside, the scans to be placed see them from outside: walls have
+// a thickness, so that these cannot be the same.
+TEST(SubmapLoopCloser, WallsSeenFromBehindConfirmNothing) {
+  const auto walls = test::asymmetricRoom();
+  const auto inside = oval(170);
+  std::vector<Pose2> outside;
+  for (int i = 0; i < 60; ++i) outside.push_back({6.5 - 0.02 * i, -4 + 0.01 * i, 0.02 * i});
+  for (const bool through : {false, true}) {
+    std::mt19937 random(5);
+    SubmapLoopCloser closer;
+    closer.prepare();
+    for (int i = 0; i < 230; ++i) {
+      const bool first = i < 170;
+      const Pose2 pose = first ? (through ? inside : oval(170))[static_cast<std::size_t>(i)]
+                               : (through ? outside[static_cast<std::size_t>(i - 170)] : inside[static_cast<std::size_t>(i - 170)]);
+      ScanMatch match{.matched = true};
+      match.odom_from_robot = first ? pose : Pose2{40, 0, 0.5} * pose;
+      match.segment = first ? 0 : 1;
+      closer.add(test::castScan(walls, pose, 0.2 * i, random), match);
+    }
+    RelativePose proposed;
+    proposed.t_a = 0.2 * 20;
+    proposed.t_b = 0.2 * 195;
+    proposed.a_from_b = toPose3(inside[20].inverse() * (through ? outside[25] : inside[25]));
+    EXPECT_EQ(closer.verify(proposed).has_value(), !through);
+  }
+}
+
 TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
   const auto poses = oval(170);
   SubmapLoopCloser closer;

@@ -169,5 +169,17 @@ TEST_F(Refinement, NothingInAPlaceThatTheMapDoesNotShow) {
   EXPECT_EQ(grid_only.grid_from_scan.y, before.y);
 }
 
+// Two rooms with a wall of 10 cm between them, one of which is in the map.
+TEST_F(Refinement, TheWallOfTheNextRoomIsSeenFromBehindByAScanOutOfItsPlace) {
+  const auto room = test::boxAt(-4, -2, 3.95, 4), next = test::boxAt(0.05, -2, 4, 4);
+  for (int i = 0; i < 20; ++i) insert({-2 + 0.03 * i, 0.02 * i, 0.05 * i}, room, 0.005);
+  const Pose2 in_room{-1.5, 0.2, 0.3}, in_next{1.5, 0.2, 0.3};
+  EXPECT_LT(shareOnWrongSide(surfaces, faced(seenFrom(room, in_room, random, 0.005)), in_room), 0.02);
+  const FacedScan scan = faced(seenFrom(next, in_next, random, 0.005));
+  EXPECT_LT(shareOnWrongSide(surfaces, scan, in_next), 0.02) << "a wall thicker than the errors";
+  EXPECT_GT(shareOnWrongSide(surfaces, scan, {in_next.x - 0.1, in_next.y, in_next.yaw}), 0.8);
+  EXPECT_EQ(shareOnWrongSide(surfaces, scan, {in_next.x + 50, in_next.y, in_next.yaw}), 0) << "nothing known there";
+}
+
 }  // namespace
 }  // namespace roomgraph

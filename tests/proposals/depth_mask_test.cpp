@@ -22,6 +22,13 @@ struct Seen {
   Pose3 ground_from_camera;
 };
 
+Seen seenIn(const Scene& scene) {
+  Seen seen;
+  seen.frame = scene.render(&seen.labels);
+  seen.ground_from_camera = cameraFromGround(groundInCamera(scene.world_from_camera)).inverse();
+  return seen;
+}
+
 // A chair-sized cylinder (object 1) before a wall (object 2), partly covered by a post nearer to the camera
 // (3).
 Seen chairBeforeWall(bool post) {
@@ -30,10 +37,7 @@ Seen chairBeforeWall(bool post) {
   scene.addCylinder(2.0, 0.1, 0.3, 0.95, 1);
   scene.addBox(3.0, 0, 0, 6, 0.2, 0, 3, 2);
   if (post) scene.addBox(1.0, 0.16, 0, 0.05, 0.05, 0, 1.2, 3);
-  Seen seen;
-  seen.frame = scene.render(&seen.labels);
-  seen.ground_from_camera = cameraFromGround(groundInCamera(scene.world_from_camera)).inverse();
-  return seen;
+  return seenIn(scene);
 }
 
 double shareOf(const DepthMask& mask, int object, const cv::Mat& labels) {
@@ -49,7 +53,9 @@ TEST(DepthMask, GroundWallAndOccluderAreRemoved) {
     const Detection detection = test::detectionOf(1, seen.labels, "swivel_chair");
     const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
     const DepthMask mask =
-        explanations(all, detection.box, *database().find("swivel_chair"), seen.frame.camera.fx, 1).at(0);
+        explanations(all, sampleRing(seen.frame, detection.box, seen.ground_from_camera), detection.box,
+                     *database().find("swivel_chair"), seen.frame.camera.fx, 1)
+            .at(0);
     EXPECT_GT(mask.points.size(), 200u);
     EXPECT_LE(all.points.size(), 1700u);
     EXPECT_GT(shareOf(mask, 1, seen.labels), 0.97);
@@ -67,12 +73,14 @@ TEST(DepthMask, TheDetectorsMaskIsHonoured) {
   for (const auto& p : all.points) EXPECT_LT(p.u, detection.box.center().x() + 1);
 }
 
-// Points on an upright patch 4 m away, one for each pixel of the columns [from, to) and 50 rows from `bottom` (m) on.
+// Points on an upright patch 4 m away, one for each pixel of the columns [from, to) and 50 rows from `bottom`
+// (m) on.
 void addPatch(int from, int to, double bottom, DepthMask& all) {
   for (int u = from; u < to; ++u)
     for (int v = 0; v < 50; ++v) {
       const double metres_per_px = 4 / 262.5;
-      all.points.push_back({static_cast<double>(u), static_cast<double>(v),
+      all.points.push_back({static_cast<double>(u),
+                            static_cast<double>(v),
                             {4, (50 - u) * metres_per_px, bottom + (49 - v) * metres_per_px}});
     }
   all.valid_ratio = 1;
@@ -82,7 +90,8 @@ TEST(DepthMask, WhatStandsInTheMiddleOfTheBoxIsTheObject) {
   DepthMask all;
   addPatch(0, 24, 0.15, all);  // larger, but beside it
   addPatch(45, 65, 0.15, all);
-  const DepthMask mask = explanations(all, {0, 0, 100, 50}, *database().find("swivel_chair"), 262.5, 1).at(0);
+  const DepthMask mask =
+      explanations(all, {}, {0, 0, 100, 50}, *database().find("swivel_chair"), 262.5, 1).at(0);
   EXPECT_EQ(mask.points.size(), 20u * 50);
   for (const auto& p : mask.points) EXPECT_GE(p.u, 45);
 }
@@ -98,12 +107,34 @@ TEST(DepthMask, ABackRestBehindTheSeatBelongsToASofa) {
       p.in_ground.x() += behind;
       if (p.in_ground.z() > 0.5) all.points.push_back(p);
     }
-    return std::pair{explanations(all, {0, 0, 100, 50}, *database().find("sofa"), 262.5, 1).at(0).points.size(),
-                     all.points.size()};
+    return std::pair{
+        explanations(all, {}, {0, 0, 100, 50}, *database().find("sofa"), 262.5, 1).at(0).points.size(),
+        all.points.size()};
   };
   const auto near = sizeWith(0.6), far = sizeWith(1.1);
   EXPECT_EQ(near.first, near.second);
   EXPECT_EQ(far.first, 100u * 50) << "farther behind than a sofa is deep";
+}
+
+// A chair half behind a cupboard, which is nearer and most of what is in the chair's box, but goes on beyond
+// it.
+TEST(DepthMask, WhatGoesOnBeyondTheBoxIsNotTheObject) {
+  Scene scene = test::sceneAhead();
+  scene.addCylinder(2.6, 0.0, 0.3, 0.95, 1);
+  scene.addBox(1.5, -0.53, 0, 1.1, 0.3, 0, 1.6, 3);
+  const Seen seen = seenIn(scene);
+  Scene alone = test::sceneAhead();
+  alone.addCylinder(2.6, 0.0, 0.3, 0.95, 1);
+  const Detection detection = test::detectionOf(1, seenIn(alone).labels, "swivel_chair");
+  const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
+  ASSERT_GT(shareOf(all, 3, seen.labels), 0.5);
+  const auto masks = explanations(all, sampleRing(seen.frame, detection.box, seen.ground_from_camera),
+                                  detection.box, *database().find("swivel_chair"), seen.frame.camera.fx, 2);
+  ASSERT_EQ(masks.size(), 2U);
+  EXPECT_GT(shareOf(masks[0], 1, seen.labels), 0.97);
+  EXPECT_LT(masks[0].goes_on, 0.1);
+  EXPECT_GT(shareOf(masks[1], 3, seen.labels), 0.9);
+  EXPECT_GT(masks[1].goes_on, 0.9);
 }
 
 TEST(DepthMask, NothingToSample) {
@@ -117,7 +148,7 @@ TEST(DepthMask, NothingToSample) {
   const DepthMask all = sampleBox(seen.frame, detection, seen.ground_from_camera);
   EXPECT_TRUE(all.points.empty());
   EXPECT_EQ(all.valid_ratio, 0);
-  EXPECT_TRUE(explanations(all, {0, 0, 320, 240}, *database().find("sofa"), 262, 1).empty());
+  EXPECT_TRUE(explanations(all, {}, {0, 0, 320, 240}, *database().find("sofa"), 262, 1).empty());
   seen.frame.depth = cv::Mat();
   EXPECT_TRUE(sampleBox(seen.frame, detection, seen.ground_from_camera).points.empty());
 }

@@ -153,12 +153,14 @@ class Surroundings(unittest.TestCase):
     def test_odd_paths(self):
         place = self.top / "mit Leerzeichen, Größe ☃ 'q\" $x"
         place.mkdir()
-        recording = place / "Raum ä.rawlog"
-        shutil.copy(RAWLOG, recording)
-        self.assert_usual(*self.run_into(place / "Aus gabe ö", recording))
+        # Results name the recording: its folder is odd here, its own name is below.
+        shutil.copy(RAWLOG, place)
+        self.assert_usual(*self.run_into(place / "Aus gabe ö", place / pathlib.Path(RAWLOG).name))
         exported = self.call("map", "export", place / "Aus gabe ö" / "map.rgmap", "-o", place / "Karte ü")
         self.assertEqual(exported.returncode, 0, exported.stderr)
         self.assertTrue((place / "Karte ü" / "map.yaml").is_file())
+        recording = place / "Raum ä.rawlog"
+        shutil.copy(RAWLOG, recording)
         batch = self.call("batch", recording, "-o", place / "Stapel ß")
         self.assertEqual(batch.returncode, 0, batch.stderr)
         self.assertEqual(len(list((place / "Stapel ß" / "runs").iterdir())), 1)

@@ -49,7 +49,7 @@ TEST(BundleAdjustment, BringsKeyframesAndPointsBack) {
   World world;
   world.map.keyframe(1).odom_from_camera = world.truth[1] * poseFromYpr(0.01, 0.01, 0.01, 0.01, 0.01, 0.01);
   world.map.keyframe(2).odom_from_camera = world.truth[2] * poseFromYpr(-0.015, -0.015, -0.015, -0.015, -0.015, -0.015);
-  for (auto& point : world.map.points) point.position += Eigen::Vector3d(0.005, 0.01, -0.02);
+  for (std::size_t i = 0; i < world.map.points.size(); ++i) world.map.points[i].position += Eigen::Vector3d(0.005, 0.01, -0.02);
   TrackingParameters parameters;
   parameters.ba_iterations = 20;
   adjustLocally(world.map, 2, parameters);

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <set>
+#include <tuple>
 
 #include "matcher.h"
 #include "textured_room.h"
@@ -30,6 +31,14 @@ TEST(FeatureGrid, FindsWhatBruteForceFinds) {
       if (std::hypot(keypoints[static_cast<std::size_t>(i)].pt.x - u,
                      keypoints[static_cast<std::size_t>(i)].pt.y - v) <= 25)
         expected.push_back(i);
+    // Matching takes the first of equally good ones: by rows of cells, in a row by column, in a cell by index.
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), [&](int a, int b) {
+      const auto key = [&](int i) {
+        const cv::Point2f& p = keypoints[static_cast<std::size_t>(i)].pt;
+        return std::tuple(static_cast<int>(p.y) / 16, static_cast<int>(p.x) / 16, i);
+      };
+      return key(a) < key(b);
+    }));
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
   }

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <random>
 #include <set>
 
@@ -100,6 +103,41 @@ TEST(LocalMap, RemovalKeepsBothDirectionsConsistent) {
   EXPECT_TRUE(map.point(5).sightings.empty());
   expectConsistent(map);
   EXPECT_THAT(map.pointsOf({2, 1}), ElementsAre(0, 1, 2, 3, 6, 7, 8, 9));
+}
+
+TEST(PointStore, AnErasedPointLeavesItsMemoryToOthersAndKeepsItsId) {
+  PointStore points;
+  std::map<std::size_t, double> alive;  // x of the position
+  std::size_t made = 0, most = 0;
+  std::mt19937 random(11);
+  for (int step = 0; step < 5000; ++step) {
+    if (alive.empty() || random() % 100 < (step < 1000 ? 80 : 50)) {
+      MapPoint& point = points.add();
+      EXPECT_FALSE(point.erased);
+      EXPECT_TRUE(point.sightings.empty() && point.visible == 0) << "of the one before nothing is left";
+      point.position.x() = alive[made++] = static_cast<double>(random() % 1000);
+      point.visible = 3;
+      point.sightings.push_back({1, 2});
+    } else {
+      const auto victim = std::next(alive.begin(), static_cast<std::ptrdiff_t>(random() % alive.size()));
+      points.release(victim->first);
+      points.release(victim->first);  // again: nothing happens
+      alive.erase(victim);
+    }
+    most = std::max(most, alive.size());
+    ASSERT_EQ(points.size(), made);
+    ASSERT_EQ(points.held(), alive.size());
+  }
+  EXPECT_LT(most, made / 2);
+  for (std::size_t id = 0; id < made; ++id) {
+    const auto found = alive.find(id);
+    ASSERT_EQ(points[id].erased, found == alive.end()) << id;
+    if (found != alive.end()) {
+      EXPECT_EQ(points[id].position.x(), found->second) << id;
+    } else {
+      EXPECT_TRUE(points[id].sightings.empty()) << id;
+    }
+  }
 }
 
 TEST(LocalMap, CovisibilityCountsSharedPoints) {

@@ -90,7 +90,7 @@ struct OnePoint {
     point.octave = 2;
     point.distance = 2;
     point.descriptor = randomDescriptor(random);
-    map.points.push_back(point);
+    map.points.add() = point;
   }
   void addFeature(double u, double v, int octave, int bits) {
     features.keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v), 31.F);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <map>
 
+#include "mcap_bag.h"
 #include "roomgraph/core/errors.h"
 #include "ros1_bag.h"
 #include "ros2_bag.h"
@@ -27,18 +29,17 @@ std::string beginningOf(const fs::path& file) {
   return text;
 }
 
-enum class BagKind { kRos1, kSqlite };
+enum class BagKind { kRos1, kSqlite, kMcap };
 
 BagKind kindOf(const fs::path& file) {
   const std::string text = beginningOf(file);
   if (text.empty()) throw InputError(file.string() + ": is empty");
   if (text.starts_with("#ROSBAG V")) return BagKind::kRos1;
   if (text.starts_with("SQLite format 3")) return BagKind::kSqlite;
-  if (text.starts_with("\x89MCAP"))
-    throw InputError(file.string() + ": is in MCAP, for which Debian has no library" + kConvert);
+  if (text.starts_with("\x89MCAP")) return BagKind::kMcap;
   if (text.starts_with("\x28\xb5\x2f\xfd"))
     throw InputError(file.string() + ": is compressed (zstd)" + kConvert);
-  throw InputError(file.string() + ": is no bag, neither of ROS 1 (.bag) nor of ROS 2 (.db3)");
+  throw InputError(file.string() + ": is no bag, neither of ROS 1 (.bag) nor of ROS 2 (.db3, .mcap)");
 }
 
 // "x_10.db3" comes behind "x_9.db3".
@@ -51,18 +52,16 @@ std::pair<long, std::string> placeOf(const fs::path& file) {
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::string other;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    const fs::path& file = entry.path();
-    if (file.extension() == ".db3") files.push_back(file);
-    if (file.extension() == ".mcap" || file.extension() == ".zstd") other = file.string();
+  std::map<std::string, std::vector<fs::path>> found;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file()) found[entry.path().extension().string()].push_back(entry.path());
+  for (const char* extension : {".db3", ".mcap", ".zstd"}) {
+    auto& files = found[extension];
+    std::sort(files.begin(), files.end(),
+              [](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
+    if (!files.empty()) return files;  // of one that cannot be read, its own error says more
   }
-  if (files.empty() && !other.empty()) return {other};  // its own error says more
-  if (files.empty()) throw InputError(folder.string() + ": no bag in this folder (no .db3)");
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return placeOf(a) < placeOf(b); });
-  return files;
+  throw InputError(folder.string() + ": no bag in this folder (no .db3, no .mcap)");
 }
 
 }  // namespace
@@ -74,9 +73,12 @@ std::vector<fs::path> filesOfBag(const fs::path& bag) {
 
 std::unique_ptr<BagReader> openBag(const fs::path& bag) {
   const auto files = filesOfBag(bag);
+  const BagKind kind = kindOf(files.front());
   for (const auto& file : files)
-    if (const auto kind = kindOf(file); kind == BagKind::kRos1) return openRos1Bag(file);
-  return openRos2Bag(files);
+    if (kindOf(file) != kind)
+      throw InputError(file.string() + ": is of another kind than " + files.front().string());
+  if (kind == BagKind::kRos1) return openRos1Bag(files.front());
+  return kind == BagKind::kMcap ? openMcapBag(files) : openRos2Bag(files);
 }
 
 }  // namespace roomgraph::bags

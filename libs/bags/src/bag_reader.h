@@ -39,8 +39,8 @@ class BagReader {
   virtual const std::vector<std::string>& problems() const = 0;
 };
 
-/// Opens a bag by what is in it: a .bag of ROS 1, a .db3 of ROS 2, or the folder of one. Throws InputError
-/// naming the file and why it cannot be read.
+/// Opens a bag by what is in it: a .bag of ROS 1, a .db3 or .mcap of ROS 2, or the folder of one. Throws
+/// InputError naming the file and why it cannot be read.
 std::unique_ptr<BagReader> openBag(const std::filesystem::path& bag);
 
 /// The files that are read of the bag.

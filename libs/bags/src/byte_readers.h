@@ -22,7 +22,7 @@ struct BadMessage : std::runtime_error {
 
 // Both readers give views into the message, so nothing is allocated by a length that the bytes do not bear.
 
-/// ROS 1: little endian, no alignment, lengths of 32 bits.
+/// ROS 1, and the records of MCAP: little endian, no alignment, lengths of 32 bits.
 class Ros1Reader {
  public:
   static constexpr bool kRos1 = true;

@@ -10,8 +10,11 @@
 #include <map>
 #include <optional>
 
+#include "decompression.h"
+#include "file_window.h"
 #include "roomgraph/core/errors.h"
 #include "ros1_records.h"
+#include "topic_list.h"
 
 namespace roomgraph::bags {
 namespace {
@@ -69,11 +72,8 @@ class Ros1Bag : public BagReader {
       }
     }
   }
-  const std::vector<BagTopic>& topics() const override { return topics_; }
-  void wants(std::function<Want(const BagTopic&)> wants) override {
-    wants_ = std::move(wants);
-    for (std::size_t i = 0; i < topics_.size(); ++i) wanted_[i] = wants_(topics_[i]);
-  }
+  const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
+  void wants(std::function<Want(const BagTopic&)> wants) override { topics_.setWants(std::move(wants)); }
   double progress() const override {
     return static_cast<double>(offset_) / static_cast<double>(window_.size());
   }
@@ -173,7 +173,7 @@ class Ros1Bag : public BagReader {
       damaged(record.data, "a message of no known topic");
       return false;
     }
-    const Want want = wanted_[connection->second];
+    const Want want = topics_.wanted(connection->second);
     if (want == Want::kNothing) return false;
     message.topic = connection->second;
     message.received_ns = nanoseconds(*time);
@@ -186,14 +186,7 @@ class Ros1Bag : public BagReader {
     const auto about = parseFields(data);
     const auto topic = fields.find("topic");
     if (!about || topic == fields.end() || !about->contains("type")) return;
-    const BagTopic added{topic->second, about->find("type")->second};
-    const auto known = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
-      return other.name == added.name && other.type == added.type;
-    });
-    connections_[id] = static_cast<std::size_t>(known - topics_.begin());
-    if (known != topics_.end()) return;
-    topics_.push_back(added);
-    wanted_.push_back(wants_ ? wants_(added) : Want::kAll);
+    connections_[id] = topics_.add({topic->second, about->find("type")->second});
   }
 
   void problem(const std::string& what) { problems_.push_back(file_.string() + ": " + what); }
@@ -241,9 +234,7 @@ class Ros1Bag : public BagReader {
   std::vector<std::uint8_t> chunk_;  ///< content of a compressed chunk
   std::size_t in_chunk_ = 0;
   std::map<std::uint32_t, std::size_t> connections_;
-  std::vector<BagTopic> topics_;
-  std::vector<Want> wanted_;
-  std::function<Want(const BagTopic&)> wants_;
+  TopicList topics_;
   std::vector<std::string> problems_;
   int damages_ = 0;
 };

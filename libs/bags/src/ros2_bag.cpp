@@ -6,15 +6,10 @@
 #include <map>
 
 #include "roomgraph/datasets/sqlite_reader.h"
+#include "topic_list.h"
 
 namespace roomgraph::bags {
 namespace {
-
-// rosbag2 writes "sensor_msgs/msg/Image".
-std::string ros1Name(std::string type) {
-  if (const auto middle = type.find("/msg/"); middle != type.npos) type.replace(middle, 5, "/");
-  return type;
-}
 
 class Ros2Bag : public BagReader {
  public:
@@ -36,10 +31,9 @@ class Ros2Bag : public BagReader {
     }
     return false;
   }
-  const std::vector<BagTopic>& topics() const override { return topics_; }
+  const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
   void wants(std::function<Want(const BagTopic&)> wants) override {
-    wants_ = std::move(wants);
-    for (std::size_t i = 0; i < topics_.size(); ++i) wanted_[i] = wants_(topics_[i]);
+    topics_.setWants(std::move(wants));
     if (database_) query();
   }
   double progress() const override {
@@ -65,7 +59,7 @@ class Ros2Bag : public BagReader {
                             "'");
         continue;
       }
-      topic_of_[database_->integer(0)] = add(topic);
+      topic_of_[database_->integer(0)] = topics_.add(topic);
     }
     if (state == SqliteReader::Step::kFailed) database_->fail();
     database_->ask("SELECT max(id) FROM messages");
@@ -73,25 +67,13 @@ class Ros2Bag : public BagReader {
     query();
   }
 
-  std::size_t add(const BagTopic& topic) {
-    const auto known = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
-      return other.name == topic.name && other.type == topic.type;
-    });
-    const auto index = static_cast<std::size_t>(known - topics_.begin());
-    if (known == topics_.end()) {
-      topics_.push_back(topic);
-      wanted_.push_back(wants_ ? wants_(topic) : Want::kAll);
-    }
-    return index;
-  }
-
   // By id, which is the order of recording and that of the table: by time, a file without the index on time
   // would have to be sorted first.
   void query() {
     std::string whole = "-1", beginning = "-1";
     for (const auto& [id, topic] : topic_of_) {
-      if (wanted_[topic] == Want::kAll) whole += "," + std::to_string(id);
-      if (wanted_[topic] == Want::kBeginning) beginning += "," + std::to_string(id);
+      if (topics_.wanted(topic) == Want::kAll) whole += "," + std::to_string(id);
+      if (topics_.wanted(topic) == Want::kBeginning) beginning += "," + std::to_string(id);
     }
     database_->ask("SELECT id, topic_id, timestamp, CASE WHEN topic_id IN (" + whole +
                    ") THEN data ELSE substr(data, 1, " + std::to_string(kBeginningBytes) +
@@ -114,9 +96,7 @@ class Ros2Bag : public BagReader {
   std::unique_ptr<SqliteReader> database_;
   std::map<std::int64_t, std::size_t> topic_of_;
   std::int64_t rows_ = 0, last_row_ = 0, rows_read_ = 0;
-  std::vector<BagTopic> topics_;
-  std::vector<Want> wanted_;
-  std::function<Want(const BagTopic&)> wants_;
+  TopicList topics_;
   std::vector<std::string> problems_;
 };
 

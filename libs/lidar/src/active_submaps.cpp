@@ -11,6 +11,11 @@ bool MotionFilter::moved(double t_last, const Pose2& last, double t, const Pose2
          std::abs(wrapAngle(pose.yaw - last.yaw)) >= angle_rad;
 }
 
+void Submap::pack() {
+  grid.finish();
+  surfaces.finish();
+}
+
 std::shared_ptr<Submap> ActiveSubmaps::insert(const PlanarScan& scan, const Pose2& odom_from_robot) {
   if (active_.empty() || (active_.size() == 1 && active_.front()->insertions * 2 >= scans_per_submap_)) {
     active_.push_back(std::make_shared<Submap>(cell_m_));

@@ -25,6 +25,9 @@ struct Submap {
   int first_insertion = 0;  ///< running number of its first scan among all inserted
   int insertions = 0;
   bool finished = false;
+
+  /// Of a finished one that is to be kept: gives back what only insertion needs.
+  void pack();
 };
 
 /// Two submaps in the making that overlap by half: each scan goes into both, the older one is matched against

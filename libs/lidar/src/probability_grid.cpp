@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
+#include <unordered_map>
 
 namespace roomgraph {
 namespace {
 
 constexpr double kGrowthMargin = 2.0;  // m, so that a grid does not grow with every scan
+constexpr std::size_t kMostValues = 1u << 16;
 constexpr double kFarthestCell = 1e9;  // numbers of cells must fit an int, with room for the neighbours
 
 /// Catmull-Rom weights of the four neighbours at t in [0, 1), and their derivatives by t.
@@ -41,7 +44,7 @@ Eigen::Vector2i ProbabilityGrid::cellOf(const Eigen::Vector2d& point) const {
 
 void ProbabilityGrid::growToContain(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   const Eigen::Vector2i first = cellOf(low), last = cellOf(high);
-  if (width_ > 0 && inside(first.x(), first.y()) && inside(last.x(), last.y())) return;
+  if (width_ > 0 && stored_.holds(first.x(), first.y()) && stored_.holds(last.x(), last.y())) return;
   const int margin = static_cast<int>(kGrowthMargin / cell_m_);
   const bool empty = width_ == 0;
   const int x0 = empty ? first.x() - margin : std::min(0, first.x() - margin);
@@ -52,6 +55,7 @@ void ProbabilityGrid::growToContain(const Eigen::Vector2d& low, const Eigen::Vec
   const std::vector<float> old_cells = std::move(cells_);
   width_ = x1 - x0 + 1;
   height_ = y1 - y0 + 1;
+  stored_ = {0, 0, width_, height_};
   corner_ += cell_m_ * Eigen::Vector2d(x0, y0);
   cells_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.f);
   touched_.assign(cells_.size(), 0);
@@ -87,6 +91,7 @@ void ProbabilityGrid::insert(const PlanarScan& scan, const Pose2& grid_from_robo
   Eigen::Vector2d low = origin, high = origin;
   for (const Eigen::Vector2d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   if (!low.allFinite() || !high.allFinite()) return;
+  if (finished_) throw std::logic_error("a finished grid takes no scans");
   growToContain(low, high);
   if (++insertion_ == 0) {
     std::fill(touched_.begin(), touched_.end(), std::uint16_t{0});
@@ -101,6 +106,47 @@ void ProbabilityGrid::insert(const PlanarScan& scan, const Pose2& grid_from_robo
   for (const Eigen::Vector2d& p : points) missAlong(start, cellOf(p), oddsOf(change.miss_probability));
 }
 
+ProbabilityGrid::Block ProbabilityGrid::knownBlock() const {
+  int x0 = width_, y0 = height_, x1 = -1, y1 = -1;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (known(x, y)) x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = y;
+  return x1 < 0 ? Block{} : Block{x0, y0, x1 - x0 + 1, y1 - y0 + 1};
+}
+
+// Numbers of cells and the corner stay: points keep their places in cells to the last bit.
+void ProbabilityGrid::finish() {
+  const Block block = knownBlock();
+  std::vector<float> cells;
+  cells.reserve(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height));
+  for (int y = block.y0; y < block.y0 + block.height; ++y) {
+    const float* row = &cells_[index(block.x0, y)];
+    cells.insert(cells.end(), row, row + block.width);
+  }
+  cells_ = std::move(cells);
+  stored_ = block;
+  finished_ = true;
+  std::vector<std::uint16_t>().swap(touched_);
+  encode();
+}
+
+// A grid holds some thousand different values: most cells were only missed, or are as free as can be.
+void ProbabilityGrid::encode() {
+  std::unordered_map<float, std::uint16_t> code_of;
+  std::vector<float> values;
+  std::vector<std::uint16_t> codes;
+  codes.reserve(cells_.size());
+  for (const float cell : cells_) {
+    const auto [at, is_new] = code_of.emplace(cell, static_cast<std::uint16_t>(values.size()));
+    if (is_new) values.push_back(cell);
+    if (values.size() > kMostValues) return;
+    codes.push_back(at->second);
+  }
+  values_ = std::move(values);
+  codes_ = std::move(codes);
+  std::vector<float>().swap(cells_);
+}
+
 double ProbabilityGrid::interpolate(const Eigen::Vector2d& point, Eigen::Vector2d* gradient) const {
   const double gx = (point.x() - corner_.x()) / cell_m_ - 0.5, gy = (point.y() - corner_.y()) / cell_m_ - 0.5;
   if (!(std::abs(gx) < kFarthestCell) || !(std::abs(gy) < kFarthestCell)) {
@@ -113,7 +159,7 @@ double ProbabilityGrid::interpolate(const Eigen::Vector2d& point, Eigen::Vector2
   catmullRom(gx - fx, wx, sx);
   catmullRom(gy - fy, wy, sy);
   double value = 0, along_x = 0, along_y = 0;
-  const bool interior = ix >= 1 && iy >= 1 && ix + 2 < width_ && iy + 2 < height_;
+  const bool interior = values_.empty() && stored_.holds(ix - 1, iy - 1) && stored_.holds(ix + 2, iy + 2);
   for (int j = 0; j < 4; ++j) {
     double row = 0, row_slope = 0;
     const float* cells = interior ? &cells_[index(ix - 1, iy - 1 + j)] : nullptr;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "probability_grid.h"
@@ -22,7 +24,7 @@ class ScorePyramid {
   /// Probability times 255.
   std::uint8_t at(int level, int ix, int iy) const {
     const Level& l = levels_[static_cast<std::size_t>(level)];
-    const int x = ix + l.offset, y = iy + l.offset;
+    const int x = ix + l.offset_x, y = iy + l.offset_y;
     if (x < 0 || y < 0 || x >= l.width || y >= l.height) return kOutside;
     return l
         .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(l.width) + static_cast<std::size_t>(x)];
@@ -31,7 +33,8 @@ class ScorePyramid {
  private:
   static constexpr std::uint8_t kOutside = static_cast<std::uint8_t>(ProbabilityGrid::kMin * 255.f);
   struct Level {
-    int width = 0, height = 0, offset = 0;  ///< stored cell (0, 0) is cell (-offset, -offset) of the grid
+    int width = 0, height = 0;
+    int offset_x = 0, offset_y = 0;  ///< stored cell (0, 0) is cell (-offset_x, -offset_y) of the grid
     std::vector<std::uint8_t> cells;
   };
   static Level coarser(const Level& fine, int half);
@@ -39,6 +42,22 @@ class ScorePyramid {
   double cell_m_ = 1;
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   std::vector<Level> levels_;
+};
+
+/// Pyramids of the grids that were asked for last. One is several times as large as its grid, and soon made again.
+class RecentPyramids {
+ public:
+  /// Of so many levels; at most `most` are kept.
+  RecentPyramids(int levels, std::size_t most) : levels_(levels), most_(most) {}
+  /// That of a finished grid with a number of its own; valid until the next call.
+  const ScorePyramid& of(std::size_t number, const ProbabilityGrid& grid);
+  bool holds(std::size_t number) const;
+  void clear() { kept_.clear(); }
+
+ private:
+  int levels_;
+  std::size_t most_;
+  std::deque<std::pair<std::size_t, ScorePyramid>> kept_;  ///< the latest first
 };
 
 }  // namespace roomgraph

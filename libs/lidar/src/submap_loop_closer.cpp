@@ -15,6 +15,7 @@ IMPLEMENTS_MRPT_OBJECT(SubmapLoopCloser, ScanLoopCloser, roomgraph)
 
 namespace {
 constexpr int kClosureLevels = 7;
+constexpr std::size_t kPyramids = 16;   // of the submaps around the robot, with some to spare
 constexpr double kTurnLength = 0.3;     // m of path that a turn by 1 rad counts for
 constexpr double kVerifyHorizon_s = 3;  // a kept scan this near in time is at the proposed place
 constexpr double kClosureLength = 0.3;  // m of path that a closure counts for
@@ -24,6 +25,8 @@ Pose2 movement(const WayPoint& a, const WayPoint& b) {
   return a.odom_from_robot.inverse() * b.odom_from_robot;
 }
 }  // namespace
+
+SubmapLoopCloser::SubmapLoopCloser() : pyramids_(kClosureLevels, kPyramids) {}
 
 // Where is searched, and how far around.
 void SubmapLoopCloser::declareSearch(ParameterVisitor& v) {
@@ -81,6 +84,10 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
         {.doc = "Largest share of the returns that may lie in space that the submap saw free.",
          .min = 0,
          .max = 1});
+  v.add("max_wrong_side", max_wrong_side_,
+        {.doc = "Largest share of the returns on known surfaces that may lie on one seen from behind.",
+         .min = 0,
+         .max = 1});
   v.add("ambiguity_ratio", ambiguity_ratio_,
         {.doc = "A match is ambiguous when a second pose reaches this share of the best score.",
          .min = 0,
@@ -132,12 +139,12 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
   const int a = nearestScan(proposed.t_a), b = nearestScan(proposed.t_b);
   if (a < 0 || b < 0) return std::nullopt;
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
-    const Submap& submap = *submaps_[s].submap;
+    const Submap& submap = *submaps_[s];
     const int first = submap.first_insertion, last = first + submap.insertions - 1;
     if (a < first || a > last || b <= last) continue;
     // Just beyond what is trusted: the match must be unambiguous.
     const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
-    const std::optional<Closure> found = match(candidate, b);
+    const std::optional<Closure> found = match(candidate, probeOf(b));
     if (!found) continue;
     graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);
     return toRelativePose(*found);
@@ -148,6 +155,7 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
 void SubmapLoopCloser::prepare() {
   active_ = submap_settings_.emptySubmaps();
   submaps_.clear();
+  pyramids_.clear();
   scans_.clear();
   way_.clear();
   graph_ = ClosureGraph();
@@ -171,14 +179,21 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   here.path_m += length;
   graph_.addNode(connected, step, length);
   way_.push_back(here);
-  const PlanarScan planar = submap_settings_.planar(scan);
-  scans_.push_back({scan.t, planar, submap_settings_.points(planar)});
+  scans_.push_back(scan);
   waiting_.push_back(static_cast<int>(scans_.size()) - 1);
-  store(active_->insert(planar, match.odom_from_robot));
+  store(active_->insert(submap_settings_.planar(scan), match.odom_from_robot));
 }
 
 void SubmapLoopCloser::store(std::shared_ptr<Submap> submap) {
-  if (submap) submaps_.push_back({std::move(submap), {}});
+  if (!submap) return;
+  submap->pack();
+  submaps_.push_back(std::move(submap));
+}
+
+SubmapLoopCloser::Probe SubmapLoopCloser::probeOf(int scan) const {
+  Probe out{scan, submap_settings_.planar(scans_[static_cast<std::size_t>(scan)]), {}};
+  out.points = submap_settings_.points(out.planar);
+  return out;
 }
 
 std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_robot) {
@@ -188,13 +203,13 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
     return found;
   }
   std::vector<std::optional<Pose2>> world;
-  for (const KeptScan& scan : scans_) {
+  for (const Scan& scan : scans_) {
     const std::optional<Pose3> pose = world_from_robot.at(scan.t);
     world.push_back(pose ? std::optional(planarPart(*pose)) : std::nullopt);
   }
   const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_path_m_};
   for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
-    const int b = waiting_.front();
+    const Probe b = probeOf(waiting_.front());
     for (const Candidate& candidate : candidatesFor(b, world)) {
       ++matches;
       const std::optional<Closure> closure = match(candidate, b);
@@ -211,13 +226,12 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
 }
 
 std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(
-    int b, const std::vector<std::optional<Pose2>>& world) const {
+    const Probe& b, const std::vector<std::optional<Pose2>>& world) const {
   std::vector<Candidate> candidates;
-  if (static_cast<int>(scans_[static_cast<std::size_t>(b)].points.size()) < submap_settings_.min_points)
-    return candidates;
-  const std::vector<ClosureGraph::Reached> reached = graph_.reachedFrom(b);
+  if (static_cast<int>(b.points.size()) < submap_settings_.min_points) return candidates;
+  const std::vector<ClosureGraph::Reached> reached = graph_.reachedFrom(b.scan);
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
-    const auto candidate = nearestIn(s, b, reached, world);
+    const auto candidate = nearestIn(s, b.scan, reached, world);
     if (candidate) candidates.push_back(*candidate);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -231,7 +245,7 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
     std::size_t s, int b, const std::vector<ClosureGraph::Reached>& reached,
     const std::vector<std::optional<Pose2>>& world) const {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
-  const Submap& submap = *submaps_[s].submap;
+  const Submap& submap = *submaps_[s];
   const int first = submap.first_insertion, last = first + submap.insertions - 1;
   if (b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_path_m_) return std::nullopt;
   std::optional<Candidate> best;
@@ -260,27 +274,28 @@ SearchWindow SubmapLoopCloser::windowFor(double path_m) const {
   return window;
 }
 
-std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, int b) {
-  StoredSubmap& stored = submaps_[candidate.submap];
-  const ProbabilityGrid& grid = stored.submap->grid;
-  if (stored.pyramid.levels() == 0) stored.pyramid = ScorePyramid(grid, kClosureLevels);
-  const Points2& points = scans_[static_cast<std::size_t>(b)].points;
+std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const Probe& b) {
+  const Submap& submap = *submaps_[candidate.submap];
+  const ScorePyramid& pyramid = pyramids_.of(candidate.submap, submap.grid);
   const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
   const Pose2 expected = odom_from_a * candidate.a_from_b;
   const SearchWindow window = windowFor(candidate.path_m);
-  const auto coarse = correlativeSearch(stored.pyramid, points, expected, window);
+  const auto coarse = correlativeSearch(pyramid, b.points, expected, window);
   if (!coarse) return std::nullopt;
-  GridRefinement fine = refineOnGrid(grid, points, coarse->grid_from_scan, PosePrior{coarse->grid_from_scan});
+  const PosePrior prior{coarse->grid_from_scan};
+  GridRefinement fine = refineOnGrid(submap.grid, b.points, coarse->grid_from_scan, prior);
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
-  if (candidate.path_m > trusted_path_m_ && ambiguous(stored.pyramid, points, expected, window, *coarse))
+  if (candidate.path_m > trusted_path_m_ && ambiguous(pyramid, b.points, expected, window, *coarse))
     return std::nullopt;
 
-  refineFurther(stored.submap->surfaces, faced(scans_[static_cast<std::size_t>(b)].planar), PosePrior{coarse->grid_from_scan}, fine);
+  const FacedScan scan = faced(b.planar);
+  refineFurther(submap.surfaces, scan, prior, fine);
+  if (shareOnWrongSide(submap.surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
   model.floor_sigma_rad = floor_sigma_rad_;
-  return Closure{candidate.a, b, odom_from_a.inverse() * fine.grid_from_scan,
+  return Closure{candidate.a, b.scan, odom_from_a.inverse() * fine.grid_from_scan,
                  rotateCovariance(poseCovariance(fine, model), -odom_from_a.yaw), candidate.path_m};
 }
 

@@ -21,6 +21,7 @@ namespace roomgraph {
 class SubmapLoopCloser : public ScanLoopCloser {
   DEFINE_MRPT_OBJECT(SubmapLoopCloser, roomgraph)
  public:
+  SubmapLoopCloser();
   void declareParameters(ParameterVisitor& visitor) override;
   void prepare() override;
   void add(const Scan& scan, const ScanMatch& match) override;
@@ -29,14 +30,11 @@ class SubmapLoopCloser : public ScanLoopCloser {
 
  private:
   void declareSearch(ParameterVisitor& v);
-  struct KeptScan {
-    double t = 0;
+  /// A kept scan as it is matched, robot frame.
+  struct Probe {
+    int scan = 0;
     PlanarScan planar;
-    Points2 points;  ///< robot frame, thinned
-  };
-  struct StoredSubmap {
-    std::shared_ptr<Submap> submap;
-    ScorePyramid pyramid;  ///< made when first needed
+    Points2 points;  ///< thinned
   };
   struct Candidate {
     std::size_t submap = 0;
@@ -47,12 +45,13 @@ class SubmapLoopCloser : public ScanLoopCloser {
   };
 
   void store(std::shared_ptr<Submap> submap);
-  std::vector<Candidate> candidatesFor(int b, const std::vector<std::optional<Pose2>>& world) const;
+  Probe probeOf(int scan) const;
+  std::vector<Candidate> candidatesFor(const Probe& b, const std::vector<std::optional<Pose2>>& world) const;
   std::optional<Candidate> nearestIn(std::size_t submap, int b,
                                      const std::vector<ClosureGraph::Reached>& reached,
                                      const std::vector<std::optional<Pose2>>& world) const;
   SearchWindow windowFor(double path_m) const;
-  std::optional<Closure> match(const Candidate& candidate, int b);
+  std::optional<Closure> match(const Candidate& candidate, const Probe& b);
   int nearestScan(double t) const;
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                  const SearchWindow& window, const SearchResult& best) const;
@@ -68,6 +67,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double drift_per_m_ = 0.03, drift_rad_per_m_ = 0.0087266;
   double window_m_ = 0.3, window_rad_ = 0.13963, max_window_m_ = 6, max_window_rad_ = 1.0472;
   double min_search_score_ = 0.5, min_score_ = 0.75, max_contradicted_ = 0.15;
+  double max_wrong_side_ = 0.15;
   double ambiguity_ratio_ = 0.93;
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
@@ -76,8 +76,9 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.005236;
 
   std::unique_ptr<ActiveSubmaps> active_;
-  std::vector<StoredSubmap> submaps_;
-  std::vector<KeptScan> scans_;
+  std::vector<std::shared_ptr<const Submap>> submaps_;
+  RecentPyramids pyramids_;  ///< of submaps, by index
+  std::vector<Scan> scans_;  ///< kept ones
   std::vector<WayPoint> way_;  ///< one per kept scan
   ClosureGraph graph_;
   ClosureConfirmation confirmation_;

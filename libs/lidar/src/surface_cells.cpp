@@ -110,6 +110,10 @@ void LocalSurfaces::insert(const FacedScan& scan) {
   for (SurfaceCells& level : levels_) level.insert(scan);
 }
 
+void LocalSurfaces::finish() {
+  for (SurfaceCells& level : levels_) level.finish();
+}
+
 std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, double facing_rad, int levels) const {
   for (int i = 0; i < levels; ++i)
     if (const auto line = levels_[static_cast<std::size_t>(i)].around(point, facing_rad)) return line;

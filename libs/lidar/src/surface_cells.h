@@ -34,6 +34,8 @@ class SurfaceCells {
  public:
   explicit SurfaceCells(double cell_m) : cell_m_(cell_m) {}
   void insert(const FacedScan& scan);
+  /// Gives back memory that was set aside for further scans.
+  void finish() { facings_.shrink_to_fit(); }
   /// The line through the returns in the 3 x 3 cells around a point that face about the same way (67 degrees at most); nothing
   /// where they are few or form no line.
   std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad) const;
@@ -68,6 +70,7 @@ class LocalSurfaces {
   explicit LocalSurfaces(double cell_m)
       : levels_{SurfaceCells(cell_m), SurfaceCells(2 * cell_m), SurfaceCells(6 * cell_m), SurfaceCells(20 * cell_m)} {}
   void insert(const FacedScan& scan);
+  void finish();
   std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad, int levels = kUsual) const;
 
  private:

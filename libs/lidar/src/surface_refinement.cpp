@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace roomgraph {
 namespace {
@@ -12,9 +13,15 @@ namespace {
 constexpr int kIterations = 12;
 constexpr double kLeastSigma_m = 0.01;                // of a return and the unevenness of its surface
 constexpr double kRobustWidth = 2, kFarthest = 4;     // standard deviations; Cauchy
+constexpr double kOnSurface = 2.5;                    // standard deviations
 constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
 constexpr double kFarthestFromGrid_m = 1;             // farther away it is another place
+
+// Of a return across its line.
+double varianceOf(const SurfaceLine& line) {
+  return kLeastSigma_m * kLeastSigma_m + line.variance_m2;
+}
 
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -32,7 +39,7 @@ NormalEquations linearise(const LocalSurfaces& surfaces, const FacedScan& scan, 
     const auto line = surfaces.around(at, scan.facing_rad[i] + pose.yaw, levels);
     if (!line) continue;
     const double distance = line->normal.dot(at - line->mean);
-    const double variance = kLeastSigma_m * kLeastSigma_m + line->variance_m2;
+    const double variance = varianceOf(*line);
     const double squared = distance * distance / variance;
     if (squared > kFarthest * kFarthest) continue;
     const double weight = 1 / (variance * (1 + squared / (kRobustWidth * kRobustWidth)));
@@ -83,6 +90,25 @@ std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const 
                                            const PosePrior& prior) {
   const auto fit = refineOn(surfaces, LocalSurfaces::kUsual, scan, grid, prior);
   return fit ? fit : refineOn(surfaces, LocalSurfaces::kAll, scan, grid, prior);
+}
+
+double shareOnWrongSide(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& map_from_scan) {
+  const auto isOn = [&](const Eigen::Vector2d& at, double facing_rad) {
+    const auto line = surfaces.around(at, facing_rad);
+    if (!line) return false;
+    const double distance = line->normal.dot(at - line->mean);
+    return distance * distance < kOnSurface * kOnSurface * varianceOf(*line);
+  };
+  int right = 0, wrong = 0;
+  const FacedScan placed = transformed(map_from_scan, scan);
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    if (isOn(placed.points[i], placed.facing_rad[i])) {
+      ++right;
+    } else if (isOn(placed.points[i], placed.facing_rad[i] + std::numbers::pi)) {
+      ++wrong;
+    }
+  }
+  return wrong > 0 ? static_cast<double>(wrong) / (right + wrong) : 0;
 }
 
 void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement) {

@@ -22,6 +22,10 @@ struct SurfaceFit {
 std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
                                            const PosePrior& prior);
 
+/// Of the returns that lie on known surfaces, the share whose surface faces the other way: a wall is seen from behind only by a scan
+/// that is out of its place by the wall's thickness.
+double shareOnWrongSide(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& map_from_scan);
+
 /// A refinement on the grid becomes one on the surfaces, its curvature their information, where there are enough of them.
 void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement);
 

@@ -75,9 +75,12 @@ mrpt::maps::COccupancyGridMap2D::Ptr grown(const mrpt::maps::COccupancyGridMap2D
 
 }  // namespace
 
+// The rays of all fans together would take more memory than all else of the map: they are made when they are needed.
 struct OccupancyMapper::PosedFan {
-  Eigen::Vector2d origin;
-  std::vector<Ray> rays;
+  const RangeFan* fan;
+  Pose3 world_from_fan;
+  Eigen::Vector2d origin() const { return world_from_fan.translation().head<2>(); }
+  std::vector<Ray> rays(double max_range_m) const { return raysInWorld(*fan, world_from_fan, max_range_m); }
 };
 
 void OccupancyMapper::add(const Scan& scan) {
@@ -102,9 +105,7 @@ void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory
         continue;
     }
     last = StampedPose{fan.t, *pose};
-    const Pose3 world_from_fan = *pose * fan.robot_from_fan;
-    out.push_back(
-        {world_from_fan.translation().head<2>(), raysInWorld(fan, world_from_fan, options_.max_range_m)});
+    out.push_back({&fan, *pose * fan.robot_from_fan});
   }
 }
 
@@ -118,15 +119,15 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(
   if (use_depth) select(slices_, world_from_robot, posed);
   Eigen::AlignedBox2d area;
   for (const auto& fan : posed) {
-    area.extend(fan.origin);
-    for (const auto& ray : fan.rays) area.extend(ray.end);
+    area.extend(fan.origin());
+    for (const auto& ray : fan.rays(options_.max_range_m)) area.extend(ray.end);
   }
   if (area.isEmpty()) return earlier ? mrpt::maps::COccupancyGridMap2D::Create(*earlier) : nullptr;
   area.min().array() -= kMargin_m;
   area.max().array() += kMargin_m;
   auto grid = earlier ? grown(*earlier, area) : emptyGrid(area, options_.resolution_m);
   RayGrid rays(*grid, options_.hit_probability, options_.pass_probability);
-  for (const auto& fan : posed) rays.insert(fan.origin, fan.rays);
+  for (const auto& fan : posed) rays.insert(fan.origin(), fan.rays(options_.max_range_m));
   return grid;
 }
 

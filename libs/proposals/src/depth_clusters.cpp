@@ -33,6 +33,12 @@ constexpr double kCeiling_m = 0.1, kCeilingSigmas = 3;
 // How well a cluster explains the box (`explains`). A cluster that hardly fills the box may still be the object; the
 // other two favour the middle of the box and the nearer of two clusters.
 constexpr double kFillOffset = 0.2, kOffsetWeight = 2, kRangeWeight_per_m = 0.15;
+// A cluster that goes on beyond the box's sides is something else: how much less it explains the box when it does so
+// everywhere. Points beside the box count that are this near to one in it, in pixels of the ring's width, and in
+// distances of their lines of sight.
+constexpr double kGoesOn = 0.7, kBesideWidths = 2.5, kSameSurface = 2.5;
+constexpr double kRing = 0.05;  // of the box's size: width of the ring beyond it, and what is left out at its rim
+constexpr double kLeastRing_px = 4;
 constexpr double kLowEnd = 0.05, kHighEnd = 0.95;  // quantiles taken for the ends of a cluster
 // Back rest: its least share of the main cluster's points, the quantile of its heights taken for its top, and how far
 // beyond the object's mean half extent its middle may be.
@@ -140,6 +146,25 @@ double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
          (1 + kRangeWeight_per_m * range / n);
 }
 
+// Share of the points beyond the box beside a cluster that continue it: an object ends at the sides of its box.
+double goesOn(const DepthMask& cluster, const Surroundings& ring, double focal_px) {
+  int beside = 0, same = 0;
+  for (const auto& out : ring.points) {
+    bool near = false, continued = false;
+    for (const auto& in : cluster.points) {
+      const double pixels = std::max(std::abs(in.u - out.u), std::abs(in.v - out.v));
+      if (pixels > kBesideWidths * ring.width_px) continue;
+      near = true;
+      const double range = in.in_ground.norm();
+      const double reach = kSameSurface * pixels * range / focal_px + kLinkPerNoise * depthSigma(range);
+      continued |= (in.in_ground - out.in_ground).norm() < reach;
+    }
+    beside += near;
+    same += continued;
+  }
+  return beside > 0 ? static_cast<double>(same) / beside : 0;
+}
+
 Eigen::Vector2d middleOf(const DepthMask& mask) {
   std::vector<double> x, y;
   for (const auto& p : mask.points) {
@@ -226,8 +251,25 @@ DepthMask sampleAround(const Frame& frame, const Box2& box, const Pose3& ground_
                       [&](int u, int v) { return !inner.contains(u, v); });
 }
 
-std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
-                                    double focal_px, int max_count) {
+Surroundings sampleRing(const Frame& frame, const Box2& box, const Pose3& ground_from_camera, int max_points) {
+  const double width = std::max(kLeastRing_px, kRing * std::max(box.width(), box.height()));
+  const auto grown = [&](double by) {
+    return clipped({box.u_min - by, box.v_min - by, box.u_max + by, box.v_max + by}, frame.depth.cols, frame.depth.rows);
+  };
+  const Box2 outer = grown(2 * width), inner = grown(width);
+  Surroundings out;
+  out.width_px = width;
+  out.points = samplePixels(frame, outer, strideOver(outer, max_points), ground_from_camera,
+                            [&](int u, int v) { return !inner.contains(u, v); })
+                   .points;
+  std::erase_if(out.points, [](const MaskPoint& p) {
+    return p.in_ground.z() < kFloor_m + kFloorPerNoise * depthSigma(p.in_ground.norm());
+  });
+  return out;
+}
+
+std::vector<DepthMask> explanations(const DepthMask& all, const Surroundings& ring, const Box2& box,
+                                    const ObjectModel& model, double focal_px, int max_count) {
   std::vector<DepthMask> out;
   const double ceiling = model.rests_on_ground
                              ? model.height_m + kCeilingSigmas * model.height_sigma_m + kCeiling_m
@@ -245,14 +287,18 @@ std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const
   const double range = quantile(ranges, 0.5);
   const auto parts =
       clusters(standing, kLinkDistance + kLinkPerSpacing * spacing * range + kLinkPerNoise * depthSigma(range));
+  std::vector<double> beyond;
   std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    order.emplace_back(-explains(parts[k], standing.size(), box), k);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    beyond.push_back(goesOn(parts[k], ring, focal_px));
+    order.emplace_back(-explains(parts[k], standing.size(), box) * (1 - kGoesOn * beyond[k]), k);
+  }
   std::sort(order.begin(), order.end());
   for (const auto& [score, k] : order) {
     if (static_cast<int>(out.size()) == max_count) break;
     DepthMask mask = parts[k];
     mask.valid_ratio = all.valid_ratio;
+    mask.goes_on = beyond[k];
     takeInParts(mask, parts, k, model);
     if (mask.points.size() >= kLeastPoints) out.push_back(mask);
   }

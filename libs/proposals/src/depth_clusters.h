@@ -20,11 +20,20 @@ DepthMask sampleBox(const Frame& frame, const Detection& detection, const Pose3&
 DepthMask sampleAround(const Frame& frame, const Box2& box, const Pose3& ground_from_camera,
                        int max_points = 800);
 
+/// What is around a box, above the ground, beyond the errors of the box's sides.
+struct Surroundings {
+  std::vector<MaskPoint> points;
+  double width_px = 0;  ///< of the ring they are in, and of what is left out between it and the box
+};
+
+/// At most about `max_points`, on a regular pixel grid.
+Surroundings sampleRing(const Frame& frame, const Box2& box, const Pose3& ground_from_camera, int max_points = 800);
+
 /// Removes the ground and points higher than the class can be, clusters the rest (Euclidean distance) and returns the
-/// clusters that explain the box best (large, central, filling the box, not behind others), best first, at most
-/// `max_count`. When the first is an occluder, the object is the next. Parts of the object separated from its cluster
+/// clusters that explain the box best (large, central, filling the box, not behind others, not going on beyond it), best
+/// first, at most `max_count`. When the first is an occluder, the object is the next. Parts of the object separated from its cluster
 /// (a seat above a thin leg) are added to it when they lie within the usual size.
-std::vector<DepthMask> explanations(const DepthMask& all, const Box2& box, const ObjectModel& model,
-                                    double focal_px, int max_count);
+std::vector<DepthMask> explanations(const DepthMask& all, const Surroundings& ring, const Box2& box,
+                                    const ObjectModel& model, double focal_px, int max_count);
 
 }  // namespace roomgraph

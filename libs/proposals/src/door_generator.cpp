@@ -18,11 +18,11 @@ IMPLEMENTS_MRPT_OBJECT(DoorGenerator, ShapeGenerator, roomgraph)
 namespace {
 
 constexpr double kMinHeight = 0.15;  // m; lower points may be floor
-constexpr double kInset = 0.08;      // of the box's width, at both sides: there the points are the door frame's
+constexpr double kInset = 0.08;  // of the box's width, at both sides: there the points are the door frame's
 constexpr double kMaybeOpen_m = 0.25,
                  kMaybeOpen_rad = 0.6;  // standard deviations of the doorway from a leaf that may be open
 constexpr double kOfOpenLeaf = 0.3;     // of the quality: the leaf tells that there is a door, but not where
-constexpr double kHeightGate = 2;    // standard deviations by which the height may differ from the usual
+constexpr double kHeightGate = 2;       // standard deviations by which the height may differ from the usual
 
 std::vector<Eigen::Vector2d> footprintPoints(const BoxEvidence& e) {
   const double inset = kInset * e.box.width();
@@ -39,7 +39,8 @@ void addDoubt(PlacedShape& placed) {
   (*placed.covariance)(2, 2) += std::pow(kMaybeOpen_rad, 2);
 }
 
-// Adjusts the height to the box's top side when it is not cut: the top of the door's nearer side is seen there.
+// Adjusts the height to the box's top side when it is not cut: the top of the door's nearer side is seen
+// there.
 void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
   if (e.cut.top) return;
   const Eigen::Vector2d half =
@@ -63,7 +64,9 @@ std::vector<PlacedShape> DoorGenerator::generate(const BoxEvidence& evidence,
                                                  const GeneratorLimits& limits) const {
   std::vector<PlacedShape> guesses;
   const auto leaf = fitVerticalPlane(footprintPoints(evidence));
-  if (auto in_wall = doorInWall(leaf, evidence)) {
+  auto in_wall = doorInWall(leaf, evidence);
+  if (!in_wall) in_wall = doorSeenThrough(leaf, evidence);
+  if (in_wall) {
     adjustHeight(*in_wall, evidence);
     return keepBest({*in_wall}, {}, limits);
   }

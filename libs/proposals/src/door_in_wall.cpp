@@ -13,7 +13,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kLeastHeight_m = 0.3;  // lower points may be a base board's or things on the floor
-constexpr double kMostWidths = 3;       // standard deviations of the width that are believed
+// Standard deviations of the width that are believed, also where the wall is seen on one side only.
+constexpr double kMostWidths = 3, kMostWidthsOneSide = 2;
 // What beside a closed door is turned against it by more is no wall, but furniture and wall together.
 constexpr double kSameDirection_rad = 0.04, kSameSigmas = 2;
 // A leaf is flush with the wall's face or set back by up to the wall's thickness, in the wall's direction;
@@ -30,6 +31,12 @@ constexpr double kBehind_m = 0.25;      // what is not part of a wall is so far 
 
 // The front of a cupboard or a shelf is so far before its wall.
 constexpr double kCupboardFrom_m = 0.12, kCupboardTo_m = 0.7;
+
+// Of the points in the box of a doorway whose wall is seen on one side only, so many are behind the wall, and
+// on it no more than so many.
+constexpr double kLeastThrough = 0.4, kMostOnWall = 0.3;
+constexpr double kFrameShare = 0.08, kLeastFrame_px = 60;
+constexpr double kOfOneSide = 0.8;  // of the quality
 
 constexpr int kLeastOnWall = 12;  // points on a side of the box
 constexpr double kLeastShareOnWall = 0.4;
@@ -64,15 +71,42 @@ double angleBetween(const VerticalPlane& a, const VerticalPlane& b) {
   return std::acos(std::min(1.0, a.normal.dot(b.normal)));
 }
 
+// How far the leaf's points are before the wall, towards the camera, m.
+double beforeWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
+  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
+  return wall.normal.dot(middle) - wall.offset;
+}
+
 bool isFlush(const VerticalPlane& leaf, const VerticalPlane& wall) {
   const double allowed = kSameDirection_rad + kSameSigmas * std::hypot(leaf.sigma_rad, wall.sigma_rad);
-  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
-  const double before = wall.normal.dot(middle) - wall.offset;  // of the leaf, towards the camera
+  const double before = beforeWall(leaf, wall);
   return angleBetween(leaf, wall) <= allowed && before <= kLeafBefore_m && before >= -kLeafBehind_m;
 }
 
-bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall) {
-  return angleBetween(leaf, wall) <= kOpen_rad && !isFlush(leaf, wall);
+// Share of the points above the box that lie on the plane; of few points none.
+double shareAbove(const VerticalPlane& plane, const BoxEvidence& e) {
+  int above = 0, on_plane = 0;
+  for (const auto& p : e.around.points) {
+    if (p.u < e.box.u_min || p.u > e.box.u_max) continue;
+    ++above;
+    on_plane += isInlier(plane, p.in_ground.head<2>());
+  }
+  return above >= kLeastOnWall ? static_cast<double>(on_plane) / above : 0;
+}
+
+// Whether the door is in the plane of the points in the box, and what is beside it is furniture before that
+// plane: it goes on above the box, or the box ends where it meets the floor.
+bool standsBehind(const VerticalPlane& leaf, const VerticalPlane& wall, const BoxEvidence& e) {
+  if (shareAbove(leaf, e) >= kLeastShareOnWall) return true;
+  const auto contact = contactPoint(e);
+  return contact && leaf.normal.dot(*contact) - leaf.offset < wall.offset - wall.normal.dot(*contact);
+}
+
+// A parallel plane before the wall is the front of a cupboard; behind it, it may be what is seen through the
+// doorway.
+bool isAnotherWall(const VerticalPlane& leaf, const VerticalPlane& wall, const BoxEvidence& e) {
+  if (angleBetween(leaf, wall) > kOpen_rad || isFlush(leaf, wall)) return false;
+  return beforeWall(leaf, wall) > -kLeafBehind_m || standsBehind(leaf, wall, e);
 }
 
 // Where the line of sight to a point meets the plane, as a coordinate along it; infinite beyond its vanishing
@@ -157,22 +191,77 @@ PlacedShape onWall(const VerticalPlane& wall, const Doorway& doorway, const BoxE
   return placed;
 }
 
+// Whether the next room is seen in the box, through the wall's plane.
+bool seenThrough(const VerticalPlane& wall, const BoxEvidence& e) {
+  int all = 0, on_wall = 0, behind = 0;
+  for (const auto& p : e.all.points) {
+    if (p.in_ground.z() <= kLeastHeight_m) continue;
+    ++all;
+    on_wall += isInlier(wall, p.in_ground.head<2>());
+    behind += wall.normal.dot(p.in_ground.head<2>()) < wall.offset - kBehind_m;
+  }
+  return all >= kLeastOnWall && behind >= kLeastThrough * all && on_wall <= kMostOnWall * all;
+}
+
+// Whether the door's frame, just inside the side of the box, is on the wall.
+bool frameOnWall(const VerticalPlane& wall, bool on_left, const BoxEvidence& e) {
+  const double width = kFrameShare * std::max(e.box.width(), kLeastFrame_px);
+  int all = 0, on_wall = 0;
+  for (const auto& p : e.all.points) {
+    if (p.in_ground.z() <= kLeastHeight_m) continue;
+    if ((on_left ? p.u - e.box.u_min : e.box.u_max - p.u) > width) continue;
+    ++all;
+    on_wall += isInlier(wall, p.in_ground.head<2>());
+  }
+  return all > 0 && on_wall >= kLeastShareOnWall * all;
+}
+
+// In standard deviations of the usual width.
+double widthDeviation(const PlacedShape& door, const BoxEvidence& e) {
+  return std::abs(door.shape.width - e.model->width_m) / e.model->sizeSigma()[0];
+}
+
+// Without the points in the box: those inside an open door are behind it, or on its leaf.
+void judgeByBox(PlacedShape& placed, BoxEvidence evidence) {
+  evidence.mask = {};
+  evidence.edges = {};
+  judge(placed, evidence);
+}
+
 }  // namespace
 
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence) {
   const auto wall = fitVerticalPlane(wallPoints(evidence));
-  if (!wall || sidesOn(*wall, evidence) < 2 || (leaf && isAnotherWall(*leaf, *wall))) return std::nullopt;
+  if (!wall || sidesOn(*wall, evidence) < 2 || (leaf && isAnotherWall(*leaf, *wall, evidence)))
+    return std::nullopt;
   auto placed = doorOnPlane(*wall, evidence, evidence.model->depth_m / 2);
   if (!placed) return std::nullopt;
-  const double wrong = std::abs(placed->shape.width - evidence.model->width_m);
-  if (wrong > kMostWidths * evidence.model->sizeSigma()[0]) return std::nullopt;
+  if (widthDeviation(*placed, evidence) > kMostWidths) return std::nullopt;
   placed->source = "wall";
-  BoxEvidence box_alone = evidence;  // points inside an open door are behind it, or on its leaf
-  box_alone.mask = {};
-  box_alone.edges = {};
-  judge(*placed, box_alone);
+  judgeByBox(*placed, evidence);
   placed->quality *= wall->inlier_share;
   return placed;
+}
+
+std::optional<PlacedShape> doorSeenThrough(const std::optional<VerticalPlane>& leaf,
+                                           const BoxEvidence& evidence) {
+  std::optional<PlacedShape> best;
+  for (const bool on_left : {true, false}) {
+    const auto wall = fitVerticalPlane(on_left ? wallPoints(evidence, -kEverywhere, evidence.box.u_min)
+                                               : wallPoints(evidence, evidence.box.u_max, kEverywhere));
+    if (!wall) continue;
+    if (leaf && isFlush(*leaf, *wall)) return std::nullopt;
+    if (leaf && angleBetween(*leaf, *wall) <= kOpen_rad && standsBehind(*leaf, *wall, evidence))
+      return std::nullopt;
+    if (!seenThrough(*wall, evidence) || !frameOnWall(*wall, on_left, evidence)) continue;
+    auto placed = doorOnPlane(*wall, evidence, evidence.model->depth_m / 2);
+    if (!placed || widthDeviation(*placed, evidence) > kMostWidthsOneSide) continue;
+    judgeByBox(*placed, evidence);
+    placed->source = "one side of the wall";
+    placed->quality *= kOfOneSide * wall->inlier_share;
+    if (!best || placed->quality > best->quality) best = placed;
+  }
+  return best;
 }
 
 std::optional<PlacedShape> doorwayOfLeaf(const VerticalPlane& leaf, const PlacedShape& on_leaf,
@@ -207,14 +296,13 @@ bool standsOpen(const VerticalPlane& leaf, const BoxEvidence& evidence) {
 }
 
 bool isFurniture(const VerticalPlane& leaf, const BoxEvidence& evidence) {
-  const Eigen::Vector2d middle = leaf.normal * leaf.offset + leaf.along() * leaf.middle;
   bool before_wall = false;
   for (const auto& points : {wallPoints(evidence, -kEverywhere, evidence.box.u_min),
                              wallPoints(evidence, evidence.box.u_max, kEverywhere), wallPoints(evidence)}) {
     const auto wall = fitVerticalPlane(points);
     if (!wall) continue;
     if (isFlush(leaf, *wall)) return false;
-    const double before = wall->normal.dot(middle) - wall->offset;
+    const double before = beforeWall(leaf, *wall);
     before_wall |=
         angleBetween(leaf, *wall) <= kOpen_rad && before > kCupboardFrom_m && before < kCupboardTo_m;
   }

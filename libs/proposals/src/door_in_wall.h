@@ -17,6 +17,12 @@ namespace roomgraph {
 /// a door.
 std::optional<PlacedShape> doorInWall(const std::optional<VerticalPlane>& leaf, const BoxEvidence& evidence);
 
+/// A doorway through which the next room is seen, in the wall on one side of the box; what is on the other
+/// side, the leaf or furniture, need not be on it. Nothing when `leaf` is flush with what is beside it, or
+/// goes on above the box.
+std::optional<PlacedShape> doorSeenThrough(const std::optional<VerticalPlane>& leaf,
+                                           const BoxEvidence& evidence);
+
 /// A door whose open leaf stands across the wall: an end of the leaf (`on_leaf`, a door taken to be there) is
 /// its hinge, at the wall's face beside the box. The doorway begins there, where the wall ends: on the
 /// camera's side of the leaf, or behind it when the leaf itself stands in no wall. Its fit is that of the

@@ -100,7 +100,8 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
   if (model.nominal().kind == ShapeKind::kPlanar)
     e.around = sampleAround(frame, e.box, e.camera_from_ground.inverse());
-  auto masks = explanations(e.all, e.box, model, frame.camera.fx, kExplanations);
+  const Surroundings ring = sampleRing(frame, e.box, e.camera_from_ground.inverse());
+  auto masks = explanations(e.all, ring, e.box, model, frame.camera.fx, kExplanations);
   masks.resize(kExplanations);
   masks[0].valid_ratio = e.all.valid_ratio;
   e.other_mask = std::move(masks[1]);

@@ -16,8 +16,8 @@ IMPLEMENTS_MRPT_OBJECT(GeometricProposalGenerator, ProposalGenerator, roomgraph)
 
 namespace {
 
-constexpr double kDoubtful = 0.8;            // quality below which other explanations of the depth are tried
-constexpr double kUnsupported = 0.7;         // factor on the quality of a shape that ignores the depth points
+constexpr double kDoubtful = 0.8;     // quality below which other explanations of the depth are tried
+constexpr double kUnsupported = 0.7;  // factor on the quality of a shape that ignores the depth points
 
 // Largest standard deviation of the ground's normal.
 double tiltSigma(const GroundEstimate& ground) {
@@ -37,15 +37,20 @@ double obscured(const PlacedShape& placed, const BoxEvidence& e) {
              : e.all.valid_ratio * static_cast<double>(before) / static_cast<double>(e.all.points.size());
 }
 
-// Proposals from the next depth cluster and without depth, for when the first cluster explains the box badly: it may
-// be an occluder.
+// Off the quality of what goes on beyond the box all around, where another cluster does not.
+constexpr double kGoingOn = 0.4;
+
+// Proposals from the next depth cluster and without depth, for when the first cluster explains the box badly:
+// it may be an occluder.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
                                       const Frame& frame, const ShapeGenerator& generator,
                                       const GeneratorLimits& limits) {
   std::vector<PlacedShape> all = std::move(first);
   for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
+    const double goes_further = std::max(0.0, mask.goes_on - evidence.mask.goes_on);
     for (PlacedShape placed : generator.generate(withMask(evidence, mask, frame), limits)) {
       placed.supported = !mask.points.empty();
+      placed.quality *= 1 - kGoingOn * goes_further;
       if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
       all.push_back(std::move(placed));
     }

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "feature_grid.h"
+#include "point_store.h"
 #include "roomgraph/geometry/box.h"
 #include "roomgraph/observations/frame.h"
 #include "tracking_parameters.h"
 
 namespace roomgraph::tracking {
-
-using Descriptor = std::array<std::uint8_t, 32>;
 
 /// Features of one image. All vectors have the same length.
 struct Features {

@@ -4,19 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace roomgraph::tracking {
 
 FeatureGrid::FeatureGrid(const std::vector<cv::KeyPoint>& keypoints, int width, int height)
     : columns_((width + kCellPx - 1) / kCellPx), rows_((height + kCellPx - 1) / kCellPx) {
-  cells_.resize(static_cast<std::size_t>(columns_ * rows_));
-  points_.reserve(keypoints.size());
-  for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    const cv::Point2f& p = keypoints[i].pt;
-    points_.push_back(p);
+  const auto cellOf = [this](const cv::Point2f& p) {
     const int c = std::clamp(static_cast<int>(p.x) / kCellPx, 0, columns_ - 1);
     const int r = std::clamp(static_cast<int>(p.y) / kCellPx, 0, rows_ - 1);
-    cells_[static_cast<std::size_t>(r * columns_ + c)].push_back(static_cast<int>(i));
+    return static_cast<std::size_t>(r * columns_ + c);
+  };
+  begins_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  for (const auto& keypoint : keypoints) ++begins_[cellOf(keypoint.pt) + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<int> next(begins_.begin(), begins_.end() - 1);
+  entries_.resize(keypoints.size());
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    const cv::Point2f& p = keypoints[i].pt;
+    entries_[static_cast<std::size_t>(next[cellOf(p)]++)] = {p, static_cast<int>(i)};
   }
 }
 
@@ -27,13 +33,17 @@ void FeatureGrid::query(double u, double v, double radius, std::vector<int>& out
   };
   const int c0 = cell(u - radius, columns_), c1 = cell(u + radius, columns_);
   const int r0 = cell(v - radius, rows_), r1 = cell(v + radius, rows_);
-  for (int r = r0; r <= r1; ++r)
-    for (int c = c0; c <= c1; ++c)
-      for (const int i : cells_[static_cast<std::size_t>(r * columns_ + c)]) {
-        const double du = points_[static_cast<std::size_t>(i)].x - u,
-                     dv = points_[static_cast<std::size_t>(i)].y - v;
-        if (du * du + dv * dv <= radius * radius) out.push_back(i);
-      }
+  for (int r = r0; r <= r1; ++r) {
+    // The cells of a row follow each other.
+    const auto row = static_cast<std::size_t>(r * columns_);
+    const auto begin = static_cast<std::size_t>(begins_[row + static_cast<std::size_t>(c0)]);
+    const auto end = static_cast<std::size_t>(begins_[row + static_cast<std::size_t>(c1) + 1]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Entry& entry = entries_[i];
+      const double du = entry.point.x - u, dv = entry.point.y - v;
+      if (du * du + dv * dv <= radius * radius) out.push_back(entry.index);
+    }
+  }
 }
 
 }  // namespace roomgraph::tracking

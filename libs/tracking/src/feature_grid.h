@@ -18,9 +18,13 @@ class FeatureGrid {
 
  private:
   static constexpr int kCellPx = 16;
+  struct Entry {
+    cv::Point2f point;
+    int index;
+  };
   int columns_ = 0, rows_ = 0;
-  std::vector<std::vector<int>> cells_;
-  std::vector<cv::Point2f> points_;
+  std::vector<int> begins_;       ///< of each cell, row by row, in the entries, and the end of the last one
+  std::vector<Entry> entries_;    ///< cell by cell, of a cell by index
 };
 
 }  // namespace roomgraph::tracking

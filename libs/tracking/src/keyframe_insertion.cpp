@@ -21,11 +21,13 @@ void fuse(LocalMap& map, int index, const std::vector<std::int64_t>& created,
   for (const auto& [shared, other] : map.covisible(map.keyframe(index).points)) {
     if (other == index || map.keyframe(other).segment != map.keyframe(index).segment) continue;
     if (++neighbours > kFuseNeighbours) break;
-    const Keyframe& keyframe = map.keyframe(other);
+    Keyframe& keyframe = map.keyframe(other);
+    keyframe.features.grid = FeatureGrid(keyframe.features.keypoints, keyframe.camera.width, keyframe.camera.height);
     const Pose3 camera_from_odom = keyframe.odom_from_camera.inverse();
     const ProjectionSearch search{map, keyframe.camera, camera_from_odom, kFuseRadiusPx};
     for (const auto& match : search.match(created, keyframe.features, keyframe.points, parameters))
       map.addSighting(match.point, other, match.feature);
+    keyframe.features.grid = {};
   }
 }
 
@@ -50,6 +52,7 @@ int insertKeyframe(LocalMap& map, Keyframe keyframe, const TrackingParameters& p
   const int index = static_cast<int>(map.keyframes.size());
   const auto tracked = keyframe.points;
   keyframe.points.assign(keyframe.features.size(), -1);
+  keyframe.features.grid = {};
   map.keyframes.push_back(std::move(keyframe));
   std::vector<std::int64_t> created;
   for (std::size_t i = 0; i < tracked.size(); ++i) {

@@ -17,10 +17,10 @@ std::int64_t LocalMap::createPoint(int keyframe_index, int feature) {
   const auto& frame = keyframe(keyframe_index);
   const auto i = static_cast<std::size_t>(feature);
   const Eigen::Vector2d pixel = frame.features.pixel(i);
-  points.emplace_back();
-  points.back().position =
+  MapPoint& created = points.add();
+  created.position =
       frame.odom_from_camera * frame.camera.backProject(pixel.x(), pixel.y(), frame.features.depth[i]);
-  points.back().visible = points.back().found = 1;
+  created.visible = created.found = 1;
   addSighting(id, keyframe_index, feature);
   return id;
 }
@@ -45,14 +45,12 @@ void LocalMap::removeSighting(std::int64_t id, int keyframe_index) {
   if (it == sightings.end()) return;
   keyframe(keyframe_index).points[static_cast<std::size_t>(it->feature)] = -1;
   sightings.erase(it);
-  if (sightings.empty()) point(id).erased = true;
+  if (sightings.empty()) points.release(static_cast<std::size_t>(id));
 }
 
 void LocalMap::erase(std::int64_t id) {
-  auto& p = point(id);
-  for (const auto& s : p.sightings) keyframe(s.keyframe).points[static_cast<std::size_t>(s.feature)] = -1;
-  p.sightings.clear();
-  p.erased = true;
+  for (const auto& s : point(id).sightings) keyframe(s.keyframe).points[static_cast<std::size_t>(s.feature)] = -1;
+  points.release(static_cast<std::size_t>(id));
 }
 
 std::vector<std::pair<int, int>> LocalMap::covisible(const std::vector<std::int64_t>& ids) const {

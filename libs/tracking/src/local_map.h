@@ -5,37 +5,22 @@
 #include <opencv2/core/mat.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
 #include "feature_extractor.h"
+#include "point_store.h"
 #include "reprojection.h"
 
 namespace roomgraph::tracking {
-
-/// A feature of a keyframe that shows a point.
-struct Sighting {
-  int keyframe = -1, feature = -1;
-};
-
-/// A 3D point of the map; its id is its index, which never changes.
-struct MapPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< odom frame, m
-  Descriptor descriptor{};
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, from the camera that saw it last
-  int octave = 0;                                       ///< level and distance (m) at which it was seen then
-  double distance = 0;
-  int visible = 0, found = 0;  ///< frames in whose view it was predicted, and those that matched it
-  bool erased = false;
-  std::vector<Sighting> sightings;
-};
 
 struct Keyframe {
   double t = 0;
   int segment = 0;
   PinholeCamera camera;
   Pose3 odom_from_camera = Pose3::Identity();
-  Features features;
+  Features features;                 ///< without grid, which is made when features are searched
   std::vector<std::int64_t> points;  ///< per feature: id of its point, -1: none
   cv::Mat thumbnail;                 ///< see place_recognition.h
 
@@ -45,8 +30,8 @@ struct Keyframe {
 /// Keyframes and map points of all segments. Invariant: a keyframe's feature names a point exactly when
 /// the point lists that sighting.
 struct LocalMap {
-  std::vector<Keyframe> keyframes;
-  std::vector<MapPoint> points;
+  std::deque<Keyframe> keyframes;  ///< which are not copied when there are more
+  PointStore points;
 
   MapPoint& point(std::int64_t id) { return points[static_cast<std::size_t>(id)]; }
   const MapPoint& point(std::int64_t id) const { return points[static_cast<std::size_t>(id)]; }

@@ -67,23 +67,33 @@ static_assert(sizeof(Words) == sizeof(Descriptor));
   return bits;
 }
 
-#if defined(__x86_64__)
-// Every processor since 2008 counts bits by an instruction, which the baseline of x86-64 does not have.
-[[gnu::target("popcnt")]] int countedByInstruction(const Descriptor& a, const Descriptor& b) { return differingBits(a, b); }
-const bool kHasInstruction = __builtin_cpu_supports("popcnt");
-#endif
-
-/// The nearest of `all` and the distance of the second nearest; of equally near ones the first.
-Best nearest(const Descriptor& descriptor, const std::vector<Descriptor>& all) {
+[[gnu::always_inline]] inline Best nearestByBits(const Descriptor& descriptor, const std::vector<Descriptor>& all) {
   Best best;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const int distance = hammingDistance(descriptor, all[i]);
+    const int distance = differingBits(descriptor, all[i]);
     if (distance < best.distance)
       best = {static_cast<int>(i), distance, best.distance};
     else
       best.second = std::min(best.second, distance);
   }
   return best;
+}
+
+#if defined(__x86_64__)
+// Every processor since 2008 counts bits by an instruction, which the baseline of x86-64 does not have.
+[[gnu::target("popcnt")]] int countedByInstruction(const Descriptor& a, const Descriptor& b) { return differingBits(a, b); }
+[[gnu::target("popcnt")]] Best nearestByInstruction(const Descriptor& descriptor, const std::vector<Descriptor>& all) {
+  return nearestByBits(descriptor, all);
+}
+const bool kHasInstruction = __builtin_cpu_supports("popcnt");
+#endif
+
+/// The nearest of `all` and the distance of the second nearest; of equally near ones the first.
+Best nearest(const Descriptor& descriptor, const std::vector<Descriptor>& all) {
+#if defined(__x86_64__)
+  if (kHasInstruction) return nearestByInstruction(descriptor, all);
+#endif
+  return nearestByBits(descriptor, all);
 }
 
 }  // namespace

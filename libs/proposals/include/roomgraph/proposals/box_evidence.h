@@ -24,6 +24,7 @@ struct MaskPoint {
 struct DepthMask {
   std::vector<MaskPoint> points;  ///< empty: no depth, or no cluster that can be the object
   double valid_ratio = 0;         ///< share of the box's (mask's) pixels that have a depth
+  double goes_on = 0;             ///< share of what is beyond the box beside the points that continues them
 };
 
 /// Image edges in and around a box (method.md sec. 1.4).
