@@ -147,8 +147,8 @@ TEST(SubmapLoopCloser, WallsSeenFromBehindConfirmNothing) {
     closer.prepare();
     for (int i = 0; i < 230; ++i) {
       const bool first = i < 170;
-      const Pose2 pose = first ? (through ? inside : oval(170))[static_cast<std::size_t>(i)]
-                               : (through ? outside[static_cast<std::size_t>(i - 170)] : inside[static_cast<std::size_t>(i - 170)]);
+      const Pose2 pose = first ? inside[static_cast<std::size_t>(i)]
+                               : (through ? outside : inside)[static_cast<std::size_t>(i - 170)];
       ScanMatch match{.matched = true};
       match.odom_from_robot = first ? pose : Pose2{40, 0, 0.5} * pose;
       match.segment = first ? 0 : 1;

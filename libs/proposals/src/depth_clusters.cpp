@@ -290,8 +290,7 @@ std::vector<DepthMask> explanations(const DepthMask& all, const Surroundings& ri
   std::vector<double> beyond;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    // Cuboids stand at walls, and go on in them.
-    beyond.push_back(model.nominal().kind == ShapeKind::kCylinder ? goesOn(parts[k], ring, focal_px) : 0);
+    beyond.push_back(goesOn(parts[k], ring, focal_px));
     order.emplace_back(-explains(parts[k], standing.size(), box) * (1 - kGoesOn * beyond[k]), k);
   }
   std::sort(order.begin(), order.end());

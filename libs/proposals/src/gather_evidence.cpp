@@ -100,7 +100,9 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
   if (model.nominal().kind == ShapeKind::kPlanar)
     e.around = sampleAround(frame, e.box, e.camera_from_ground.inverse());
-  const Surroundings ring = sampleRing(frame, e.box, e.camera_from_ground.inverse());
+  Surroundings ring;  // none for cuboids: they stand at walls, and go on in them
+  if (model.nominal().kind == ShapeKind::kCylinder)
+    ring = sampleRing(frame, e.box, e.camera_from_ground.inverse());
   auto masks = explanations(e.all, ring, e.box, model, frame.camera.fx, kExplanations);
   masks.resize(kExplanations);
   masks[0].valid_ratio = e.all.valid_ratio;
