@@ -72,6 +72,12 @@ TEST(ExistenceModel, SureFromProbabilityAndSightingsOn) {
     landmark.observations = observations;
     EXPECT_EQ(options.isSure(landmark), existence == 0.6) << existence;
   }
+  landmark.shape.kind = ShapeKind::kPlanar;
+  landmark.existence = 0.7;
+  landmark.observations = 1;
+  EXPECT_TRUE(options.isSure(landmark)) << "what is in a wall, from the first on";
+  options.least_planar_sightings = 2;
+  EXPECT_FALSE(options.isSure(landmark));
 }
 
 TEST(ExistenceModel, WhatIsNoWeightIsNamed) {

@@ -74,12 +74,10 @@ TEST(ProjectShape, InFrontEqualsSampling) {
         Eigen::Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2.8, 7));
     const auto projected = projectShape(shape, pose, kTallPixels);
     const Box2 full = *sampledBounds(shape, pose, 3);
-    const Box2 visible = clipped(full, kTallPixels.width, kTallPixels.height);
-    ASSERT_EQ(projected.has_value(), !visible.empty());
     if (!projected) continue;
     ++seen;
     expectNear(projected->full, full, 0.05);
-    expectNear(projected->visible, visible, 0.05);
+    if (!projected->cut.any()) expectNear(projected->visible, full, 0.05);
     EXPECT_EQ(projected->cut.left, full.u_min < 0);
     EXPECT_EQ(projected->cut.top, full.v_min < 0);
     EXPECT_EQ(projected->cut.right, full.u_max > kTallPixels.width);
@@ -94,7 +92,7 @@ TEST(ProjectShape, InFrontEqualsSampling) {
 TEST(ProjectShape, PartlyBehindTheCameraEqualsSampling) {
   Random random(2);
   int partly = 0;
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < 200; ++round) {
     const ObjectShape shape = randomShape(random);
     Pose3 pose = random.pose(0);
     pose.translation() =
@@ -102,14 +100,90 @@ TEST(ProjectShape, PartlyBehindTheCameraEqualsSampling) {
     const auto full = sampledBounds(shape, pose, 20000);
     const auto projected = projectShape(shape, pose, kTallPixels);
     if (!full) continue;
-    const Box2 visible = clipped(*full, kTallPixels.width, kTallPixels.height);
-    if (visible.width() < 3 || visible.height() < 3) continue;  // its border decides whether there is any
+    if (!projected) continue;  // outside the image
     ++partly;
-    ASSERT_TRUE(projected.has_value());
     // A round shape stands for itself as a prism with 48 sides here: off by r (1 - cos(pi / 48)) < .3 %.
-    expectNear(projected->visible, visible, shape.kind == ShapeKind::kCylinder ? 12 : 1);
+    const double most = shape.kind == ShapeKind::kCylinder ? 12 : 1;
+    expectNear(clipped(projected->full, kTallPixels.width, kTallPixels.height),
+               clipped(*full, kTallPixels.width, kTallPixels.height), most);
   }
   EXPECT_GT(partly, 60);
+}
+
+// Whether the line of sight through a pixel meets the model in front of the near plane: intervals of depth in which it is
+// between the planes of a box, or in a cylinder.
+bool isCovered(double u, double v, const ObjectShape& shape, const Pose3& object_from_camera) {
+  const Eigen::Vector3d origin = object_from_camera.translation(),
+                        along = object_from_camera.linear() * kTallPixels.backProject(u, v, 1);
+  double from = kNear, to = 1e9;
+  const auto between = [&](double start, double slope, double low, double high) {
+    if (std::abs(slope) < 1e-12) {
+      if (start < low || start > high) to = -1;
+      return;
+    }
+    from = std::max(from, std::min((low - start) / slope, (high - start) / slope));
+    to = std::min(to, std::max((low - start) / slope, (high - start) / slope));
+  };
+  between(origin.z(), along.z(), 0, shape.height);
+  if (shape.kind != ShapeKind::kCylinder) {
+    between(origin.x(), along.x(), -shape.depth / 2, shape.depth / 2);
+    between(origin.y(), along.y(), -shape.width / 2, shape.width / 2);
+    return from <= to;
+  }
+  const double a = along.head<2>().squaredNorm(), b = origin.head<2>().dot(along.head<2>()),
+               c = origin.head<2>().squaredNorm() - shape.radius() * shape.radius(), root = b * b - a * c;
+  if (root < 0) return false;
+  from = std::max(from, (-b - std::sqrt(root)) / a);
+  to = std::min(to, (-b + std::sqrt(root)) / a);
+  return from <= to;
+}
+
+TEST(ProjectShape, WhatIsVisibleIsWhatLinesOfSightMeet) {
+  constexpr double kStep_px = 2;
+  Random random(4);
+  int cut = 0;
+  for (int round = 0; round < 150; ++round) {
+    const ObjectShape shape = randomShape(random);
+    Pose3 pose = random.pose(0);
+    pose.translation() = Eigen::Vector3d(random.uniform(-1.5, 1.5), random.uniform(-1.2, 1.2), random.uniform(0.9, 2.5));
+    const auto projected = projectShape(shape, pose, kTallPixels);
+    const Pose3 object_from_camera = pose.inverse();
+    Box2 met{1e9, 1e9, -1e9, -1e9};
+    for (double v = 0; v <= kTallPixels.height; v += kStep_px)
+      for (double u = 0; u <= kTallPixels.width; u += kStep_px)
+        if (isCovered(u, v, shape, object_from_camera))
+          met = {std::min(met.u_min, u), std::min(met.v_min, v), std::max(met.u_max, u), std::max(met.v_max, v)};
+    if (met.width() < 20 || met.height() < 20) continue;  // a sharp tip is missed by the grid
+    ASSERT_TRUE(projected.has_value());
+    if (!projected->cut.any()) continue;
+    ++cut;
+    const double most = shape.kind == ShapeKind::kCuboid ? 5 : 9;  // the grid's step at a slanted tip; a thin or a many-sided one
+    expectNear(projected->visible, met, most);
+    EXPECT_LE(projected->visible.area(), clipped(projected->full, kTallPixels.width, kTallPixels.height).area() + 1);
+  }
+  EXPECT_GT(cut, 60);
+}
+
+// A long box that goes from the view to beside the camera: its nearest corner is outside the image, and so is how low it
+// reaches. At the image's left border, 30 deg to the left, it is farther.
+TEST(ProjectShape, TheLowestVisiblePointIsInsideTheImage) {
+  const PinholeCamera camera{640, 480, 320 * std::sqrt(3.0), 320 * std::sqrt(3.0), 320, 240, {}};
+  Pose3 pose = Pose3::Identity();  // object frame: x ahead, y left, z up; the front side is 2 m ahead of the camera
+  pose.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  pose.translation() = Eigen::Vector3d(-2, 1, 2.5);  // its right end is in the image's middle
+  const ObjectShape shape{ShapeKind::kCuboid, 4, 1, 0.8};
+  Pose3 turned = pose;
+  turned.linear() = Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitY()).toRotationMatrix() * pose.linear();
+  for (const Pose3& p : {pose, turned}) {
+    const auto projected = projectShape(shape, p, camera);
+    ASSERT_TRUE(projected);
+    double lowest = 0;  // of the front side's lower edge, inside the image
+    for (int k = 0; k <= 4000; ++k) {
+      const Eigen::Vector3d q = p * Eigen::Vector3d(-0.5, -2 + 4.0 * k / 4000, 0);
+      if (q.z() > kNear && camera.project(q).x() >= 0) lowest = std::max(lowest, camera.project(q).y());
+    }
+    EXPECT_NEAR(projected->visible.v_max, std::min(lowest, 480.0), 1);
+  }
 }
 
 TEST(ProjectShape, BehindOrBesideGivesNothing) {

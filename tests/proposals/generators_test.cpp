@@ -178,7 +178,7 @@ TEST(Rectangle, TwoSidesOfAnL) {
   const double yaw = 0.5;
   const Eigen::Rotation2Dd turn(yaw);
   for (auto& p : points) p = turn * p + Eigen::Vector2d(2, 1);
-  const auto found = fitRectangles(points, 1);
+  const auto found = fitRectangles(points, {}, 1);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].yaw, yaw, 0.04);
   EXPECT_NEAR(found[0].size_first, 1.6, 0.08);

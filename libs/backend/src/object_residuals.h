@@ -58,7 +58,8 @@ struct CameraPointResidual {
 
 struct LandmarkBoxResidual {
   LandmarkBoxResidual(const LandmarkBoxFactor& f, ShapeKind shape)
-      : factor(f), kind(shape), compared(sidesInside(f.box, f.camera).inOrder()) {}
+      : factor(f), kind(shape), compared(sidesInside(f.box, f.camera).inOrder()),
+        window(windowOf(f.box, f.camera)) {}
 
   template <class T>
   bool operator()(const T* t, const T* q, const T* landmark, const T* size, T* out) const {
@@ -67,9 +68,11 @@ struct LandmarkBoxResidual {
     const T c = cos(landmark[3]), s = sin(landmark[3]);
     Mat3<T> axes;
     axes << c, -s, T(0), s, c, T(0), T(0), T(0), T(1);
-    const auto sides =
-        projectedBounds<T>(kind, Eigen::Map<const Vec3<T>>(size), view.rotation * axes,
-                           view.see(Eigen::Map<const Vec3<T>>(landmark)), factor.camera, kNear_m);
+    const Mat3<T> in_camera = view.rotation * axes;
+    const Vec3<T> bottom = view.see(Eigen::Map<const Vec3<T>>(landmark));
+    auto sides = boundsWithin<T>(window, kind, Eigen::Map<const Vec3<T>>(size), in_camera, bottom, factor.camera, kNear_m);
+    if (!sides)  // outside the image: what pulls it back is the whole
+      sides = projectedBounds<T>(kind, Eigen::Map<const Vec3<T>>(size), in_camera, bottom, factor.camera, kNear_m);
     const double measured[] = {factor.box.u_min, factor.box.v_min, factor.box.u_max, factor.box.v_max};
     for (std::size_t i = 0; i < 4; ++i) {
       out[i] = T(0);
@@ -84,6 +87,7 @@ struct LandmarkBoxResidual {
   LandmarkBoxFactor factor;
   ShapeKind kind;
   std::array<bool, 4> compared;
+  Box2 window;  // where the image border cut the box, it cuts the model
 };
 
 struct PointLandmarkResidual {

@@ -48,6 +48,10 @@ void ExistenceOptions::declareParameters(ParameterVisitor& v) {
                 "were fitted to such landmarks.",
          .min = 1,
          .max = 1000});
+  v.add("least_planar_sightings", least_planar_sightings,
+        {.doc = "The same for doors and other planar objects: the wall around it confirms what a single good view shows.",
+         .min = 1,
+         .max = 1000});
   v.add("cylinder_weights", cylinder,
         {.doc = "Weights of the evidence for the existence of round objects: \"NAME VALUE\", or \"bias "
                 "VALUE\"; names that are left out have none."});

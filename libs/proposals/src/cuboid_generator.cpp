@@ -24,23 +24,32 @@ constexpr std::size_t kFootprintPoints = 250;    // enough for two lines; more o
 constexpr int kContactYaws = 8;                  // samples over a full turn
 constexpr double kLeastContactDistance_m = 0.1;  // nearer to the point below the camera the direction is undefined
 
-// One axis of the model: the observed extent when it is at least as long as usual; otherwise the usual size, extended
-// from the visible side in the direction `grow` (+1 or -1).
+// Where the unseen part of an axis is.
+struct UnseenPart {
+  double direction = 0;  // +1 or -1; 0: at both ends
+  bool cut = false;      // beyond a side of the box: what is seen is only a part
+};
+
+// One axis of the model: the observed extent when it is about as long as usual; otherwise the usual size, extended from
+// the visible side.
 struct AxisFit {
   double center = 0, size = 0;
 };
 
-AxisFit fitAxis(double center, double observed, double usual, double sigma, double grow) {
-  if (observed >= usual - sigma) return {center, std::min(observed, usual + kMostOverUsual * sigma)};
-  return {center + grow * (usual - observed) / 2, usual};
+AxisFit fitAxis(double center, double observed, double usual, double sigma, const UnseenPart& unseen) {
+  const double least = unseen.cut ? usual : usual - sigma;
+  if (observed >= least) return {center, std::min(observed, usual + kMostOverUsual * sigma)};
+  return {center + unseen.direction * (usual - observed) / 2, usual};
 }
 
-// The unseen part is outside the image when one side of the box is cut and the axis runs sideways; else behind.
-double growDirection(const Eigen::Vector2d& axis, const Eigen::Vector2d& center, const BoxEvidence& e) {
+// The unseen part of an axis that runs sideways is beyond the side of the box that is cut, half of it beyond each when
+// both are; else it is behind.
+UnseenPart unseenPartOf(const Eigen::Vector2d& axis, const Eigen::Vector2d& center, const BoxEvidence& e) {
   const double distance = std::max(center.norm(), kLeastContactDistance_m);
   const double leftwards = (center.x() * axis.y() - center.y() * axis.x()) / distance;
-  if (e.cut.left != e.cut.right && std::abs(leftwards) > kSideways) return (leftwards > 0) == e.cut.left ? 1 : -1;
-  return axis.dot(center) > 0 ? 1 : -1;
+  if (std::abs(leftwards) > kSideways && (e.cut.left || e.cut.right))
+    return {e.cut.left && e.cut.right ? 0.0 : (leftwards > 0) == e.cut.left ? 1.0 : -1.0, true};
+  return {axis.dot(center) > 0 ? 1.0 : -1.0, false};
 }
 
 // The front is the rectangle's first axis, turned by `quarter` right angles.
@@ -51,8 +60,8 @@ PlacedShape fromRectangle(const FootprintRectangle& r, int quarter, const BoxEvi
   const double along = quarter % 2 ? r.size_second : r.size_first,
                across = quarter % 2 ? r.size_first : r.size_second;
   const double x = front.dot(r.center), y = left.dot(r.center);
-  const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, growDirection(front, r.center, e));
-  const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, growDirection(left, r.center, e));
+  const AxisFit depth = fitAxis(x, along, m.depth_m, m.depth_sigma_m, unseenPartOf(front, r.center, e));
+  const AxisFit width = fitAxis(y, across, m.width_m, m.width_sigma_m, unseenPartOf(left, r.center, e));
   const Eigen::Vector2d center = front * depth.center + left * width.center;
   PlacedShape placed = usualShape(e);
   placed.shape.depth = depth.size;
@@ -72,7 +81,7 @@ std::vector<PlacedShape> guessesFromDepth(const BoxEvidence& e) {
     points.push_back(e.mask.points[i].in_ground.head<2>());
   std::vector<PlacedShape> out;
   const int turns = e.model->symmetry == 1 ? 4 : (e.model->symmetry == 2 ? 2 : 1);
-  for (const auto& rectangle : fitRectangles(points))
+  for (const auto& rectangle : fitRectangles(points, e.faces))
     for (int quarter = 0; quarter < turns; ++quarter) out.push_back(fromRectangle(rectangle, quarter, e));
   return out;
 }

@@ -146,8 +146,17 @@ double explains(const DepthMask& cluster, std::size_t total, const Box2& box) {
          (1 + kRangeWeight_per_m * range / n);
 }
 
-// Share of the points beyond the box beside a cluster that continue it: an object ends at the sides of its box.
-double goesOn(const DepthMask& cluster, const Surroundings& ring, double focal_px) {
+double middleRange(const DepthMask& cluster) {
+  std::vector<double> ranges;
+  for (const auto& p : cluster.points) ranges.push_back(p.in_ground.norm());
+  return quantile(std::move(ranges), 0.5);
+}
+
+// Share of the points beyond the box beside a cluster that continue it: an object ends at the sides of its box. What is
+// farther than a cuboid's middle may be the wall that it stands at.
+double goesOn(const DepthMask& cluster, const Surroundings& ring, const ObjectModel& model, double focal_px) {
+  const double farthest = model.nominal().kind == ShapeKind::kCylinder ? std::numeric_limits<double>::infinity()
+                                                                       : middleRange(cluster);
   int beside = 0, same = 0;
   for (const auto& out : ring.points) {
     bool near = false, continued = false;
@@ -157,7 +166,7 @@ double goesOn(const DepthMask& cluster, const Surroundings& ring, double focal_p
       near = true;
       const double range = in.in_ground.norm();
       const double reach = kSameSurface * pixels * range / focal_px + kLinkPerNoise * depthSigma(range);
-      continued |= (in.in_ground - out.in_ground).norm() < reach;
+      continued |= out.in_ground.norm() < farthest && (in.in_ground - out.in_ground).norm() < reach;
     }
     beside += near;
     same += continued;
@@ -290,7 +299,7 @@ std::vector<DepthMask> explanations(const DepthMask& all, const Surroundings& ri
   std::vector<double> beyond;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    beyond.push_back(goesOn(parts[k], ring, focal_px));
+    beyond.push_back(goesOn(parts[k], ring, model, focal_px));
     order.emplace_back(-explains(parts[k], standing.size(), box) * (1 - kGoesOn * beyond[k]), k);
   }
   std::sort(order.begin(), order.end());

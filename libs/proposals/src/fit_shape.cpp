@@ -27,6 +27,7 @@ constexpr double kNearRange = 0.03;    // quantile of the ranges taken for the n
 constexpr double kLeastSize_m = 0.05;  // no side of the shape becomes smaller
 constexpr int kMaxEvaluations = 30;    // bounds the time per hypothesis
 constexpr double kTolerance = 1e-4;    // relative
+constexpr double kSideErrors = 2;      // sigmas of a box side within which it may be at the image border
 constexpr double kLargestLever = 0.5;  // of the place by the size: one side is fixed
 constexpr double kLeastInformation = 1e-9;  // 1/m^2, 1/rad^2: what nothing in the image tells
 
@@ -171,6 +172,9 @@ class FitProblem {
       fitted.place_by_size << by_size.col(0) / 2, by_size.col(0) / 2, by_size.col(1);
     } else {
       fitted.size_information = (known.segment<3>(3) - usual).cwiseMax(0);
+      // Points up to a cut side say how long it is at least.
+      if (endsBeyondACut(fitted, 1)) fitted.size_information[0] = 0;
+      if (endsBeyondACut(fitted, 0)) fitted.size_information[1] = 0;
       fitted.place_by_size = by_size;
     }
     fitted.place_by_size = fitted.place_by_size.cwiseMax(-kLargestLever).cwiseMin(kLargestLever);
@@ -222,19 +226,44 @@ class FitProblem {
     return distanceOutside(p.shape, {object_from_ground.x, object_from_ground.y, 0}).x();
   }
 
-  // At a cut side the model must reach the side; how far beyond is unknown.
+  // Whether an end of the model's axis (0: depth, 1: width) is where the object may go on: beyond a cut side of the box, or
+  // at the image border as far as a detector's box tells.
+  bool endsBeyondACut(const PlacedShape& p, int axis) const {
+    const double slack = kSideErrors * (w_.box_side_px + w_.box_side_share * e_.box.width());
+    const double first = (e_.cut.left ? std::max(0.0, e_.box.u_min) : 0) + slack,
+                 last = (e_.cut.right ? std::min<double>(e_.box.u_max, e_.camera.width) : e_.camera.width) - slack;
+    const Pose3 camera_from_object = cameraFromObject(p, e_);
+    const Eigen::Vector2d half(p.shape.depth / 2, p.shape.width / 2);
+    for (const double end : {-1.0, 1.0})
+      for (const double side : {-1.0, 1.0}) {
+        Eigen::Vector3d corner(0, 0, p.shape.height / 2);
+        corner[axis] = end * half[axis];
+        corner[1 - axis] = side * half[1 - axis];
+        const Eigen::Vector3d at = camera_from_object * corner;
+        if (at.z() <= 0) return true;
+        const double u = e_.camera.project(at).x();
+        if (u < first || u > last) return true;
+      }
+    return false;
+  }
+
+  // At a cut side the model must reach the side; how far beyond is unknown. The other sides bound what of it is between
+  // the cut ones.
   Eigen::Vector4d boxSides(const PlacedShape& p) const {
     const auto projected = project(p, e_);
     if (!projected) return Eigen::Vector4d::Constant(w_.out_of_view);
     const Box2 &seen = e_.box, &full = projected->full;
+    const Box2 between =
+        boundsWithin(windowBetween(seen, e_.cut), p.shape, cameraFromObject(p, e_), e_.camera).value_or(full);
     const double su = w_.box_side_px + w_.box_side_share * seen.width(),
                  sv = w_.box_side_px + w_.box_side_share * seen.height();
-    const auto side = [&](double outward, double sigma, bool cut) {
-      return saturated((cut ? std::min(outward, 0.0) : outward) / sigma, w_.box_side_saturation);
+    const auto side = [&](double beyond, double outward, double sigma, bool cut) {
+      return saturated((cut ? std::min(beyond, 0.0) : outward) / sigma, w_.box_side_saturation);
     };
-    return {side(seen.u_min - full.u_min, su, e_.cut.left), side(seen.v_min - full.v_min, sv, e_.cut.top),
-            side(full.u_max - seen.u_max, su, e_.cut.right),
-            side(full.v_max - seen.v_max, sv, e_.cut.bottom)};
+    return {side(seen.u_min - full.u_min, seen.u_min - between.u_min, su, e_.cut.left),
+            side(seen.v_min - full.v_min, seen.v_min - between.v_min, sv, e_.cut.top),
+            side(full.u_max - seen.u_max, between.u_max - seen.u_max, su, e_.cut.right),
+            side(full.v_max - seen.v_max, between.v_max - seen.v_max, sv, e_.cut.bottom)};
   }
 
   PlacedShape initial_;

@@ -8,6 +8,7 @@
 #include "depth_clusters.h"
 #include "find_edges.h"
 #include "roomgraph/core/order_statistics.h"
+#include "vertical_faces.h"
 
 namespace roomgraph {
 namespace {
@@ -100,8 +101,8 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   e.all = sampleBox(frame, detection, e.camera_from_ground.inverse());
   if (model.nominal().kind == ShapeKind::kPlanar)
     e.around = sampleAround(frame, e.box, e.camera_from_ground.inverse());
-  Surroundings ring;  // none for cuboids: they stand at walls, and go on in them
-  if (model.nominal().kind == ShapeKind::kCylinder)
+  Surroundings ring;  // none for what is in a wall
+  if (model.nominal().kind != ShapeKind::kPlanar)
     ring = sampleRing(frame, e.box, e.camera_from_ground.inverse());
   auto masks = explanations(e.all, ring, e.box, model, frame.camera.fx, kExplanations);
   masks.resize(kExplanations);
@@ -114,10 +115,14 @@ BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const F
   BoxEvidence e = evidence;
   e.mask = mask;
   e.hidden = {};
+  if (e.model->nominal().kind == ShapeKind::kCuboid) e.faces = verticalFaces(mask.points);
   e.segments = supportedSegments(e.edges.segments, mask, e.box);
   if (mask.points.empty()) addDistances(e.edges);
   e.cut = sidesAtBorder(e);
   markHidden(e, frame);
+  // Of a table that goes on beyond the image, the leg that reaches lowest may be there.
+  const bool open = e.model->nominal().kind == ShapeKind::kCuboid && e.model->solid_share == 0;
+  if (open && (e.cut.left || e.cut.right) && !e.cut.bottom) e.cut.bottom = e.hidden.bottom = true;
   return e;
 }
 

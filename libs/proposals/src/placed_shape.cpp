@@ -3,6 +3,7 @@
 #include "roomgraph/proposals/placed_shape.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "roomgraph/core/order_statistics.h"
 
@@ -40,16 +41,22 @@ std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEviden
   return projectShape(placed.shape, cameraFromObject(placed, evidence), evidence.camera);
 }
 
-Box2 unhidden(const Box2& visible, const Box2& box, const BoxSides& hidden) {
-  return {hidden.left ? std::max(visible.u_min, box.u_min) : visible.u_min,
-          hidden.top ? std::max(visible.v_min, box.v_min) : visible.v_min,
-          hidden.right ? std::min(visible.u_max, box.u_max) : visible.u_max,
-          hidden.bottom ? std::min(visible.v_max, box.v_max) : visible.v_max};
+Box2 windowBetween(const Box2& box, const BoxSides& sides) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return {sides.left ? box.u_min : -kOpen, sides.top ? box.v_min : -kOpen, sides.right ? box.u_max : kOpen,
+          sides.bottom ? box.v_max : kOpen};
+}
+
+std::optional<Box2> visibleBounds(const PlacedShape& placed, const BoxEvidence& evidence) {
+  const Box2 window = windowBetween(evidence.box, placed.hidden);
+  const Box2 seen{std::max(window.u_min, 0.0), std::max(window.v_min, 0.0),
+                  std::min<double>(window.u_max, evidence.camera.width), std::min<double>(window.v_max, evidence.camera.height)};
+  return boundsWithin(seen, placed.shape, cameraFromObject(placed, evidence), evidence.camera);
 }
 
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence) {
-  const auto projected = project(placed, evidence);
-  return projected ? iou(unhidden(projected->visible, evidence.box, evidence.hidden), evidence.box) : 0;
+  const auto seen = visibleBounds(placed, evidence);
+  return seen ? iou(*seen, evidence.box) : 0;
 }
 
 }  // namespace roomgraph

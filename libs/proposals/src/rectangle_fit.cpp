@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "roomgraph/core/order_statistics.h"
+#include "vertical_faces.h"
 
 namespace roomgraph {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kLow = 0.02, kHigh = 0.98;    // quantiles taken for the ends o
 constexpr double kLeastDistance_m = 0.03;      // nearer points are all equally near: the depth noise
 constexpr double kLeastSide_m = 0.05;          // a thinner rectangle is no better
 constexpr std::size_t kLeastFootprint = 5;     // points
+constexpr double kWithoutFaces = 0.2;          // of the criterion, where no face has the direction
 
 struct Extent {
   double low = 0, high = 0;
@@ -65,11 +67,15 @@ Trial tryYaw(const std::vector<Eigen::Vector2d>& points, double yaw) {
 
 }  // namespace
 
-std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points, int max_count) {
+std::vector<FootprintRectangle> fitRectangles(const std::vector<Eigen::Vector2d>& points,
+                                              const VerticalFaces& faces, int max_count) {
   std::vector<FootprintRectangle> out;
   if (points.size() < kLeastFootprint) return out;
   std::vector<Trial> trials;
-  for (int k = 0; k < kSteps; ++k) trials.push_back(tryYaw(points, k * std::numbers::pi / 2 / kSteps));
+  for (int k = 0; k < kSteps; ++k) {
+    trials.push_back(tryYaw(points, k * std::numbers::pi / 2 / kSteps));
+    trials.back().score *= kWithoutFaces + faceAgreement(faces, trials.back().rectangle.yaw);
+  }
   std::vector<Trial> peaks;
   for (int k = 0; k < kSteps; ++k) {
     bool peak = true;

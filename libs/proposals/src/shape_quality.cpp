@@ -6,6 +6,7 @@
 #include "edge_agreement.h"
 #include "front_agreement.h"
 #include "roomgraph/proposals/shape_fit.h"
+#include "vertical_faces.h"
 
 namespace roomgraph {
 namespace {
@@ -33,6 +34,8 @@ void judge(PlacedShape& placed, const BoxEvidence& evidence, const QualityWeight
   if (points.empty())
     if (const auto edges = edgeAgreement(placed, evidence))
       placed.quality *= 1 - weights.edges + weights.edges * *edges;
+  if (placed.has_yaw)
+    placed.quality *= 1 - weights.faces + weights.faces * faceAgreement(evidence.faces, placed.yaw);
   if (m.frontRule() != FrontRule::kNone)
     placed.quality *= 1 - weights.front + weights.front * frontAgreement(placed, evidence);
 }

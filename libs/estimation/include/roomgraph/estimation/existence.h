@@ -64,13 +64,15 @@ struct ExistenceOptions : Configurable {
   ExistenceOptions();
   bool enabled = true;
   double least_probability = 0.5;
-  int least_sightings = 3;
+  int least_sightings = 3, least_planar_sightings = 1;
   /// "NAME VALUE" for each kind of shape: weights of the evidence by kNames, and "bias".
   std::vector<std::string> cylinder, cuboid, planar;
   void declareParameters(ParameterVisitor& v) override;
   /// Whether a landmark whose existence is that of all evidence is in the map.
   bool isSure(const Landmark& landmark) const {
-    return landmark.existence >= least_probability && landmark.observations >= least_sightings;
+    const bool in_wall = landmark.shape.kind == ShapeKind::kPlanar;
+    return landmark.existence >= least_probability &&
+           landmark.observations >= (in_wall ? least_planar_sightings : least_sightings);
   }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "roomgraph/geometry/box.h"
 #include "roomgraph/geometry/camera.h"
@@ -31,6 +32,15 @@ inline BoxSides sidesInside(const Box2& box, int width, int height) {
 
 inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera) {
   return sidesInside(box, camera.width, camera.height);
+}
+
+/// The part of the image in which the object of a measured box was looked for: it ends at those image borders that cut the
+/// box, and nowhere else.
+inline Box2 windowOf(const Box2& box, const PinholeCamera& camera) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  const BoxSides inside = sidesInside(box, camera);
+  return {inside.left ? -kOpen : 0, inside.top ? -kOpen : 0, inside.right ? kOpen : camera.width,
+          inside.bottom ? kOpen : camera.height};
 }
 
 }  // namespace roomgraph

@@ -2,7 +2,9 @@
 // Image bounds of a shape model as a template for numbers and automatic differentiation.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -55,15 +57,37 @@ void addCircle(const Vec3<T>& center, const Vec3<T>& normal, const T& radius, co
   bounds.add(u[1], v[1]);
 }
 
-/// Adds the first end of an edge and its intersection with the near plane; the second end is the next edge's first.
-template <class T>
-void addClippedEdge(const Vec3<T>& p, const Vec3<T>& q, const PinholeCamera& camera, double near_m,
-                    ImageBounds<T>& bounds) {
+/// Calls with the first end of an edge if it is in front of the near plane, and with the edge's intersection with it; the
+/// second end is the next edge's first.
+template <class T, class Call>
+void forSeenEnds(const Vec3<T>& p, const Vec3<T>& q, double near_m, const Call& call) {
   const bool p_seen = p.z() >= T(near_m), q_seen = q.z() >= T(near_m);
-  if (p_seen) bounds.add(p, camera);
+  if (p_seen) call(p);
   if (p_seen == q_seen) return;
   const T ratio = (T(near_m) - p.z()) / (q.z() - p.z());
-  bounds.add(Vec3<T>(p + ratio * (q - p)), camera);
+  call(Vec3<T>(p + ratio * (q - p)));
+}
+
+/// Calls with the corners (camera frame, m) of the part of a model that is in front of the near plane; a cylinder is a
+/// prism of 48 sides.
+template <class T, class Call>
+void forEachSeenCorner(ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes, const Vec3<T>& bottom, double near_m,
+                       const Call& call) {
+  constexpr int kCircle = 48;
+  const auto corners = footprintCorners(kind, size, kCircle);
+  std::vector<Vec3<T>> low, high;
+  low.reserve(corners.size());
+  high.reserve(corners.size());
+  for (const auto& corner : corners) {
+    low.push_back(bottom + axes.col(0) * corner.x() + axes.col(1) * corner.y());
+    high.push_back(low.back() + size[2] * axes.col(2));
+  }
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const std::size_t next = (i + 1) % low.size();
+    forSeenEnds(low[i], low[next], near_m, call);
+    forSeenEnds(high[i], high[next], near_m, call);
+    forSeenEnds(low[i], high[i], near_m, call);
+  }
 }
 
 /// Bounds (u_min, v_min, u_max, v_max) of the model's silhouette (paper Eq. 13), not cut by the image border;
@@ -75,7 +99,6 @@ std::optional<std::array<T, 4>> projectedBounds(ShapeKind kind, const Vec3<T>& s
                                                 const Vec3<T>& bottom, const PinholeCamera& camera,
                                                 double near_m = 0.05) {
   using std::sqrt;
-  constexpr int kCircle = 48;
   ImageBounds<T> bounds;
   const Vec3<T> up = axes.col(2), top = bottom + size[2] * up;
   const T radius = radiusOf(size);
@@ -87,20 +110,81 @@ std::optional<std::array<T, 4>> projectedBounds(ShapeKind kind, const Vec3<T>& s
     addCircle(top, up, radius, camera, bounds);
     return bounds.value;
   }
-  const auto corners = footprintCorners(kind, size, kCircle);
-  std::vector<Vec3<T>> low, high;
-  low.reserve(corners.size());
-  high.reserve(corners.size());
-  for (const auto& corner : corners) {
-    low.push_back(bottom + axes.col(0) * corner.x() + axes.col(1) * corner.y());
-    high.push_back(low.back() + size[2] * up);
+  forEachSeenCorner<T>(kind, size, axes, bottom, near_m, [&](const Vec3<T>& p) { bounds.add(p, camera); });
+  if (!bounds.any) return std::nullopt;
+  return bounds.value;
+}
+
+/// Corner of a polygon in the image, px.
+template <class T>
+struct ImagePoint {
+  T u, v;
+};
+
+/// Convex hull of image points (monotone chain), counter-clockwise in (u, v).
+template <class T>
+std::vector<ImagePoint<T>> convexHull(std::vector<ImagePoint<T>> points) {
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.u < b.u || (!(b.u < a.u) && a.v < b.v); });
+  std::vector<ImagePoint<T>> hull;
+  const auto turnsRight = [&](const ImagePoint<T>& p) {
+    const auto &a = hull[hull.size() - 2], &b = hull.back();
+    return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u) <= T(0);
+  };
+  const auto extend = [&](const ImagePoint<T>& p, std::size_t least) {
+    while (hull.size() > least && turnsRight(p)) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const auto& p : points) extend(p, 1);
+  const std::size_t lower = hull.size();
+  for (auto p = points.rbegin() + (points.empty() ? 0 : 1); p < points.rend(); ++p) extend(*p, lower);
+  if (hull.size() > 1) hull.pop_back();
+  return hull;
+}
+
+/// The part of a convex polygon where `sign` times the coordinate is at least `sign` times the limit (Sutherland and
+/// Hodgman 1974).
+template <class T>
+std::vector<ImagePoint<T>> clipped(const std::vector<ImagePoint<T>>& polygon, T ImagePoint<T>::*coordinate, double limit,
+                                   double sign) {
+  std::vector<ImagePoint<T>> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ImagePoint<T>&p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const T p_in = sign * (p.*coordinate - limit), q_in = sign * (q.*coordinate - limit);
+    if (p_in >= T(0)) out.push_back(p);
+    if ((p_in >= T(0)) == (q_in >= T(0))) continue;
+    const T ratio = p_in / (p_in - q_in);
+    out.push_back({p.u + ratio * (q.u - p.u), p.v + ratio * (q.v - p.v)});
   }
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const std::size_t next = (i + 1) % low.size();
-    addClippedEdge(low[i], low[next], camera, near_m, bounds);
-    addClippedEdge(high[i], high[next], camera, near_m, bounds);
-    addClippedEdge(low[i], high[i], camera, near_m, bounds);
-  }
+  return out;
+}
+
+/// Bounds of the part of the model's silhouette that is inside `window` (px; its sides may be infinite), as
+/// projectedBounds(); nothing when no part is. What is nearest, and therefore reaches lowest, is often outside the image:
+/// the bounds of the part in view are not those of the whole, cut by the image border. A cylinder that is cut is a
+/// prism of 48 sides.
+template <class T>
+std::optional<std::array<T, 4>> boundsWithin(const Box2& window, ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes,
+                                             const Vec3<T>& bottom, const PinholeCamera& camera, double near_m = 0.05) {
+  const auto whole = projectedBounds<T>(kind, size, axes, bottom, camera, near_m);
+  if (!whole || ((*whole)[0] >= T(window.u_min) && (*whole)[1] >= T(window.v_min) && (*whole)[2] <= T(window.u_max) &&
+                 (*whole)[3] <= T(window.v_max)))
+    return whole;
+  std::vector<ImagePoint<T>> points;
+  const auto add = [&](const Vec3<T>& p) {
+    points.push_back({camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy});
+  };
+  forEachSeenCorner<T>(kind, size, axes, bottom, near_m, add);
+  auto polygon = convexHull(std::move(points));
+  const auto cut = [&](T ImagePoint<T>::*coordinate, double limit, double sign) {
+    if (std::isfinite(limit)) polygon = clipped(polygon, coordinate, limit, sign);
+  };
+  cut(&ImagePoint<T>::u, window.u_min, 1);
+  cut(&ImagePoint<T>::u, window.u_max, -1);
+  cut(&ImagePoint<T>::v, window.v_min, 1);
+  cut(&ImagePoint<T>::v, window.v_max, -1);
+  ImageBounds<T> bounds;
+  for (const auto& p : polygon) bounds.add(p.u, p.v);
   if (!bounds.any) return std::nullopt;
   return bounds.value;
 }

@@ -39,6 +39,12 @@ struct BoxEdges {
   double distanceAt(const Eigen::Vector2d& pixel) const;
 };
 
+/// Directions of an object's vertical faces.
+struct VerticalFaces {
+  std::vector<double> azimuths;  ///< rad, ground frame: of the normals at depth points
+  double most = 0;  ///< largest mean agreement of them with two directions at right angles
+};
+
 /// Everything a shape generator knows about one detection. The ground frame (geometry/ground.h) has its origin on
 /// the floor below the camera, x along the optical axis' horizontal direction, y left, z up.
 struct BoxEvidence {
@@ -53,6 +59,7 @@ struct BoxEvidence {
   DepthMask around;      ///< of planar classes: beside and above the box, where the wall is
   DepthMask other_mask;  ///< the second best explanation of the box's points; may be empty
   BoxEdges edges;
+  VerticalFaces faces;                 ///< of cuboids
   std::vector<Segment2> segments;      ///< of the edges, those the mask supports, longest first
   double ground_tilt_sigma = 0;        ///< rad, of the ground's normal; 0: measured, not corrected
   const ObjectModel* model = nullptr;  ///< class of the object; never null when a generator is called

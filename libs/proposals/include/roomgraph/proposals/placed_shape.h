@@ -42,11 +42,12 @@ Pose3 groundFromObject(const PlacedShape& placed);
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence);
 /// Nothing when it is out of view.
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
-/// What a nearer object leaves to be seen of it: the model's box in the image, cut by the hidden sides of the
-/// detection's.
-Box2 unhidden(const Box2& visible, const Box2& box, const BoxSides& hidden);
-/// IoU of the projected model with the box, both cut by the image border, the model also by hidden box sides;
-/// 0 when it is out of view.
+/// The part of the image between those sides of the box that are said to be cut; infinite to the others.
+Box2 windowBetween(const Box2& box, const BoxSides& sides);
+/// Bounds of what is in view of the model: inside the image, and between the sides of the detection's box at which
+/// it is hidden; nothing when nothing is.
+std::optional<Box2> visibleBounds(const PlacedShape& placed, const BoxEvidence& evidence);
+/// IoU of that with the box; 0 when it is out of view.
 double boxIou(const PlacedShape& placed, const BoxEvidence& evidence);
 
 }  // namespace roomgraph

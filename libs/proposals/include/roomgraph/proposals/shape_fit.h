@@ -31,6 +31,7 @@ struct QualityWeights {
   double far_outside_m = 0.3;    ///< largest distance of a single point that counts
   double size = 0.08;            ///< factor of the squared normalised size errors in the exponent
   double edges = 0.6;            ///< share of the quality that image edges decide, without depth
+  double faces = 0.5;            ///< share of the quality that the directions of vertical faces decide
   double front = 0.45;           ///< share of the quality that the front rule decides
 };
 
