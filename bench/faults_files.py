@@ -248,17 +248,26 @@ def signals(program, count, seed=1):
 BATCH_SAME = ("trajectory.tum", "landmarks.json", "map.pgm", "graph.g2o", "associations.jsonl", "live.tum")
 
 
-def runs_in(folder):
-    """Results of complete runs by name."""
-    complete = {}
+def results_in(folder):
+    """(folder, result.json) of each complete run of a batch."""
     for run in sorted((folder / "runs").glob("*")):
         try:
-            status = json.loads((run / "result.json").read_text())["status"]
-        except (OSError, ValueError, KeyError):
-            status = "none"
-        if status == "complete":
-            complete[run.name] = {name: (run / name).read_bytes() for name in BATCH_SAME if (run / name).exists()}
-    return complete
+            result = json.loads((run / "result.json").read_text())
+        except (OSError, ValueError):
+            continue
+        if result.get("status") == "complete":
+            yield run, result
+
+
+def runs_in(folder):
+    """Results of complete runs by name."""
+    return {run.name: {name: (run / name).read_bytes() for name in BATCH_SAME if (run / name).exists()}
+            for run, _ in results_in(folder)}
+
+
+def programs_in(folder):
+    """Checksums of the programs that made the complete runs."""
+    return {result["program"] for _, result in results_in(folder)}
 
 
 def batch_verdict(former, complete, whole, ended, out):
@@ -296,6 +305,8 @@ def batch_signals(program, count, seed=1):
             time.sleep(generator.uniform(0, 0.7 * usual))
             batch.send_signal(kind)
             said = batch.communicate()[1]
+            if programs_in(out) - programs_in(scratch / "whole"):
+                raise SystemExit(f"batch-signals: {program} was built anew meanwhile; its results are not comparable")
             complete = runs_in(out)
             wrong = batch_verdict(former, complete, whole, (batch.returncode, said), out)
             former = set(complete)
