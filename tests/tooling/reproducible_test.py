@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-BUILD, SCRIPT = map(pathlib.Path, sys.argv[1:3])
+BUILD, SCRIPT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 del sys.argv[1:3]
 CODE = 'const char* where() { return __FILE__; }\nint main() { return where()[0] == 0; }\n'
 
