@@ -187,6 +187,13 @@ def processes_of(folder, seconds=5):
         time.sleep(0.05)
 
 
+def heed(kinds):
+    """Signals that this process was told to ignore (nohup, a shell's background) reach the programs that it starts again."""
+    for kind in kinds:
+        if kind != signal.SIGKILL and signal.getsignal(kind) == signal.SIG_IGN:
+            signal.signal(kind, signal.SIG_DFL)
+
+
 def tell(wrong, case, said):
     """A case that went wrong, for whoever looks into it."""
     if wrong:
@@ -208,6 +215,7 @@ def signals(program, count, seed=1):
     known live must be the first ones of the undisturbed run, to the bit."""
     rows = Counter()
     kinds = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL]
+    heed(kinds)
     generator = random.Random(seed)
     tiny, handheld = RECORDINGS / "tiny_room.rawlog", RECORDINGS / "tiny_handheld.rawlog"
     with tempfile.TemporaryDirectory() as scratch:
@@ -285,6 +293,7 @@ def batch_signals(program, count, seed=1):
     over is gone on with until it is, over several signals. Runs that say they are complete must have the same bits as undisturbed
     ones, at every moment; the batch at its end, too."""
     rows, kinds = Counter(), [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+    heed(kinds)
     generator = random.Random(seed)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)

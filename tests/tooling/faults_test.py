@@ -11,7 +11,8 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, sys.argv.pop(1))
+BENCH = sys.argv.pop(1)
+sys.path.insert(0, BENCH)
 import faults_files  # noqa: E402  (in that folder)
 
 
@@ -38,6 +39,17 @@ class Words(unittest.TestCase):
             self.assertEqual(faults_files.words_of(code, "roomgraph: interrupted"), [])
         self.assertEqual(faults_files.words_of(3, ""), ["exit code 3"])
         self.assertEqual(faults_files.words_of(1, "internal error: x"), ["internal error", "exit code 1"])
+
+
+class Signals(unittest.TestCase):
+    def test_what_nohup_ignores_reaches_the_programs(self):
+        script = ("import signal, subprocess, sys; sys.path.insert(0, sys.argv[1]); import faults_files as f;"
+                  "signal.signal(signal.SIGHUP, signal.SIG_IGN); heeded = sys.argv[2] == 'yes';"
+                  "f.heed([signal.SIGHUP, signal.SIGKILL]) if heeded else None;"
+                  "c = subprocess.Popen(['sleep', '1']); c.send_signal(signal.SIGHUP); print(c.wait())")
+        for heeded, code in (("yes", "-1"), ("no", "0")):
+            done = subprocess.run([sys.executable, "-c", script, str(BENCH), heeded], capture_output=True, text=True, check=True)
+            self.assertEqual(done.stdout.strip(), code)
 
 
 class Batch(unittest.TestCase):
