@@ -5,6 +5,7 @@ A case is good when the folder holds the former results or the complete new ones
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -165,10 +166,10 @@ def full_disk(program):
     return "\n".join(lines + [f"| {c['case']} | {c['exit']} | {c['holds']} | {c['says']} |" for c in cases]) + "\n"
 
 
-def words_of(code, text):
+def words_of(code, text, heard):
     """What is wrong with exit code and words of a command that got a signal: it ends well, says it was interrupted, or the signal came
-    before it had begun."""
-    return ["internal error"] * ("internal error" in text) + [f"exit code {code}"] * (code > 0 and code != 4)
+    before it had begun, when it did not heed it."""
+    return ["ended at once"] * (heard and code < 0) + ["internal error"] * ("internal error" in text) + [f"exit code {code}"] * (code > 0 and code != 4)
 
 
 def processes_of(folder, seconds=5):
@@ -192,6 +193,26 @@ def heed(kinds):
     for kind in kinds:
         if kind != signal.SIGKILL and signal.getsignal(kind) == signal.SIG_IGN:
             signal.signal(kind, signal.SIG_DFL)
+
+
+def catches(pid, kind):
+    """Whether a process has a handler of its own for a signal; before it has, the signal ends it before it has begun."""
+    try:
+        line = re.search(r"SigCgt:\s*(\w+)", (Path("/proc") / str(pid) / "status").read_text())
+    except OSError:
+        return False
+    return bool(line) and bool(int(line[1], 16) >> (kind - 1) & 1)
+
+
+def send_at_random(process, kind, longest, generator):
+    """Waits for a random time, in half of the cases from when the process heeds signals on, and sends one; whether it is heeded."""
+    if generator.random() < 0.5:
+        while process.poll() is None and not catches(process.pid, signal.SIGTERM):
+            time.sleep(0.01)
+    time.sleep(generator.uniform(0, longest))
+    heard = catches(process.pid, kind)
+    process.send_signal(kind)
+    return heard
 
 
 def tell(wrong, case, said):
@@ -232,8 +253,7 @@ def signals(program, count, seed=1):
             shutil.copytree(old, out)
             run = subprocess.Popen([program, "run", tiny, "-o", out, "--quiet"], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
-            time.sleep(generator.uniform(0, 1.1 * usual))
-            run.send_signal(kind)
+            heard = send_at_random(run, kind, 1.1 * usual, generator)
             said = run.communicate()[1]
             if kind == signal.SIGKILL:
                 shutil.rmtree(out / "roomgraph_unfinished", ignore_errors=True)
@@ -242,10 +262,12 @@ def signals(program, count, seed=1):
             after = contents(out)
             # An interrupted run has results of its own: none of the former ones, and all files.
             holds = verdict(before, after, complete, exact=False)
-            wrong = words_of(run.returncode, said) + ["processes left"] * bool(processes_of(out))
+            wrong = words_of(run.returncode, said, heard) + ["processes left"] * bool(processes_of(out))
             if holds == "new" and not complete["live.tum"].startswith(after["live.tum"]):
                 wrong.append("other poses")
-            if resumable == (run.returncode == 0) and holds == "new":
+            # A run that is killed may have come to its end already.
+            whole = holds == "new" and verdict(before, after, complete, exact=True) == "new"
+            if holds == "new" and (resumable if run.returncode == 0 else not resumable and not whole):
                 wrong.append("checkpoint of a whole run" if resumable else "no checkpoint")
             rows[kind.name, run.returncode, holds, ", ".join(wrong) or "nothing"] += 1
             tell(wrong, f"{kind.name}, exit code {run.returncode}", said)
@@ -311,13 +333,12 @@ def batch_signals(program, count, seed=1):
         for i in range(count):
             kind = kinds[i % len(kinds)]
             batch = subprocess.Popen(command(out), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            time.sleep(generator.uniform(0, 0.7 * usual))
-            batch.send_signal(kind)
+            heard = send_at_random(batch, kind, 0.7 * usual, generator)
             said = batch.communicate()[1]
             if programs_in(out) - programs_in(scratch / "whole"):
                 raise SystemExit(f"batch-signals: {program} was built anew meanwhile; its results are not comparable")
             complete = runs_in(out)
-            wrong = batch_verdict(former, complete, whole, (batch.returncode, said), out)
+            wrong = batch_verdict(former, complete, whole, (batch.returncode, said, heard), out)
             former = set(complete)
             if batch.returncode == 0:
                 wrong += ["not all runs"] * (len(complete) != len(whole))

@@ -6,6 +6,8 @@ Usage: faults_test.py BENCH_FOLDER
 """
 import json
 import pathlib
+import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -36,9 +38,10 @@ class Verdict(unittest.TestCase):
 class Words(unittest.TestCase):
     def test_a_good_end_an_interruption_and_a_signal_are_right(self):
         for code in 0, 4, -2, -15:
-            self.assertEqual(faults_files.words_of(code, "roomgraph: interrupted"), [])
-        self.assertEqual(faults_files.words_of(3, ""), ["exit code 3"])
-        self.assertEqual(faults_files.words_of(1, "internal error: x"), ["internal error", "exit code 1"])
+            self.assertEqual(faults_files.words_of(code, "roomgraph: interrupted", False), [])
+        self.assertEqual(faults_files.words_of(3, "", True), ["exit code 3"])
+        self.assertEqual(faults_files.words_of(1, "internal error: x", True), ["internal error", "exit code 1"])
+        self.assertEqual(faults_files.words_of(-15, "", True), ["ended at once"])  # with a handler for it
 
 
 class Signals(unittest.TestCase):
@@ -50,6 +53,30 @@ class Signals(unittest.TestCase):
         for heeded, code in (("yes", "-1"), ("no", "0")):
             done = subprocess.run([sys.executable, "-c", script, str(BENCH), heeded], capture_output=True, text=True, check=True)
             self.assertEqual(done.stdout.strip(), code)
+
+
+class Handlers(unittest.TestCase):
+    def test_a_process_with_a_handler_is_told_from_one_without(self):
+        script = "import signal, time; signal.signal(signal.SIGTERM, lambda *_: None); print('ready', flush=True); time.sleep(30)"
+        child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+        try:
+            child.stdout.readline()
+            self.assertTrue(faults_files.catches(child.pid, signal.SIGTERM))
+            self.assertFalse(faults_files.catches(child.pid, signal.SIGHUP))
+        finally:
+            child.kill()
+            child.communicate()
+        self.assertFalse(faults_files.catches(child.pid, signal.SIGTERM))
+
+    def test_the_signal_is_sent_once_it_is_heeded(self):
+        script = "import signal, sys, time; time.sleep(0.3); signal.signal(signal.SIGTERM, lambda *_: sys.exit(7)); time.sleep(30)"
+
+        class Always(random.Random):
+            def random(self):
+                return 0.0
+        child = subprocess.Popen([sys.executable, "-c", script])
+        self.assertTrue(faults_files.send_at_random(child, signal.SIGTERM, 0, Always()))
+        self.assertEqual(child.wait(), 7)
 
 
 class Batch(unittest.TestCase):
@@ -79,7 +106,7 @@ class Batch(unittest.TestCase):
 
     def test_other_bits_and_lost_runs_are_found(self):
         whole = {"a": {"live.tum": b"1"}, "b": {"live.tum": b"2"}}
-        good = (4, "roomgraph: interrupted")
+        good = (4, "roomgraph: interrupted", True)
         self.assertEqual(faults_files.batch_verdict(set(), {}, whole, good, self.folder), [])
         self.assertEqual(faults_files.batch_verdict({"a"}, dict(whole), whole, good, self.folder), [])
         self.assertEqual(faults_files.batch_verdict({"a"}, {"b": whole["b"]}, whole, good, self.folder), ["a complete run is gone"])
@@ -87,12 +114,14 @@ class Batch(unittest.TestCase):
         self.assertEqual(faults_files.batch_verdict(set(), {"a": {}}, whole, good, self.folder), ["other bits"])
 
     def test_a_process_that_is_left_is_found_until_it_ends(self):
-        child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(30)", str(self.folder)])
+        child = subprocess.Popen([sys.executable, "-c", "import time; print('ready', flush=True); time.sleep(30)", str(self.folder)],
+                                 stdout=subprocess.PIPE)
         try:
+            child.stdout.readline()
             self.assertEqual(faults_files.processes_of(self.folder, 0.2), [str(child.pid)])
         finally:
             child.kill()
-            child.wait()
+            child.communicate()
         self.assertEqual(faults_files.processes_of(self.folder, 0.2), [])
 
 
