@@ -44,13 +44,16 @@ def shipped(build):
     return {name: file for name, file in binaries(build).items() if name == "bin/roomgraph" or name.startswith("lib/")}
 
 
-def section_at(file, offset):
-    """Name of the part of an ELF file that this byte belongs to."""
+def sections(file):
+    """(name, first byte, end) of the parts of an ELF file that are in it."""
     told = subprocess.run(["readelf", "-SW", file], capture_output=True, text=True, check=False).stdout
-    for name, kind, start, size in SECTION.findall(told):
-        if kind != "NOBITS" and int(start, 16) <= offset < int(start, 16) + int(size, 16):
-            return name
-    return "headers"
+    return [(name, int(start, 16), int(start, 16) + int(size, 16)) for name, kind, start, size in SECTION.findall(told)
+            if kind != "NOBITS"]
+
+
+def section_at(file, offset):
+    """Name of the part that this byte belongs to."""
+    return next((name for name, start, end in sections(file) if start <= offset < end), "headers")
 
 
 def printable(data, offset):
@@ -63,7 +66,11 @@ def difference(first, second):
     if one == other:
         return ""
     shorter = min(len(one), len(other))
-    offset = next((i for i in range(shorter) if one[i] != other[i]), shorter)
+    # The build id is a checksum of the rest, and stands before it.
+    ids = [range(start, end) for name, start, end in sections(first) if name == ".note.gnu.build-id"]
+    offset = next((i for i in range(shorter) if one[i] != other[i] and not any(i in part for part in ids)), shorter)
+    if offset == len(one) == len(other):
+        return "the build id alone"
     sizes = "" if len(one) == len(other) else f"{len(one)} and {len(other)} bytes; "
     return f"{sizes}byte {offset}, {section_at(first, offset)}: \"{printable(one, offset)}\" and \"{printable(other, offset)}\""
 

@@ -70,6 +70,7 @@ class Comparison(unittest.TestCase):
         done = run(SCRIPT, "--compare", first, second)
         self.assertEqual(done.returncode, 1)
         self.assertIn("1 differ.", done.stdout)
+        self.assertIn(", .rodata: ", done.stdout)  # not the build id, which differs too and stands before it
         told = run(SCRIPT, "--paths", first)
         self.assertEqual(told.returncode, 1)
         self.assertIn(f"bin/roomgraph: .rodata: {first}/source.cpp", told.stdout)
@@ -91,6 +92,16 @@ class Comparison(unittest.TestCase):
         done = run(SCRIPT, "--compare", first, second)
         self.assertIn(f"byte {at}, .rodata: ", done.stdout)
         self.assertEqual(done.returncode, 1)
+
+    def test_another_build_id_alone_is_told(self):
+        first = small_build(self.root, "one", "-Wl,--build-id=sha1")
+        second = self.root / "two"
+        shutil.copytree(first, second)
+        program = second / "bin" / "roomgraph"
+        told = run("readelf", "-n", program).stdout
+        number = bytes.fromhex(told.split("Build ID: ")[1].split()[0])
+        program.write_bytes(program.read_bytes().replace(number, bytes(len(number))))
+        self.assertIn("the build id alone", run(SCRIPT, "--compare", first, second).stdout)
 
     def test_an_empty_search_path_is_found(self):
         folder = small_build(self.root, "one", "-Wl,-rpath,/usr/lib:", f"-fmacro-prefix-map={self.root}/=")
