@@ -5,15 +5,19 @@ A case is good when the folder holds the former results or the complete new ones
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+from collections import Counter
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 RECORDINGS = ROOT / "rawlogs"
+CHECKPOINT = "roomgraph_checkpoint"
 TIMED = {"summary.json", "timings.csv", "report.html"}  # differ between runs of the same input
 os.environ["XDG_DATA_HOME"] = os.devnull  # no networks that somebody has installed
 
@@ -162,10 +166,77 @@ def full_disk(program):
     return "\n".join(lines + [f"| {c['case']} | {c['exit']} | {c['holds']} | {c['says']} |" for c in cases]) + "\n"
 
 
+def words_of(code, text, heard):
+    """What is wrong with exit code and words of a command that got a signal: it ends well, says it was interrupted, or the signal came
+    before it had begun, when it did not heed it."""
+    return ["ended at once"] * (heard and code < 0) + ["internal error"] * ("internal error" in text) + [f"exit code {code}"] * (code > 0 and code != 4)
+
+
+def processes_of(folder, seconds=5):
+    """Whether a process that names this folder is left; those that are dying get some seconds."""
+    own, ends = str(os.getpid()), time.monotonic() + seconds
+    while True:
+        left = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                if process.name != own and str(folder).encode() in (process / "cmdline").read_bytes():
+                    left.append(process.name)
+            except OSError:
+                pass  # it has ended
+        if not left or time.monotonic() > ends:
+            return left
+        time.sleep(0.05)
+
+
+def heed(kinds):
+    """Signals that this process was told to ignore (nohup, a shell's background) reach the programs that it starts again."""
+    for kind in kinds:
+        if kind != signal.SIGKILL and signal.getsignal(kind) == signal.SIG_IGN:
+            signal.signal(kind, signal.SIG_DFL)
+
+
+def catches(pid, kind):
+    """Whether a process has a handler of its own for a signal; before it has, the signal ends it before it has begun."""
+    try:
+        line = re.search(r"SigCgt:\s*(\w+)", (Path("/proc") / str(pid) / "status").read_text())
+    except OSError:
+        return False
+    return bool(line) and bool(int(line[1], 16) >> (kind - 1) & 1)
+
+
+def send_at_random(process, kind, longest, generator):
+    """Waits for a random time, in half of the cases from when the process heeds signals on, and sends one; whether it is heeded."""
+    if generator.random() < 0.5:
+        while process.poll() is None and not catches(process.pid, signal.SIGTERM):
+            time.sleep(0.01)
+    time.sleep(generator.uniform(0, longest))
+    heard = catches(process.pid, kind)
+    process.send_signal(kind)
+    return heard
+
+
+def tell(wrong, case, said):
+    """A case that went wrong, for whoever looks into it."""
+    if wrong:
+        print(f"{case}: {', '.join(wrong)}: {said.strip()[-300:]}", file=sys.stderr, flush=True)
+
+
+def progress(done, count):
+    if sys.stderr.isatty() or done % 20 == 0:
+        print(f"{done} of {count}", end="\r" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
+
+
+def counts_table(head, rows):
+    return "\n".join([f"| {' | '.join(head)} |", "| --- " * len(head) + "|"] +
+                     [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]) + "\n"
+
+
 def signals(program, count, seed=1):
-    """A table of runs over former results, ended at random moments by each signal in turn."""
-    rows = {}
+    """A table of runs over former results, ended at random moments by each signal in turn. Poses of an interrupted run that were
+    known live must be the first ones of the undisturbed run, to the bit."""
+    rows = Counter()
     kinds = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL]
+    heed(kinds)
     generator = random.Random(seed)
     tiny, handheld = RECORDINGS / "tiny_room.rawlog", RECORDINGS / "tiny_handheld.rawlog"
     with tempfile.TemporaryDirectory() as scratch:
@@ -181,43 +252,70 @@ def signals(program, count, seed=1):
             shutil.rmtree(out, ignore_errors=True)
             shutil.copytree(old, out)
             run = subprocess.Popen([program, "run", tiny, "-o", out, "--quiet"], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-            wait = generator.uniform(0, 1.1 * usual)
-            time.sleep(wait)
-            run.send_signal(kind)
-            code = run.wait()
+                                   stderr=subprocess.PIPE, text=True)
+            heard = send_at_random(run, kind, 1.1 * usual, generator)
+            said = run.communicate()[1]
             if kind == signal.SIGKILL:
                 shutil.rmtree(out / "roomgraph_unfinished", ignore_errors=True)
+            resumable = (out / CHECKPOINT / "run.json").exists()
+            shutil.rmtree(out / CHECKPOINT, ignore_errors=True)
+            after = contents(out)
             # An interrupted run has results of its own: none of the former ones, and all files.
-            key = (kind.name, code, verdict(before, contents(out), complete, exact=False))
-            rows[key] = rows.get(key, 0) + 1
-    lines = ["| signal | exit code (negative: signal) | folder holds | runs |", "| --- | --- | --- | --- |"]
-    return "\n".join(lines + [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]) + "\n"
+            holds = verdict(before, after, complete, exact=False)
+            wrong = words_of(run.returncode, said, heard) + ["processes left"] * bool(processes_of(out))
+            if holds == "new" and not complete["live.tum"].startswith(after["live.tum"]):
+                wrong.append("other poses")
+            # A run that is killed may have come to its end already.
+            whole = holds == "new" and verdict(before, after, complete, exact=True) == "new"
+            if holds == "new" and (resumable if run.returncode == 0 else not resumable and not whole):
+                wrong.append("checkpoint of a whole run" if resumable else "no checkpoint")
+            rows[kind.name, run.returncode, holds, ", ".join(wrong) or "nothing"] += 1
+            tell(wrong, f"{kind.name}, exit code {run.returncode}", said)
+            progress(i + 1, count)
+    return counts_table(["signal", "exit code (negative: signal)", "folder holds", "wrong", "runs"], rows)
 
 
 BATCH_SAME = ("trajectory.tum", "landmarks.json", "map.pgm", "graph.g2o", "associations.jsonl", "live.tum")
 
 
-def runs_in(folder):
-    """Results of complete runs by name; what else has been left."""
-    complete, unfinished = {}, 0
+def results_in(folder):
+    """(folder, result.json) of each complete run of a batch."""
     for run in sorted((folder / "runs").glob("*")):
         try:
-            status = json.loads((run / "result.json").read_text())["status"]
-        except (OSError, ValueError, KeyError):
-            status = "none"
-        if status == "complete":
-            complete[run.name] = {name: (run / name).read_bytes() for name in BATCH_SAME if (run / name).exists()}
-        else:
-            unfinished += 1
-    return complete, unfinished
+            result = json.loads((run / "result.json").read_text())
+        except (OSError, ValueError):
+            continue
+        if result.get("status") == "complete":
+            yield run, result
+
+
+def runs_in(folder):
+    """Results of complete runs by name."""
+    return {run.name: {name: (run / name).read_bytes() for name in BATCH_SAME if (run / name).exists()}
+            for run, _ in results_in(folder)}
+
+
+def programs_in(folder):
+    """Checksums of the programs that made the complete runs."""
+    return {result["program"] for _, result in results_in(folder)}
+
+
+def batch_verdict(former, complete, whole, ended, out):
+    """What is wrong after a signal: a run that says it is complete has the bits of an undisturbed one, and stays."""
+    wrong = words_of(*ended)
+    if any(files != whole[name] for name, files in complete.items()):
+        wrong.append("other bits")
+    if not former <= complete.keys():
+        wrong.append("a complete run is gone")
+    return wrong + ["processes left"] * bool(processes_of(out))
 
 
 def batch_signals(program, count, seed=1):
     """A table of batches of two runs, two at a time, told to end at random moments by each signal in turn. One that was not
     over is gone on with until it is, over several signals. Runs that say they are complete must have the same bits as undisturbed
     ones, at every moment; the batch at its end, too."""
-    rows, kinds = {}, [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+    rows, kinds = Counter(), [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+    heed(kinds)
     generator = random.Random(seed)
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
@@ -230,24 +328,27 @@ def batch_signals(program, count, seed=1):
         started = time.monotonic()
         call(command(scratch / "whole"), check=True)
         usual = time.monotonic() - started
-        whole, _ = runs_in(scratch / "whole")
-        out, ended = scratch / "out", 0
+        whole = runs_in(scratch / "whole")
+        out, ended, former = scratch / "out", 0, set()
         for i in range(count):
             kind = kinds[i % len(kinds)]
-            batch = subprocess.Popen(command(out), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(generator.uniform(0, 0.7 * usual))
-            batch.send_signal(kind)
-            code = batch.wait()
-            complete, _ = runs_in(out) if (out / "runs").exists() else ({}, 0)
-            right = all(files == whole[name] for name, files in complete.items())
-            if code == 0:
-                right = right and len(complete) == len(whole)
+            batch = subprocess.Popen(command(out), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            heard = send_at_random(batch, kind, 0.7 * usual, generator)
+            said = batch.communicate()[1]
+            if programs_in(out) - programs_in(scratch / "whole"):
+                raise SystemExit(f"batch-signals: {program} was built anew meanwhile; its results are not comparable")
+            complete = runs_in(out)
+            wrong = batch_verdict(former, complete, whole, (batch.returncode, said, heard), out)
+            former = set(complete)
+            if batch.returncode == 0:
+                wrong += ["not all runs"] * (len(complete) != len(whole))
                 ended += 1
                 shutil.rmtree(out)
-            key = (kind.name, code, len(complete), "the same bits" if right else "WRONG")
-            rows[key] = rows.get(key, 0) + 1
+                former = set()
+            rows[kind.name, batch.returncode, len(complete), ", ".join(wrong) or "nothing"] += 1
+            tell(wrong, f"{kind.name}, exit code {batch.returncode}", said)
+            progress(i + 1, count)
         call(command(out), check=True)
-        last = "the same bits" if runs_in(out)[0] == whole else "WRONG"
-    lines = ["| signal | exit code (negative: signal) | complete runs | they have | batches |", "| --- " * 5 + "|"]
-    lines += [f"| {' | '.join(map(str, key))} | {n} |" for key, n in sorted(rows.items())]
-    return "\n".join(lines) + f"\n\n{ended} batches came to their end; the last one, gone on with: {last}\n"
+        last = "the same bits" if runs_in(out) == whole else "WRONG"
+    text = counts_table(["signal", "exit code (negative: signal)", "complete runs", "wrong", "batches"], rows)
+    return text + f"\n{ended} batches came to their end; the last one, gone on with: {last}\n"

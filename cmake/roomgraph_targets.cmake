@@ -3,7 +3,11 @@ include(GNUInstallDirs)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN")
+# Libraries are looked for relative to the program, in the build folder as in the installed tree: what is built does not depend on
+# where. CMake's own build paths would end in an empty one, too, by which the loader looks for every library in the working directory.
+set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}" "$ORIGIN/../lib" "$ORIGIN")
+list(REMOVE_DUPLICATES CMAKE_INSTALL_RPATH)
+set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
@@ -26,7 +30,9 @@ set(ROOMGRAPH_COMPILE_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dt
     -Wno-missing-field-initializers  # designated initialisers leave out members on purpose: they have defaults
     -Wno-restrict  # GCC 12 reports "text" + std::string by mistake (GCC bug 105651)
     # Bit-identical results on every run: the compiler must not fuse or reorder floating-point operations.
-    -ffp-contract=off $<$<BOOL:${ROOMGRAPH_WERROR}>:-Werror>)
+    -ffp-contract=off
+    "-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/="  # __FILE__ does not tell where it was built
+    $<$<BOOL:${ROOMGRAPH_WERROR}>:-Werror>)
 target_compile_options(roomgraph_options INTERFACE "$<BUILD_INTERFACE:${ROOMGRAPH_COMPILE_OPTIONS}>")
 if(ROOMGRAPH_SANITIZE)
   # GCC takes what sanitizers insert for uses of uninitialised values, as its manual says.

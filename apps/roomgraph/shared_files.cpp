@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Search for shipped files relative to the executable, then in the source directory.
+// Search for shipped files relative to the executable.
 #include "shared_files.h"
 
 #include "roomgraph/core/errors.h"
@@ -8,13 +8,9 @@ namespace roomgraph {
 
 std::filesystem::path sharedFile(const std::string& name) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  const std::filesystem::path places[] = {program / ".." / "share" / "roomgraph", ROOMGRAPH_SOURCE_DIR};
-  std::string searched;
-  for (const auto& place : places) {
-    if (std::filesystem::exists(place / name)) return std::filesystem::canonical(place / name);
-    searched += (searched.empty() ? "" : ", ") + place.lexically_normal().string();
-  }
-  throw ConfigError(name + ": not found in " + searched + "; name one with --config");
+  const auto place = (program / ".." / "share" / "roomgraph").lexically_normal();
+  if (std::filesystem::exists(place / name)) return std::filesystem::canonical(place / name);
+  throw ConfigError(name + ": not found in " + place.string() + "; name one with --config");
 }
 
 std::filesystem::path catalogueFileOf(const std::string& asked_for) {

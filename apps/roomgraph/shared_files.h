@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lookup of the shipped configuration files, installed or in the source tree.
+// Lookup of the shipped configuration files beside the program.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace roomgraph {
 
-/// config.ini or objects.ini as shipped: beside the installed program (share/roomgraph), or in the source
-/// tree when run from the build folder. Throws ConfigError naming the places searched.
+/// config.ini, objects.ini or another shipped file, in ../share/roomgraph as seen from the program; the build folder has links
+/// there into the source tree. Symbolic links are resolved. Throws ConfigError naming the place searched.
 std::filesystem::path sharedFile(const std::string& name);
 
 /// The catalogue of networks that was asked for; else the shipped one.
