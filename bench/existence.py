@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits the weights of [existence] to the landmarks of simulated flats, and says how well they do on flats left out.
 
-    bench/existence.py [--seeds 1-20] [--set k=v ...] [--out DIR] [--program PATH]
+    bench/existence.py [--seeds 1-20] [--near-shipped] [--set k=v ...] [--out DIR] [--program PATH]
                        [--mesh-seeds 1-5 --meshes DIR --mesh-set detection.models=...]
 
 --mesh-seeds adds flats furnished with catalogue models (worlds/extract_meshes.sh), to be seen by networks.
@@ -12,21 +12,24 @@ used again), run and evaluated; each landmark of candidates.json with enough sig
 calls it correct and false when it calls it a false alarm or a duplicate; look-alikes that are not counted are left out.
 
 The model is a logistic regression for each kind of shape, whose weights differ from common ones by a ridge penalty, and whose
-signs agree with the meaning of the evidence. Printed are the reliability on flats left out one at a time, and the weights of
+signs agree with the meaning of the evidence. With --near-shipped the penalty is on what they differ from the program's own
+weights: for a change of the evidence that a few flats shall tell of. Printed are the reliability on flats left out one at a time, and the weights of
 all flats as they stand in libs/estimation/src/existence.cpp.
 """
 import argparse
 import json
 import math
+import re
 import statistics
+import subprocess
 import sys
 from pathlib import Path
 
 import flats
 import seeds
 
-LEAST_SIGHTINGS = 3
-RIDGE_COMMON, RIDGE_OWN, RIDGE_BIAS = 4.0, 8.0, 0.05
+LEAST_SIGHTINGS = {"cylinder": 3, "cuboid": 3, "planar": 1}
+RIDGE_COMMON, RIDGE_OWN, RIDGE_BIAS, RIDGE_SHIPPED = 4.0, 8.0, 0.05, 4.0
 # Without "size": simulated objects are nearer to the usual sizes than real ones, and the shapes' scores contain it.
 SIGNS = {"filter": 1, "sightings": 1, "directions": 1, "score": 1, "label": 1, "scatter": -1, "turned": -1, "measured": 1,
          "detected": 1, "contested": -1, "outdone": -1, "mislabelled": -1, "crossed": -1, "filled": 1, "spread": 1, "beside_crossed": -1, "beside_filled": 1, "beams_crossed": -1}
@@ -40,9 +43,16 @@ def samples_of(number, run, report):
     out = []
     for landmark in json.loads((run / "candidates.json").read_text())["landmarks"]:
         verdict = verdicts[landmark["id"]]
-        if landmark["observations"] >= LEAST_SIGHTINGS and verdict != "uncounted":
+        if landmark["observations"] >= LEAST_SIGHTINGS[landmark["shape"]] and verdict != "uncounted":
             out.append((number, landmark["shape"], landmark["evidence"], verdict == "correct"))
     return out
+
+
+def shipped_weights(program):
+    """{kind of shape: {name: weight}} of the program's own configuration."""
+    reference = subprocess.run([program, "config-reference"], check=True, capture_output=True, text=True).stdout
+    rows = re.findall(r"^\| `(\w+)_weights` \| `(bias [^`]*)`", reference, re.MULTILINE)
+    return {kind: {name: float(value) for name, value in map(str.split, entries.split(","))} for kind, entries in rows}
 
 
 def solved(matrix, right):
@@ -68,33 +78,40 @@ def dot(a, b):
 
 
 class Model:
-    """Weights of standardised evidence by kind of shape, the bias first."""
+    """Weights of standardised evidence by kind of shape, the bias first; `near`: weights of the evidence as it is, from which they
+    differ as little as the samples allow."""
 
-    def __init__(self, samples):
+    def __init__(self, samples, near=None):
         self.names, self.signs = list(SIGNS), [0, *SIGNS.values()]
         columns = [[evidence[name] for _, _, evidence, _ in samples] for name in self.names]
         self.mean = [statistics.fmean(column) for column in columns]
         self.sigma = [statistics.pstdev(column) + 1e-6 for column in columns]
         self.weights = {kind: [0.0] * len(self.signs) for _, kind, _, _ in samples}
+        self.near = near and {kind: self.standardised(near[kind]) for kind in self.weights}
         self.fit({kind: ([self.row(e) for _, k, e, _ in samples if k == kind], [v for _, k, _, v in samples if k == kind])
                   for kind in self.weights})
+
+    def standardised(self, raw):
+        weights = [raw.get(name, 0.0) for name in self.names]
+        return [raw["bias"] + dot(weights, self.mean), *(w * s for w, s in zip(weights, self.sigma))]
 
     def row(self, evidence):
         return [1.0, *((evidence[name] - m) / s for name, m, s in zip(self.names, self.mean, self.sigma))]
 
     def fit(self, samples_of_kind):
         """Damped Newton steps for each kind, towards the common weights; weights of the wrong sign are held at 0."""
-        common = [0.0] * len(self.signs)
+        common, ridge = [0.0] * len(self.signs), RIDGE_SHIPPED if self.near else RIDGE_OWN
         for _ in range(ROUNDS):
             for kind, (rows, truth) in samples_of_kind.items():
-                self.weights[kind] = self.improved(self.weights[kind], common, rows, truth)
+                aim = self.near[kind] if self.near else common
+                self.weights[kind] = self.improved(self.weights[kind], aim, ridge, rows, truth)
             shrunk = RIDGE_OWN / (RIDGE_COMMON + RIDGE_OWN * len(self.weights))
             common = [0.0, *(shrunk * sum(of) for of in list(zip(*self.weights.values()))[1:])]
 
-    def improved(self, weights, common, rows, truth):
-        ridge = [RIDGE_BIAS] + [RIDGE_OWN] * len(self.names)
+    def improved(self, weights, aim, penalty, rows, truth):
+        ridge = [RIDGE_BIAS] + [penalty] * len(self.names)
         probability = [logistic(dot(row, weights)) for row in rows]
-        gradient = [dot([row[i] for row in rows], [v - p for v, p in zip(truth, probability)]) - ridge[i] * (weights[i] - common[i])
+        gradient = [dot([row[i] for row in rows], [v - p for v, p in zip(truth, probability)]) - ridge[i] * (weights[i] - aim[i])
                     for i in range(len(weights))]
         free = [i for i, s in enumerate(self.signs) if not (s and weights[i] * s <= 0 and gradient[i] * s < 0)]
         spread = [p * (1 - p) for p in probability]
@@ -115,11 +132,11 @@ class Model:
         return f"{kind} = " + ", ".join(entries + [f"{name} {value:.3g}" for name, value in asked if abs(value) > 1e-3])
 
 
-def cross_validated(samples):
+def cross_validated(samples, near=None):
     """Probability of each sample by a model of the other flats."""
     out = [0.0] * len(samples)
     for flat in sorted({number for number, *_ in samples}):
-        model = Model([sample for sample in samples if sample[0] != flat])
+        model = Model([sample for sample in samples if sample[0] != flat], near)
         left_out = [i for i, sample in enumerate(samples) if sample[0] == flat]
         for i, probability in zip(left_out, model.probabilities([samples[i] for i in left_out])):
             out[i] = probability
@@ -158,6 +175,7 @@ def collect(program, number, out, settings, meshes=None):
 def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=flats.parse_seeds, default=flats.parse_seeds("1-20"), metavar="1-20", help="numbers of the flats")
+    parser.add_argument("--near-shipped", action="store_true", help="weights near the program's own")
     parser.add_argument("--set", nargs="+", action="extend", default=[], metavar="K=V")
     parser.add_argument("--mesh-seeds", type=flats.parse_seeds, default=[], metavar="1-5", help="numbers of the flats with --meshes")
     parser.add_argument("--meshes", type=Path, metavar="DIR")
@@ -176,13 +194,13 @@ def main(argv=None):
     for number in arguments.mesh_seeds:
         samples += collect(program, number, arguments.out.resolve(), arguments.mesh_set, arguments.meshes)
         print(f"flat {number} with meshes: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
-    print(summary(samples))
+    print(summary(samples, shipped_weights(arguments.program) if arguments.near_shipped else None))
     return 0
 
 
-def summary(samples):
-    probabilities = cross_validated(samples)
-    model = Model(samples)
+def summary(samples, near=None):
+    probabilities = cross_validated(samples, near)
+    model = Model(samples, near)
     true = sum(is_true for _, _, _, is_true in samples)
     return "\n".join([f"{len(samples)} landmarks of {len({s[0] for s in samples})} flats, {true} true; on flats left out:", "",
                       reliability(samples, probabilities), "",

@@ -58,6 +58,18 @@ class Fit(unittest.TestCase):
                 self.assertGreaterEqual(weight * existence.SIGNS[name], 0, name)
             self.assertEqual(weights[1 + model.names.index("crossed")], 0)
 
+    def test_few_samples_leave_the_weights_they_start_near_to(self):
+        near = {"cylinder": {"bias": -3, "score": 5, "crossed": -2}, "planar": {"bias": 0, "score": 4, "beside_crossed": -5}}
+        for count, most in ((4, 0.6), (1500, 10)):
+            model = existence.Model([sample for sample, _ in drawn(count, 6)], near)
+            for kind, raw in near.items():
+                if kind not in model.weights:
+                    continue
+                weights = {key: float(value) for key, value in (entry.split() for entry in model.text(kind).split(" = ")[1].split(", "))}
+                self.assertLess(abs(weights["score"] - raw["score"]), most, kind)
+        errors = [abs(p - truth) for p, (_, truth) in zip(model.probabilities([s for s, _ in drawn(300, 2)]), drawn(300, 2))]
+        self.assertLess(sum(errors) / len(errors), 0.05)
+
     def test_names_and_signs_are_those_of_the_program(self):
         header = (ROOT / "libs/estimation/include/roomgraph/estimation/existence.h").read_text()
         names = header.split("kNames = {")[1].split("}")[0]
