@@ -123,18 +123,5 @@ TEST(Progress, RewritesOneRowAndRemovesIt) {
   EXPECT_EQ(terminal.text(), "\r" + std::string(19, ' ') + "\r2 records\r\n");
 }
 
-TEST(Progress, AShorterLineCoversALongerOne) {
-  TerminalOnStderr terminal(80);
-  Progress progress(&std::cerr, "read", "records", 0);
-  wait();
-  progress.update(3, "a long note");
-  const std::string longer = terminal.text();
-  wait();
-  progress.update(4);
-  const std::string shorter = terminal.text();
-  EXPECT_EQ(shorter.size(), longer.size());
-  EXPECT_EQ(shorter.back(), ' ');
-}
-
 }  // namespace
 }  // namespace roomgraph

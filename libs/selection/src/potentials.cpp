@@ -36,7 +36,10 @@ ShapeInWorld shapeInWorld(const Proposal& proposal, const Pose3& world_from_came
 }
 
 std::optional<ProjectedShape> carriedArea(const ShapeInWorld& shape, const Viewpoint& view) {
-  return projectShape(shape.shape, view.world_from_camera.inverse() * shape.world_from_object, view.camera);
+  auto area = projectShape(shape.shape, view.world_from_camera.inverse() * shape.world_from_object, view.camera);
+  // Cut as areaInImage() cuts the area it is compared with.
+  if (area) area->visible = areaInImage(*area, view.camera);
+  return area;
 }
 
 Box2 areaInImage(const ProjectedShape& projected, const PinholeCamera& camera) {
