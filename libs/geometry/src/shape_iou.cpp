@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/geometry/convex_polygon.h"
 #include "roomgraph/geometry/shape.h"
 
 namespace roomgraph {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 constexpr int kCorners = 64;  // of a circle
 
@@ -27,25 +24,14 @@ ObjectShape atLeastAsThick(ObjectShape shape, double thickness) {
 double polygonArea(const std::vector<Eigen::Vector2d>& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
-    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    twice += cross2<double>(polygon[i], polygon[(i + 1) % polygon.size()]);
   return twice / 2;
 }
 
 std::vector<Eigen::Vector2d> intersectConvex(const std::vector<Eigen::Vector2d>& a,
                                              const std::vector<Eigen::Vector2d>& b) {
-  // Sutherland-Hodgman: cut a by every edge of b in turn.
   std::vector<Eigen::Vector2d> rest = a;
-  for (std::size_t k = 0; k < b.size() && !rest.empty(); ++k) {
-    const Eigen::Vector2d from = b[k], along = b[(k + 1) % b.size()] - from;
-    std::vector<Eigen::Vector2d> kept;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      const Eigen::Vector2d p = rest[i], q = rest[(i + 1) % rest.size()];
-      const double side_p = cross(along, p - from), side_q = cross(along, q - from);
-      if (side_p >= 0) kept.push_back(p);
-      if (side_p * side_q < 0) kept.push_back(p + (q - p) * side_p / (side_p - side_q));
-    }
-    rest = std::move(kept);
-  }
+  for (std::size_t k = 0; k < b.size(); ++k) rest = leftOf<double>(rest, b[k], b[(k + 1) % b.size()] - b[k]);
   return rest;
 }
 

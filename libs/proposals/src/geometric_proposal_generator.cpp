@@ -25,38 +25,16 @@ double tiltSigma(const GroundEstimate& ground) {
   return std::sqrt(std::max(0.0, covariance.diagonal().maxCoeff()));
 }
 
-// Of the points in the box, those that are above the ground, and of these, those that stand clearly before the shape.
-struct PointsBefore {
-  double standing = 0, before = 0;
-};
-
-PointsBefore pointsBefore(const PlacedShape& placed, const BoxEvidence& e) {
-  constexpr double kBefore_m = 0.3;
-  const double front = std::hypot(placed.x, placed.y) - placed.shape.radius() - kBefore_m;
-  PointsBefore out;
-  for (const MaskPoint& p : e.all.points) {
-    if (p.in_ground.z() <= kStanding_m) continue;
-    out.standing += 1;
-    out.before += p.in_ground.head<2>().norm() < front;
-  }
-  return out;
-}
-
 // Share of the box in which something stands clearly before the shape, and is what the detector saw.
 double obscured(const PlacedShape& placed, const BoxEvidence& e) {
-  if (e.all.points.empty()) return 0;
-  return e.all.valid_ratio * pointsBefore(placed, e).before / static_cast<double>(e.all.points.size());
-}
-
-// The same as a share of what stands in the box. A table is seen through, to the wall behind it: where that is, is no
-// table.
-double seenThrough(const PlacedShape& placed, const BoxEvidence& e) {
-  const PointsBefore points = pointsBefore(placed, e);
-  return points.standing > 0 ? points.before / points.standing : 0;
-}
-
-bool isOpen(const ObjectModel& model) {
-  return model.nominal().kind == ShapeKind::kCuboid && model.solid_share == 0;
+  constexpr double kBefore_m = 0.3;
+  const double front = std::hypot(placed.x, placed.y) - placed.shape.radius() - kBefore_m;
+  const auto before = std::count_if(e.all.points.begin(), e.all.points.end(), [&](const MaskPoint& p) {
+    return p.in_ground.z() > kStanding_m && p.in_ground.head<2>().norm() < front;
+  });
+  return e.all.points.empty()
+             ? 0
+             : e.all.valid_ratio * static_cast<double>(before) / static_cast<double>(e.all.points.size());
 }
 
 // Off the quality of what goes on beyond the box all around, where another cluster does not.
@@ -74,7 +52,6 @@ std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxE
       placed.supported = !mask.points.empty();
       placed.quality *= 1 - kGoingOn * goes_further;
       if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
-      if (placed.supported && isOpen(*evidence.model)) placed.quality *= 1 - seenThrough(placed, evidence);
       all.push_back(std::move(placed));
     }
   }

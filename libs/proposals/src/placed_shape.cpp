@@ -3,7 +3,6 @@
 #include "roomgraph/proposals/placed_shape.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "roomgraph/core/order_statistics.h"
 
@@ -39,12 +38,6 @@ Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence) {
 
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence) {
   return projectShape(placed.shape, cameraFromObject(placed, evidence), evidence.camera);
-}
-
-Box2 windowBetween(const Box2& box, const BoxSides& sides) {
-  constexpr double kOpen = std::numeric_limits<double>::infinity();
-  return {sides.left ? box.u_min : -kOpen, sides.top ? box.v_min : -kOpen, sides.right ? box.u_max : kOpen,
-          sides.bottom ? box.v_max : kOpen};
 }
 
 std::optional<Box2> visibleBounds(const PlacedShape& placed, const BoxEvidence& evidence) {

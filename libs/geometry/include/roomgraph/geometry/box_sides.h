@@ -34,13 +34,19 @@ inline BoxSides sidesInside(const Box2& box, const PinholeCamera& camera) {
   return sidesInside(box, camera.width, camera.height);
 }
 
+/// The part of the image between those sides of the box that are said to be cut; infinite to the others.
+inline Box2 windowBetween(const Box2& box, const BoxSides& cut) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  return {cut.left ? box.u_min : -kOpen, cut.top ? box.v_min : -kOpen, cut.right ? box.u_max : kOpen,
+          cut.bottom ? box.v_max : kOpen};
+}
+
 /// The part of the image in which the object of a measured box was looked for: it ends at those image borders that cut the
 /// box, and nowhere else.
 inline Box2 windowOf(const Box2& box, const PinholeCamera& camera) {
-  constexpr double kOpen = std::numeric_limits<double>::infinity();
   const BoxSides inside = sidesInside(box, camera);
-  return {inside.left ? -kOpen : 0, inside.top ? -kOpen : 0, inside.right ? kOpen : camera.width,
-          inside.bottom ? kOpen : camera.height};
+  return windowBetween({0, 0, static_cast<double>(camera.width), static_cast<double>(camera.height)},
+                       {!inside.left, !inside.top, !inside.right, !inside.bottom});
 }
 
 }  // namespace roomgraph

@@ -2,13 +2,13 @@
 // Image bounds of a shape model as a template for numbers and automatic differentiation.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
 #include "roomgraph/geometry/camera.h"
+#include "roomgraph/geometry/convex_polygon.h"
 #include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
@@ -115,50 +115,6 @@ std::optional<std::array<T, 4>> projectedBounds(ShapeKind kind, const Vec3<T>& s
   return bounds.value;
 }
 
-/// Corner of a polygon in the image, px.
-template <class T>
-struct ImagePoint {
-  T u, v;
-};
-
-/// Convex hull of image points (monotone chain), counter-clockwise in (u, v).
-template <class T>
-std::vector<ImagePoint<T>> convexHull(std::vector<ImagePoint<T>> points) {
-  std::sort(points.begin(), points.end(),
-            [](const auto& a, const auto& b) { return a.u < b.u || (!(b.u < a.u) && a.v < b.v); });
-  std::vector<ImagePoint<T>> hull;
-  const auto turnsRight = [&](const ImagePoint<T>& p) {
-    const auto &a = hull[hull.size() - 2], &b = hull.back();
-    return (b.u - a.u) * (p.v - a.v) - (b.v - a.v) * (p.u - a.u) <= T(0);
-  };
-  const auto extend = [&](const ImagePoint<T>& p, std::size_t least) {
-    while (hull.size() > least && turnsRight(p)) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const auto& p : points) extend(p, 1);
-  const std::size_t lower = hull.size();
-  for (auto p = points.rbegin() + (points.empty() ? 0 : 1); p < points.rend(); ++p) extend(*p, lower);
-  if (hull.size() > 1) hull.pop_back();
-  return hull;
-}
-
-/// The part of a convex polygon where `sign` times the coordinate is at least `sign` times the limit (Sutherland and
-/// Hodgman 1974).
-template <class T>
-std::vector<ImagePoint<T>> clipped(const std::vector<ImagePoint<T>>& polygon, T ImagePoint<T>::*coordinate, double limit,
-                                   double sign) {
-  std::vector<ImagePoint<T>> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const ImagePoint<T>&p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const T p_in = sign * (p.*coordinate - limit), q_in = sign * (q.*coordinate - limit);
-    if (p_in >= T(0)) out.push_back(p);
-    if ((p_in >= T(0)) == (q_in >= T(0))) continue;
-    const T ratio = p_in / (p_in - q_in);
-    out.push_back({p.u + ratio * (q.u - p.u), p.v + ratio * (q.v - p.v)});
-  }
-  return out;
-}
-
 /// Bounds of the part of the model's silhouette that is inside `window` (px; its sides may be infinite), as
 /// projectedBounds(); nothing when no part is. What is nearest, and therefore reaches lowest, is often outside the image:
 /// the bounds of the part in view are not those of the whole, cut by the image border. A cylinder that is cut is a
@@ -170,21 +126,21 @@ std::optional<std::array<T, 4>> boundsWithin(const Box2& window, ShapeKind kind,
   if (!whole || ((*whole)[0] >= T(window.u_min) && (*whole)[1] >= T(window.v_min) && (*whole)[2] <= T(window.u_max) &&
                  (*whole)[3] <= T(window.v_max)))
     return whole;
-  std::vector<ImagePoint<T>> points;
+  Polygon2<T> points;
   const auto add = [&](const Vec3<T>& p) {
-    points.push_back({camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy});
+    points.emplace_back(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
   };
   forEachSeenCorner<T>(kind, size, axes, bottom, near_m, add);
-  auto polygon = convexHull(std::move(points));
-  const auto cut = [&](T ImagePoint<T>::*coordinate, double limit, double sign) {
-    if (std::isfinite(limit)) polygon = clipped(polygon, coordinate, limit, sign);
+  auto polygon = convexHull<T>(std::move(points));
+  const auto cut = [&](double u, double v, double along_u, double along_v) {
+    if (std::isfinite(u) && std::isfinite(v)) polygon = leftOf<T>(polygon, {T(u), T(v)}, {T(along_u), T(along_v)});
   };
-  cut(&ImagePoint<T>::u, window.u_min, 1);
-  cut(&ImagePoint<T>::u, window.u_max, -1);
-  cut(&ImagePoint<T>::v, window.v_min, 1);
-  cut(&ImagePoint<T>::v, window.v_max, -1);
+  cut(window.u_min, 0, 0, -1);
+  cut(window.u_max, 0, 0, 1);
+  cut(0, window.v_min, 1, 0);
+  cut(0, window.v_max, -1, 0);
   ImageBounds<T> bounds;
-  for (const auto& p : polygon) bounds.add(p.u, p.v);
+  for (const auto& p : polygon) bounds.add(p.x(), p.y());
   if (!bounds.any) return std::nullopt;
   return bounds.value;
 }

@@ -42,8 +42,6 @@ Pose3 groundFromObject(const PlacedShape& placed);
 Pose3 cameraFromObject(const PlacedShape& placed, const BoxEvidence& evidence);
 /// Nothing when it is out of view.
 std::optional<ProjectedShape> project(const PlacedShape& placed, const BoxEvidence& evidence);
-/// The part of the image between those sides of the box that are said to be cut; infinite to the others.
-Box2 windowBetween(const Box2& box, const BoxSides& sides);
 /// Bounds of what is in view of the model: inside the image, and between the sides of the detection's box at which
 /// it is hidden; nothing when nothing is.
 std::optional<Box2> visibleBounds(const PlacedShape& placed, const BoxEvidence& evidence);

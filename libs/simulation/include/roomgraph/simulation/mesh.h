@@ -48,7 +48,4 @@ struct Mesh {
   void append(const Mesh& other);
 };
 
-/// Corners of the convex hull, counter-clockwise, of points in the plane.
-std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
-
 }  // namespace roomgraph
