@@ -74,6 +74,9 @@ TEST(ProjectShape, InFrontEqualsSampling) {
         Eigen::Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2.8, 7));
     const auto projected = projectShape(shape, pose, kTallPixels);
     const Box2 full = *sampledBounds(shape, pose, 3);
+    if (clipped(full, kTallPixels.width, kTallPixels.height).empty()) {
+      EXPECT_FALSE(projected.has_value());
+    }
     if (!projected) continue;
     ++seen;
     expectNear(projected->full, full, 0.05);
