@@ -9,7 +9,7 @@
 namespace roomgraph {
 
 template <class T>
-using Polygon2 = std::vector<Eigen::Matrix<T, 2, 1>>;
+using PlanePolygon = std::vector<Eigen::Matrix<T, 2, 1>>;
 
 /// z component of the cross product: positive when b is to the left of a.
 template <class T>
@@ -19,7 +19,7 @@ T cross2(const Eigen::Matrix<T, 2, 1>& a, const Eigen::Matrix<T, 2, 1>& b) {
 
 /// Corners of the convex hull of points, counter-clockwise: the monotone chain (Andrew 1979).
 template <class T>
-Polygon2<T> convexHull(Polygon2<T> points) {
+PlanePolygon<T> convexHull(PlanePolygon<T> points) {
   using Point = Eigen::Matrix<T, 2, 1>;
   const auto same = [](const Point& a, const Point& b) { return a.x() == b.x() && a.y() == b.y(); };
   std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
@@ -27,7 +27,7 @@ Polygon2<T> convexHull(Polygon2<T> points) {
   });
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   if (points.size() < 3) return points;
-  Polygon2<T> hull;
+  PlanePolygon<T> hull;
   const auto sweep = [&](auto begin, auto end) {  // the lower hull from the left, the upper one from the right
     const std::size_t base = hull.size();
     for (auto it = begin; it != end; ++it) {
@@ -44,8 +44,8 @@ Polygon2<T> convexHull(Polygon2<T> points) {
 
 /// The part of a convex polygon to the left of the line through `from` along `along` (Sutherland and Hodgman 1974).
 template <class T>
-Polygon2<T> leftOf(const Polygon2<T>& polygon, const Eigen::Matrix<T, 2, 1>& from, const Eigen::Matrix<T, 2, 1>& along) {
-  Polygon2<T> kept;
+PlanePolygon<T> leftOf(const PlanePolygon<T>& polygon, const Eigen::Matrix<T, 2, 1>& from, const Eigen::Matrix<T, 2, 1>& along) {
+  PlanePolygon<T> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const T side_p = cross2<T>(along, p - from), side_q = cross2<T>(along, q - from);

@@ -126,7 +126,7 @@ std::optional<std::array<T, 4>> boundsWithin(const Box2& window, ShapeKind kind,
   if (!whole || ((*whole)[0] >= T(window.u_min) && (*whole)[1] >= T(window.v_min) && (*whole)[2] <= T(window.u_max) &&
                  (*whole)[3] <= T(window.v_max)))
     return whole;
-  Polygon2<T> points;
+  PlanePolygon<T> points;
   const auto add = [&](const Vec3<T>& p) {
     points.emplace_back(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
   };
