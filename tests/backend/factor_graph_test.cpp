@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
+
 #include "errors_of.h"
 #include "simulated_loop.h"
 
@@ -187,6 +190,23 @@ TEST(FactorGraph, TheValuesOfASolvedGraphStandForItsSolution) {
   other.addPoint(PointId{0}, {1, 2, 3});
   EXPECT_EQ(other.values().size(), start.size() + 3);
   EXPECT_THROW(other.setValues(start), std::invalid_argument);
+}
+
+// CHOLMOD's own threads stay for good once it has begun some.
+TEST(FactorGraph, AnOptimisationHasOneThread) {
+  const auto threads = [] {
+    namespace fs = std::filesystem;
+    return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
+  };
+  SimulatedLoop loop(1, 120);
+  FactorGraph graph = loop.graph();
+  for (int a = 0; a < loop.size(); ++a)
+    for (int b = a + 2; b < loop.size(); b += 3) graph.add(loop.movement(a, b));  // fills the matrix
+  const auto before = threads();
+  std::ptrdiff_t during = 0;
+  EXPECT_TRUE(graph.optimize({.max_iterations = 3, .progress = [&](int, double) { during = threads(); }}).usable);
+  EXPECT_EQ(during, before);
+  EXPECT_EQ(threads(), before);
 }
 
 TEST(FactorGraph, AddingTwiceIsAnError) {

@@ -7,8 +7,31 @@
 #include <limits>
 #include <mutex>
 
+// Of the OpenMP runtime, where CHOLMOD, which Ceres calls, was built with one.
+extern "C" {
+[[gnu::weak]] int omp_get_max_active_levels();
+[[gnu::weak]] void omp_set_max_active_levels(int levels);
+}
+
 namespace roomgraph {
 namespace {
+
+// CHOLMOD shares out every supernode among four threads, whatever it is asked for. Our matrices are small: threads
+// take longer to wake than to work, and far longer when other programs need the cores. The level is the calling thread's.
+class SerialCholmod {
+ public:
+  SerialCholmod() {
+    if (omp_set_max_active_levels) omp_set_max_active_levels(0);
+  }
+  ~SerialCholmod() {
+    if (omp_set_max_active_levels) omp_set_max_active_levels(levels_);
+  }
+  SerialCholmod(const SerialCholmod&) = delete;
+  SerialCholmod& operator=(const SerialCholmod&) = delete;
+
+ private:
+  int levels_ = omp_get_max_active_levels ? omp_get_max_active_levels() : 0;
+};
 
 // Keeps Ceres from writing to stderr what its result says as well: that something is singular or not finite. The log
 // level is global: of several simultaneous calls the first that begins changes it and the last that ends restores it.
@@ -65,6 +88,7 @@ SolveReport solve(const SolveOptions& options, ceres::Solver::Options solver, ce
   if (options.progress) solver.callbacks.push_back(&watcher);
   ceres::Solver::Summary summary;
   const QuietCeres quiet;
+  const SerialCholmod serial;
   ceres::Solve(solver, &problem, &summary);
   return {summary.IsSolutionUsable(), summary.initial_cost, summary.final_cost,
           static_cast<int>(summary.iterations.size()), summary.message};
