@@ -149,6 +149,37 @@ TEST(PoseEstimator, EverythingAtOnceIsTheWholeGraph) {
   EXPECT_LT(distance(run.last(), batch), 1e-4);
 }
 
+// Pauses of 8 key poses, of 2 after a closure that disagrees.
+TEST(PoseEstimator, AClosureIsUrgentUntilItIsMetOrOutvoted) {
+  Estimation run(5);
+  run.options.optimize_every_nodes = 8;
+  run.options.urgent_closure_m = run.options.urgent_closure_rad = 0.1;
+  int t = 0;
+  const auto driveOn = [&](int nodes) {
+    for (const int end = t + nodes; t < end; ++t) ASSERT_TRUE(run.estimator.advance(t));
+  };
+  driveOn(28);
+  EXPECT_TRUE(run.estimator.optimizeLive({}));
+  for (const int back : {3, 9, 15}) run.close(closure(back, t - 1));
+  driveOn(2);
+  EXPECT_TRUE(run.estimator.due()) << "the wheels had drifted";
+  EXPECT_TRUE(run.estimator.optimizeLive({}));
+  driveOn(2);
+  EXPECT_FALSE(run.estimator.due()) << "the closures are met";
+  RelativePose wrong = closure(6, t - 1);
+  wrong.a_from_b.translation().x() += 1;
+  run.close(wrong);
+  for (int solves = 0; run.estimator.due(); ++solves) {
+    ASSERT_LT(solves, 3) << "nothing brings it nearer";
+    EXPECT_TRUE(run.estimator.optimizeLive({}));
+    driveOn(2);
+  }
+  driveOn(4);
+  EXPECT_FALSE(run.estimator.due());
+  driveOn(2);
+  EXPECT_TRUE(run.estimator.due()) << "as often as without it";
+}
+
 // The wheels stop for a while, and nothing saw the way: a closure says where the robot went on.
 TEST(PoseEstimator, AClosureOverAGapMovesWhatCameAfterIt) {
   BackendOptions options;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "roomgraph/core/result_store.h"
 
 namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
+constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 }
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
@@ -41,11 +43,21 @@ bool PoseEstimator::advance(double t) {
   return true;
 }
 
-bool PoseEstimator::surprising(const RelativePose& closure) const {
+// How far a closure is from the estimate: 1 where it begins to be urgent.
+double PoseEstimator::surpriseOf(const RelativePose& closure) const {
   const Pose3 expected = poses_.at(closure.t_a).inverse() * poses_.at(closure.t_b);
   const Pose3 difference = closure.a_from_b.inverse() * expected;
-  return difference.translation().norm() > options_.urgent_closure_m ||
-         rotationAngle(difference) > options_.urgent_closure_rad;
+  return std::max(difference.translation().norm() / options_.urgent_closure_m,
+                  rotationAngle(difference) / options_.urgent_closure_rad);
+}
+
+// After an optimisation: those that it brought nearer without satisfying them ask for another one; those that it left
+// where they were are outvoted.
+void PoseEstimator::settleSurprises() {
+  std::erase_if(surprises_, [&](Surprise& surprise) {
+    const double before = std::exchange(surprise.size, surpriseOf(surprise.closure));
+    return surprise.size <= 1 || !(surprise.size < kStillNearing * before);
+  });
 }
 
 // Far from the solution a robust loss makes a closure too weak: the unconnected part is moved there first.
@@ -68,8 +80,8 @@ std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
 std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose>& closures) {
   std::vector<PathShift> shifts;
   for (const auto& closure : closures) {
-    if (surprising(closure)) {
-      surprised_ = true;
+    if (const double size = surpriseOf(closure); size > 1) {
+      surprises_.push_back({closure, size});
       if (const auto shift = reconnect(closure)) shifts.push_back(*shift);
     }
     measurements_.closures.push_back(closure);
@@ -106,7 +118,7 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
 // The pause grows with the graph, so that the work per key pose stays bounded on long runs.
 bool PoseEstimator::due() const {
   const int nodes = static_cast<int>(poses_.nodes().size());
-  const int pause = surprised_ ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
+  const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
                                : std::max(options_.optimize_every_nodes, nodes / 10);
   return nodes_since_optimization_ >= pause;
 }
@@ -178,9 +190,9 @@ std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& o
   nodes_since_optimization_ = 0;
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, former);
   const SolveReport report = solveWhole(until);
-  surprised_ = surprised_ && report.usable && report.iterations >= until.max_iterations;
   if (report.usable)
     for (const auto& node : poses_.nodes()) poses_.set(node.id, graph_.pose(node.id));
+  settleSurprises();
   restartWindow();
   if (!report.usable) return std::nullopt;
   LandmarkEstimates estimates;

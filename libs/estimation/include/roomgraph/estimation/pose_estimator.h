@@ -77,7 +77,8 @@ class PoseEstimator {
   SolveReport solveWhole(const SolveOptions& until);
   void slideWindow();
   void restartWindow();
-  bool surprising(const RelativePose& closure) const;
+  double surpriseOf(const RelativePose& closure) const;
+  void settleSurprises();
   std::optional<PathShift> reconnect(const RelativePose& closure);
 
   const BackendOptions& options_;
@@ -91,7 +92,12 @@ class PoseEstimator {
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
   int nodes_since_optimization_ = 0;
-  bool surprised_ = false;  ///< a closure disagrees with the estimate: optimise soon
+  /// A closure that disagreed with the estimate, and by how much (surpriseOf()) when that was last optimised.
+  struct Surprise {
+    RelativePose closure;
+    double size;
+  };
+  std::vector<Surprise> surprises_;  ///< while there are any: optimise soon
   bool levelled_ = false;
   ResultStore* results_ = nullptr;
 };
