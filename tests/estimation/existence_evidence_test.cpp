@@ -247,6 +247,48 @@ TEST_F(Evidence, ADoorIsInAWall) {
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beside_crossed, 0, 1e-12) << "asked of doors only";
 }
 
+// Rows of the image that see the plane at `range_m` between two heights; the camera is at 1 m and level.
+cv::Range rowsBetween(double low_m, double high_m, double range_m) {
+  const auto row = [&](double z_m) { return static_cast<int>(std::lround(119.5 + 260 * (1 - z_m) / range_m)); };
+  return {std::max(0, row(high_m)), std::min(240, row(low_m))};
+}
+
+// Its front below 1.3 m, and the wall .4 m behind it above that.
+TEST_F(Evidence, ACupboardIsNotAsHighAsADoor) {
+  const Landmark door = landmarkOf(1, "door", 4, 0);
+  Frame frame = frameOfDepth(0, 0, 4.4F);
+  frame.depth.rowRange(rowsBetween(0, 1.3, 4)) = 4.F;
+  memory_.add(frame, Pose3::Identity());
+  EXPECT_NEAR(of({door}).uneven, 1, 1e-12);
+  for (const float depth_m : {4.F, 8.F}) {
+    memory_ = {};
+    memory_.add(frameOfDepth(0, 0, depth_m), Pose3::Identity());
+    EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "closed, or open, all the way up";
+  }
+  memory_ = {};
+  frame = frameOfDepth(0, 0, 0);
+  frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
+  memory_.add(frame, Pose3::Identity());
+  EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "nothing is known about its upper part";
+}
+
+// A coat stand 1.6 m high, of which a part was taken for a chair.
+TEST_F(Evidence, WhatGoesOnAboveIsHigher) {
+  const Landmark chair = landmarkOf(1, "chair", 4, 0);
+  Frame frame = frameOfDepth(0, 0, 8);
+  frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
+  memory_.add(frame, Pose3::Identity());
+  EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12);
+  frame.depth.rowRange(rowsBetween(0, 1.6, 4)) = 4.F;
+  memory_ = {};
+  memory_.add(frame, Pose3::Identity());
+  EXPECT_GT(of({chair}).above_filled, 0.3) << "at the middle of the footprint, within .1 m";
+  frame.depth.colRange(120, 200) = 2.F;
+  memory_ = {};
+  memory_.add(frame, Pose3::Identity());
+  EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12) << "hidden";
+}
+
 TEST_F(Evidence, BeamsThroughWhatIsSolid) {
   Scan scan;
   scan.ranges_m.assign(181, 6.F);

@@ -49,7 +49,9 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"spread", &E::spread},
                                                              {"beside_crossed", &E::beside_crossed},
                                                              {"beside_filled", &E::beside_filled},
-                                                             {"beams_crossed", &E::beams_crossed}};
+                                                             {"beams_crossed", &E::beams_crossed},
+                                                             {"above_filled", &E::above_filled},
+                                                             {"uneven", &E::uneven}};
   ASSERT_EQ(fields.size(), E::kNames.size());
   for (const auto& [name, field] : fields) {
     ExistenceOptions options;

@@ -14,7 +14,8 @@ ExistenceOptions::ExistenceOptions()
     : cylinder{"bias -9.69",       "filter 0.283",   "sightings 0.653",  "directions 0.111",
                "score 4.71",       "label 4.12",     "scatter -0.204",   "turned -0.878",
                "measured 1.09",    "detected 0.627", "contested -0.686", "outdone -5.63",
-               "mislabelled -4.2", "crossed -3.49",  "spread 1.13",      "beams_crossed -1.08"},
+               "mislabelled -4.2", "crossed -3.49",  "spread 1.13",      "beams_crossed -1.08",
+               "above_filled -2"},
       cuboid{"bias -7.59",     "filter 0.224",    "sightings 0.0201", "score 3.07",
              "label 5.11",     "scatter -0.199",  "turned -2.23",     "measured 2.37",
              "detected 0.238", "contested -1.51", "outdone -4.38",    "mislabelled -4.26",
@@ -33,7 +34,8 @@ ExistenceOptions::ExistenceOptions()
              "crossed -3.52",
              "beside_crossed -5.06",
              "beside_filled 0.396",
-             "beams_crossed -1.1"} {}
+             "beams_crossed -1.1",
+             "uneven -2.5"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

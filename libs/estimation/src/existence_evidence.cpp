@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means over a landmark's sightings, boxes that others explain, and sample points in and around its volume.
+// Means over a landmark's sightings, and boxes that others explain.
 #include "existence_evidence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include "ray_evidence.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/projection.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kStep_m = 0.09, kInset_m = 0.07;  // of sample points in a volume
-constexpr double kBesideFrom_m = 0.12, kBesideTo_m = 0.36;
-constexpr double kBesideLow_m = 0.15;  // height of the lowest of them
-constexpr int kSlices = 5;             // of a footprint, along an axis
-constexpr double kSliceFilled = 0.15;  // share of a slice's points from which it counts as filled
 constexpr double kDirection_rad = 0.26;
 constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
 constexpr double kSameBox = 0.7;  // IoU of two boxes of a frame that bound the same thing
 constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
-constexpr double kUsuallyFilled = 0.3, kUsualSpread = 0.7;  // medians of true landmarks
-constexpr double kFloorSlack_m = 0.05;  // a lidar whose height nobody measured is said to be on the floor
 constexpr double kSameMoment_s =
     0.35;                        // between an image and a box of the same view; not every image is searched
 constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
-
-// --- from sightings ---
 
 // What the sightings from one direction say about the longer side, weighted sums.
 struct LengthSeen {
@@ -199,131 +190,6 @@ double detectionLogOdds(const std::set<double>& sighting_times, const std::vecto
   return std::log(static_cast<double>(detected + 1) / static_cast<double>(missed + 1));
 }
 
-// --- from rays ---
-
-// From -half to half in even steps of at most kStep_m; 0 alone when there is no room.
-std::vector<double> steps(double half_m) {
-  if (half_m <= 0) return {0};
-  const int count = 1 + static_cast<int>(std::ceil(2 * half_m / kStep_m));
-  std::vector<double> out;
-  for (int i = 0; i < count; ++i) out.push_back(-half_m + 2 * half_m * i / (count - 1));
-  return out;
-}
-
-// Points of the footprint, object frame: inside by kInset_m.
-std::vector<Eigen::Vector2d> footprintPoints(const ObjectShape& shape) {
-  std::vector<Eigen::Vector2d> out;
-  const double half_depth = shape.depth / 2 - kInset_m, half_width = shape.width / 2 - kInset_m;
-  for (const double x : steps(half_depth))
-    for (const double y : steps(half_width))
-      if (shape.kind != ShapeKind::kCylinder || std::hypot(x, y) <= half_width) out.emplace_back(x, y);
-  return out;
-}
-
-std::vector<Eigen::Vector3d> insidePoints(const ObjectShape& shape) {
-  std::vector<Eigen::Vector3d> out;
-  for (const auto& p : footprintPoints(shape))
-    for (double z = kStep_m; z <= shape.height - kInset_m; z += kStep_m) out.emplace_back(p.x(), p.y(), z);
-  return out;
-}
-
-// In the plane of a planar shape, left, right and above.
-std::vector<Eigen::Vector3d> wallPoints(const ObjectShape& shape) {
-  std::vector<Eigen::Vector3d> out;
-  for (double beside = kBesideFrom_m; beside <= kBesideTo_m; beside += kStep_m) {
-    for (double z = kBesideLow_m; z <= shape.height; z += 2 * kStep_m)
-      for (const double side : {-1.0, 1.0}) out.emplace_back(0, side * (shape.width / 2 + beside), z);
-    for (const double y : steps(shape.width / 2)) out.emplace_back(0, y, shape.height + beside);
-  }
-  return out;
-}
-
-bool mostlyCrossed(const RayCounts& c) {
-  return c.crossed > c.filled;
-}
-
-bool mostlyFilled(const RayCounts& c) {
-  return c.filled > 0 && c.filled >= c.crossed;
-}
-
-double share(const std::vector<RayCounts>& counts, bool (*is)(const RayCounts&)) {
-  if (counts.empty()) return 0;
-  return static_cast<double>(std::count_if(counts.begin(), counts.end(), is)) /
-         static_cast<double>(counts.size());
-}
-
-// A little of a solid object that rays crossed says nearly as much as a lot: the root of the share.
-double crossedRoot(const std::vector<RayCounts>& counts) {
-  return std::sqrt(share(counts, mostlyCrossed));
-}
-
-// Share of the slices across an axis in which enough points are filled.
-double filledSlices(const std::vector<Eigen::Vector3d>& points, const std::vector<RayCounts>& counts,
-                    int axis, double extent_m) {
-  std::array<int, kSlices> all{}, filled{};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double along = points[i][axis] / std::max(extent_m - 2 * kInset_m, kInset_m) + 0.5;
-    const auto slice =
-        static_cast<std::size_t>(std::clamp(static_cast<int>(along * kSlices), 0, kSlices - 1));
-    ++all[slice];
-    filled[slice] += mostlyFilled(counts[i]);
-  }
-  int used = 0, enough = 0;
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    used += all[s] > 0;
-    enough += all[s] > 0 && filled[s] > kSliceFilled * all[s];
-  }
-  return used ? static_cast<double>(enough) / used : 0;
-}
-
-std::vector<Eigen::Vector3d> inWorld(std::vector<Eigen::Vector3d> points, const Pose3& world_from_object) {
-  for (auto& p : points) p = world_from_object * p;
-  return points;
-}
-
-void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
-                  const PosedViews& views) {
-  const ObjectShape& shape = landmark.shape;
-  const Pose3 world_from_object = landmark.worldFromObject();
-  const auto inside = insidePoints(shape);
-  const auto counts = views.byImages(inWorld(inside, world_from_object));
-  evidence.filled = share(counts, mostlyFilled);
-  evidence.spread =
-      std::min(filledSlices(inside, counts, 0, shape.depth), filledSlices(inside, counts, 1, shape.width));
-  std::vector<RayCounts> solid;
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    if (inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
-  evidence.crossed = crossedRoot(solid);
-  if (shape.kind != ShapeKind::kPlanar) return;
-  const auto wall = views.byImages(inWorld(wallPoints(shape), world_from_object));
-  evidence.beside_crossed = crossedRoot(wall);
-  evidence.beside_filled = share(wall, mostlyFilled);
-}
-
-void setBeams(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
-              const PosedViews& views) {
-  if (solid_share == 0) return;
-  const Pose3 world_from_object = landmark.worldFromObject();
-  std::vector<Eigen::Vector2d> ground;
-  for (const auto& p : footprintPoints(landmark.shape))
-    ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
-  const double bottom = landmark.position.z();
-  evidence.beams_crossed = crossedRoot(
-      views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height));
-}
-
-// Without depth images what they would say of most landmarks is taken. Beams alone say what is crossed where
-// images saw nothing of it.
-void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
-             const PosedViews& views) {
-  if (views.hasImages()) setDepthRays(evidence, landmark, solid_share, views);
-  setBeams(evidence, landmark, solid_share, views);
-  if (evidence.filled == 0 && evidence.crossed == 0) evidence.crossed = evidence.beams_crossed;
-  if (views.hasImages()) return;
-  evidence.filled = kUsuallyFilled;
-  evidence.spread = kUsualSpread;
-}
-
 }  // namespace
 
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
@@ -353,16 +219,6 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
   return out;
 }
 
-namespace {
-
-// Shares: of the points, those about which something is known; of these, those that are filled.
-std::pair<double, double> knownAndFilled(const std::vector<RayCounts>& counts) {
-  const double filled = share(counts, mostlyFilled), known = filled + share(counts, mostlyCrossed);
-  return {known, known > 0 ? filled / known : 0};
-}
-
-}  // namespace
-
 PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::vector<double>& searched,
                  const std::vector<double>& sighted, const ObjectDatabase& database) {
   PlaceLook look;
@@ -370,17 +226,8 @@ PlaceLook lookAt(const Landmark& landmark, const PosedViews& views, const std::v
     look.missed += within(searched, t) && !within(sighted, t);
   // An open door is crossed, too; that it is gone, the wall around it shows.
   if (landmark.shape.kind == ShapeKind::kPlanar) return look;
-  const Pose3 world_from_object = landmark.worldFromObject();
-  std::tie(look.known, look.filled) =
-      knownAndFilled(views.byImages(inWorld(insidePoints(landmark.shape), world_from_object)));
   const ObjectModel* model = database.find(landmark.class_name);
-  const double solid = model ? model->solid_share : 0, bottom = landmark.position.z();
-  if (solid == 0) return look;
-  std::vector<Eigen::Vector2d> ground;
-  for (const auto& p : footprintPoints(landmark.shape))
-    ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
-  std::tie(look.beams_known, look.beams_filled) =
-      knownAndFilled(views.byScans(ground, bottom - kFloorSlack_m, bottom + solid * landmark.shape.height));
+  setRays(look, landmark, model ? model->solid_share : 0, views);
   return look;
 }
 

@@ -63,6 +63,12 @@ void ObjectModel::declareParameters(ParameterVisitor& v) {
          .unit = "m",
          .min = 0,
          .max = 10});
+  v.add("place_sigma_m", place_sigma_m,
+        {.doc = "How far the middle of such an object is from that of its shape, standard deviation along x and y: part of "
+                "the uncertainty of its place in the map, however often it was seen.",
+         .unit = "m",
+         .min = 0,
+         .max = 1});
   v.add(
       "symmetry", symmetry,
       {.doc = "Symmetry of yaw: 0 any angle, 1 none, 2 half a turn, 4 a quarter turn.", .min = 0, .max = 4});

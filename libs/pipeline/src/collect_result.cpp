@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map and the trajectories at the end of a run.
+#include <cmath>
+
 #include "continued_map.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/pipeline/semantic_slam.h"
@@ -16,6 +18,20 @@ std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const Land
   return map.exclusive(std::move(sure));
 }
 
+// The covariances of the graph are those of the shapes' middles; where the objects' own are, no number of views tells.
+void setCovariances(std::vector<Candidate>& candidates, const FactorGraph& graph, const ObjectDatabase& database,
+                    std::map<std::string, int>& reasons) {
+  const auto covariances = graph.landmarkCovariances();
+  if (!covariances) return;
+  for (auto& [landmark, evidence] : candidates) {
+    const auto found = covariances->find(landmark.id);
+    if (found == covariances->end() || isBroken("back end", problemOfCovariance(found->second), reasons)) continue;
+    landmark.covariance = found->second;
+    const ObjectModel* model = database.find(landmark.class_name);
+    if (model) landmark.covariance.diagonal().head<2>().array() += std::pow(model->place_sigma_m, 2);
+  }
+}
+
 }  // namespace
 
 SlamResult SemanticSlam::collect() {
@@ -28,12 +44,7 @@ SlamResult SemanticSlam::collect() {
   if (poses.empty()) return result;
   const ExistenceOptions& existence = setup_->options.existence;
   result.candidates = objects_.candidates(setup_->database, existence.enabled ? &existence_ : nullptr);
-  if (const auto covariances = graph().landmarkCovariances())
-    for (auto& [landmark, evidence] : result.candidates)
-      if (const auto found = covariances->find(landmark.id);
-          found != covariances->end() &&
-          !isBroken("back end", problemOfCovariance(found->second), result.counts.reasons))
-        landmark.covariance = found->second;
+  setCovariances(result.candidates, graph(), setup_->database, result.counts.reasons);
   result.map.landmarks = inMap(result.candidates, objects_.landmarks(), existence);
   result.seen = objects_.seenSpans();
   for (const Landmark& landmark : result.map.landmarks)

@@ -20,6 +20,8 @@ const EVIDENCE = {
   spread: 'Length along which rays end',
   beside_crossed: 'Wall beside it crossed',
   beside_filled: 'Wall beside it filled',
+  above_filled: 'Space above it filled',
+  uneven: 'Crossed at one height only',
   beams_crossed: 'Footprint that lidar beams cross',
 };
 

@@ -39,16 +39,18 @@ struct ExistenceEvidence {
   double beside_crossed = 0;  ///< of doors: of the wall beside and above, by depth rays
   double beside_filled = 0;   ///< of doors: share of it where they ended
   double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams
+  double above_filled = 0;    ///< of all but doors: share of the space above its middle where depth rays ended
+  double uneven = 0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
 
-  static constexpr std::array<std::string_view, 19> kNames = {
+  static constexpr std::array<std::string_view, 21> kNames = {
       "filter", "sightings", "directions",     "score",         "label",        "scatter",     "turned",
       "size",   "measured",  "detected",       "contested",     "outdone",      "mislabelled", "crossed",
-      "filled", "spread",    "beside_crossed", "beside_filled", "beams_crossed"};
+      "filled", "spread",    "beside_crossed", "beside_filled", "beams_crossed", "above_filled", "uneven"};
   /// In the order of kNames.
-  std::array<double, 19> values() const {
+  std::array<double, 21> values() const {
     return {filter, sightings, directions,     score,         label,        scatter,     turned,
             size,   measured,  detected,       contested,     outdone,      mislabelled, crossed,
-            filled, spread,    beside_crossed, beside_filled, beams_crossed};
+            filled, spread,    beside_crossed, beside_filled, beams_crossed, above_filled, uneven};
   }
 };
 

@@ -26,6 +26,7 @@ struct ObjectModel : Configurable {
   std::string shape = "cuboid";
   double width_m = 1, depth_m = 1, height_m = 1;
   double width_sigma_m = .1, depth_sigma_m = .1, height_sigma_m = .1;
+  double place_sigma_m = .02;  ///< of the middle of such an object about that of its shape, along x and y
   int symmetry = 1;  ///< yaw symmetry: 0 any angle, 1 none, 2 by 180 deg, 4 by 90 deg
   bool rests_on_ground = true;
   std::string front = "near_side";   ///< see frontRule()
