@@ -73,6 +73,43 @@ TEST(FlatParts, WaysGoAroundAndKeepTheirClearance) {
   EXPECT_TRUE(grid.reachable({2.2, 1}, 0.3).empty());
 }
 
+// An obstacle turned by any angle: the distance in its own frame.
+TEST(FlatParts, ClearanceOfATurnedObstacle) {
+  const PlanBox room(Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 5));
+  const Eigen::Vector2d half(0.7, 0.25), middle(2.5, 2.5);
+  Random random(4);
+  for (const double yaw : {0.3, 0.785, 1.2, 2.9}) {
+    const Eigen::Rotation2Dd turn(yaw);
+    Polygon obstacle;
+    for (const auto& [x, y] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+      obstacle.emplace_back(middle + turn * Eigen::Vector2d(x * half.x(), y * half.y()));
+    const FloorGrid grid({room}, {obstacle}, 0.05);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector2d at(random.uniform(0, 5), random.uniform(0, 5));
+      const Eigen::Vector2d inside = turn.inverse() * (at - middle);
+      const double off = (inside.cwiseAbs() - half).cwiseMax(0).norm();
+      const double walls = std::min({at.x(), at.y(), 5 - at.x(), 5 - at.y()});
+      EXPECT_NEAR(grid.clearance(at), std::min(walls, off), 0.09) << "yaw " << yaw;
+    }
+  }
+}
+
+// Two rooms, and a gap of .8 m between them: a robot of .3 m radius comes through, one of .5 m does not.
+TEST(FlatParts, AGapIsReachedThroughByWhatIsNarrower) {
+  const PlanBox left(Eigen::Vector2d(0, 0), Eigen::Vector2d(3, 3)), right(Eigen::Vector2d(3.2, 0), Eigen::Vector2d(6, 3));
+  const PlanBox gap(Eigen::Vector2d(2.9, 1), Eigen::Vector2d(3.3, 1.8));
+  const FloorGrid grid({left, right, gap}, {}, 0.05);
+  const auto beyond = [](const std::vector<Eigen::Vector2d>& cells) {
+    return std::count_if(cells.begin(), cells.end(), [](const Eigen::Vector2d& at) { return at.x() > 3.2; });
+  };
+  const double cell_m2 = 0.05 * 0.05;
+  EXPECT_NEAR(static_cast<double>(beyond(grid.reachable({1.5, 1.4}, 0.3))) * cell_m2, 2.2 * 2.4, 0.35);
+  EXPECT_EQ(beyond(grid.reachable({1.5, 1.4}, 0.5)), 0);
+  EXPECT_NEAR(static_cast<double>(grid.reachable({1.5, 1.4}, 0.5).size()) * cell_m2, 2.0 * 2.0, 0.25);
+  EXPECT_TRUE(grid.way({1.5, 1.4}, {5, 1.4}, 0.5).empty());
+  EXPECT_FALSE(grid.way({1.5, 1.4}, {5, 1.4}, 0.3).empty());
+}
+
 TEST(FlatParts, NoWayLeadsThroughAClosedDoor) {
   FlatDraft draft;
   Room room;
