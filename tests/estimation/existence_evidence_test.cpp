@@ -60,6 +60,12 @@ class Evidence : public ::testing::Test {
     return existenceEvidence(landmarks, frames_, poses_, memory_.posed(poses_), database()).at(0);
   }
 
+  // This image alone is remembered.
+  void see(const Frame& frame) {
+    memory_ = {};
+    memory_.add(frame, Pose3::Identity());
+  }
+
   KeyPoses poses_;
   SpaceMemory memory_;
   std::vector<ObjectFrame> frames_;
@@ -258,17 +264,15 @@ TEST_F(Evidence, ACupboardIsNotAsHighAsADoor) {
   const Landmark door = landmarkOf(1, "door", 4, 0);
   Frame frame = frameOfDepth(0, 0, 4.4F);
   frame.depth.rowRange(rowsBetween(0, 1.3, 4)) = 4.F;
-  memory_.add(frame, Pose3::Identity());
+  see(frame);
   EXPECT_NEAR(of({door}).uneven, 1, 1e-12);
   for (const float depth_m : {4.F, 8.F}) {
-    memory_ = {};
-    memory_.add(frameOfDepth(0, 0, depth_m), Pose3::Identity());
+    see(frameOfDepth(0, 0, depth_m));
     EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "closed, or open, all the way up";
   }
-  memory_ = {};
   frame = frameOfDepth(0, 0, 0);
   frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
-  memory_.add(frame, Pose3::Identity());
+  see(frame);
   EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "nothing is known about its upper part";
 }
 
@@ -277,15 +281,13 @@ TEST_F(Evidence, WhatGoesOnAboveIsHigher) {
   const Landmark chair = landmarkOf(1, "chair", 4, 0);
   Frame frame = frameOfDepth(0, 0, 8);
   frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
-  memory_.add(frame, Pose3::Identity());
+  see(frame);
   EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12);
   frame.depth.rowRange(rowsBetween(0, 1.6, 4)) = 4.F;
-  memory_ = {};
-  memory_.add(frame, Pose3::Identity());
+  see(frame);
   EXPECT_GT(of({chair}).above_filled, 0.3) << "at the middle of the footprint, within .1 m";
   frame.depth.colRange(120, 200) = 2.F;
-  memory_ = {};
-  memory_.add(frame, Pose3::Identity());
+  see(frame);
   EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12) << "hidden";
 }
 

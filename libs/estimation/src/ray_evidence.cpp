@@ -147,9 +147,10 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
   for (std::size_t i = 0; i < inside.size(); ++i)
     if (inside[i].z() < solid_share * shape.height - kInset_m) solid.push_back(counts[i]);
   evidence.crossed = crossedRoot(solid);
-  if (shape.kind != ShapeKind::kPlanar)
+  if (shape.kind != ShapeKind::kPlanar) {
     evidence.above_filled = share(views.byImages(inWorld(pointsAbove(shape), world_from_object)), mostlyFilled);
-  if (shape.kind != ShapeKind::kPlanar) return;
+    return;
+  }
   evidence.uneven = unevenness(inside, counts, shape.height);
   const auto wall = views.byImages(inWorld(wallPoints(shape), world_from_object));
   evidence.beside_crossed = crossedRoot(wall);

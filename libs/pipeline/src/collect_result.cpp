@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map and the trajectories at the end of a run.
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "continued_map.h"
 #include "roomgraph/core/errors.h"
