@@ -2,14 +2,30 @@
 // The window of an engine, as MRPT's graphslam-engine opens it.
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <thread>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/graphslam/engine_run.h"
 
 namespace roomgraph {
+
+/// From now on the process ends without the destructors of global objects: MRPT (2.5) frees the requests to its window
+/// thread there while that thread still takes some, and one exit in twelve was a crash.
+inline void leaveWindowThreadAlone() {
+  const auto end = [](int status, void*) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    _exit(status);
+  };
+  static const bool once = on_exit(end, nullptr) == 0;
+  if (!once) throw RunError("no window: the end of the process cannot be arranged");
+}
 
 /// A window with its observer, and the manager by which the engine and its parts know it.
 class EngineWindow {
@@ -18,6 +34,7 @@ class EngineWindow {
   explicit EngineWindow(const std::string& title) {
     if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
       throw RunError("no window: there is no display (DISPLAY is not set); without --window none is needed");
+    leaveWindowThreadAlone();
     window_ = std::make_unique<mrpt::gui::CDisplayWindow3D>(title, 1000, 750);
     observer_.observeBegin(*window_);
     const auto& scene = window_->get3DSceneAndLock();
