@@ -65,6 +65,7 @@ Outcome<GroundEstimate> FakeFloors::detect(const Frame& frame, const std::option
 
 FrameProposals FakeProposals::generate(const Frame& frame, const std::vector<Detection>& detections,
                                        const FrameGround&) {
+  if (world().while_proposing) world().while_proposing();
   FrameProposals out;
   out.frame = frame.id;
   out.t = frame.t;
@@ -104,6 +105,7 @@ std::vector<Association> FakeAssociator::associate(const std::vector<WorldMeasur
 }
 
 TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prior) {
+  if (world().while_tracking) world().while_tracking();
   world().masked.push_back(prior.dynamic_regions);
   world().expected.push_back(prior.previous_from_current);
   TrackingResult result;

@@ -36,6 +36,8 @@ struct World {
   std::vector<std::vector<roomgraph::Box2>> masked = {};
   std::vector<std::optional<roomgraph::Pose3>> expected = {};
   int detector_calls = 0;
+  /// Called by the odometry and by the proposal generator. May be empty.
+  std::function<void()> while_tracking = {}, while_proposing = {};
 };
 World& world();
 

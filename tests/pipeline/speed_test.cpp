@@ -46,9 +46,9 @@ TEST(Speed, MeanLatencyIsThatOfQueueingTheory) {
 
 TEST(Speed, StagesAreSummedAndSorted) {
   StageTimes times;
-  times.add("short", 1, 0.5);
-  times.add("long", 10, 4);
-  times.add("short", 3, 0.5);
+  times.add("short", {1, 0.5});
+  times.add("long", {10, 4});
+  times.add("short", {3, 0.5});
   const auto stages = speedOfStages(times);
   ASSERT_EQ(stages.size(), 2u);
   EXPECT_EQ(stages[0].stage, "long");

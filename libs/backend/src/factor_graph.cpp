@@ -266,11 +266,7 @@ SolveReport FactorGraph::optimize(int max_iterations) {
 }
 
 SolveReport FactorGraph::optimize(const SolveOptions& options) {
-  ceres::Solver::Options solver = solverOptions(options);
-  // Points are coupled only through poses and can be eliminated first, one by one. Ceres chooses them itself: a given
-  // ordering would be sorted by addresses, which differ from run to run.
-  if (!impl_->points.empty()) solver.linear_solver_type = ceres::SPARSE_SCHUR;
-  return solve(options, solver, *impl_->problem);
+  return solve(options, solverOptions(options), *impl_->problem);
 }
 
 namespace {

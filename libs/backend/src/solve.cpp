@@ -16,6 +16,10 @@ extern "C" {
 namespace roomgraph {
 namespace {
 
+// In standard deviations of all variables together. Ceres begins with 10000: where the first step fails, ten more are
+// spent on halving that.
+constexpr double kDoglegRadius = 100;
+
 // CHOLMOD shares out every supernode among four threads, whatever it is asked for. Our matrices are small: threads
 // take longer to wake than to work, and far longer when other programs need the cores. The level is the calling thread's.
 class SerialCholmod {
@@ -79,6 +83,7 @@ ceres::Solver::Options solverOptions(const SolveOptions& options) {
   if (options.dogleg) {
     solver.trust_region_strategy_type = ceres::DOGLEG;
     solver.dogleg_type = ceres::SUBSPACE_DOGLEG;
+    solver.initial_trust_region_radius = kDoglegRadius;
   }
   return solver;
 }

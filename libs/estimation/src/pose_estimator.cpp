@@ -11,6 +11,7 @@
 namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
+constexpr int kNearIterations = 10;
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 }
 
@@ -158,8 +159,12 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGrap
   return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance}, nullptr);
 }
 
-std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects) {
-  const SolveOptions until{.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true};
+std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects, Effort effort) {
+  SolveOptions until{.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true};
+  if (effort == Effort::kNear) {
+    until.max_iterations = std::min(options_.max_iterations, kNearIterations);
+    until.function_tolerance = options_.live_tolerance;
+  }
   const auto estimates = optimize(objects, until, graph_is_near_ ? &graph_ : nullptr);
   graph_is_near_ = estimates.has_value();
   return estimates;

@@ -4,7 +4,6 @@
 #include "roomgraph/pipeline/replay.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
@@ -16,28 +15,6 @@ namespace roomgraph {
 namespace {
 
 constexpr std::size_t kAhead = 12;  // records that wait at most; an image with what is known of it has 4 MB
-
-/// Time on the wall, and on the processor of a thread.
-struct Work {
-  double ms = 0, cpu_ms = 0;
-  void add(const Work& more) {
-    ms += more.ms;
-    cpu_ms += more.cpu_ms;
-  }
-};
-
-/// Measures the work of a thread from now on.
-class Meter {
- public:
-  Work soFar() const {
-    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started_).count(),
-            threadTime_ms() - cpu_};
-  }
-
- private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  double cpu_ = threadTime_ms();
-};
 
 /// A record whose turn comes.
 struct Upcoming {
@@ -139,11 +116,11 @@ ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& s
     slam.process(next->record);
     reading.add(next->reading);
     if (isImage(next->record)) {  // with what was read since the last one
-      slam.account("reading", reading.ms, reading.cpu_ms);
+      slam.account("reading", reading);
       reading = {};
     }
     if (next->foreseeing.ms > 0 && isImage(next->record))
-      slam.account("foreseeing", next->foreseeing.ms, next->foreseeing.cpu_ms);
+      slam.account("foreseeing", next->foreseeing);
     state.share = shareDone(next->progress, file_from, state.seconds(), span);
     watch.progress(state);
   }

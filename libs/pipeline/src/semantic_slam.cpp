@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "detection_schedule.h"
+#include "mounting.h"
 #include "people_in_view.h"
 #include "stage_borders.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr double kMovementHorizon_s = 0.15;
 constexpr int kMaxClosingRounds = 3, kMaxDescents = 5;
-
-// A sensor on a robot has a place on it; a handheld camera has none.
-bool isMounted(const Frame& frame) {
-  return frame.robot_from_camera.translation().z() > 0.1;
-}
 
 }  // namespace
 
@@ -64,11 +60,12 @@ StepReport SemanticSlam::step(const Frame& frame) {
 
   FrameDetections detections = detect(frame);                             // sec. 1.1
   const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
+  std::future<Proposed> proposing = propose(frame, detections.boxes);     // sec. 1.2 to 1.D
   const TrackingResult tracked = track(frame, people);                    // sec. 4, factor 1
   if (map_) map_->add(frame, people, estimator_.poses());                 // sec. 4.9
   localize(frame.t);                                                      // sec. 4, M-step
   views_.add(frame, people, estimator_.poses().at(frame.t));
-  FrameProposals proposals = propose(frame, detections.boxes);            // sec. 1.2 to 1.D
+  FrameProposals proposals = take(proposing);
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
@@ -191,44 +188,6 @@ ScanMatch SemanticSlam::match(const Scan& scan) {
   return front_ends_.match(scan);
 }
 
-FrameGround SemanticSlam::seeGround(const Frame& frame) {
-  std::optional<Plane> expected;
-  if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
-  if (estimator_.levelled())
-    expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
-  GroundDetector& detector = *setup_->stages.ground_detector;
-  FrameGround ground = groundOf(frame, expected, detector);
-  if (estimator_.planar() || (ground.estimate && ground.estimate->from_depth && expected)) return ground;
-  // A handheld camera whose floor is not known yet, or is not where it should be.
-  const FrameGround anywhere = expected ? groundOf(frame, std::nullopt, detector) : ground;
-  if (anywhere.estimate && findFloor(frame, anywhere.estimate->plane)) return seeGround(frame);
-  if (!expected && ground.estimate)
-    return {std::nullopt, "a plane that few frames have seen may be no floor"};
-  return ground;
-}
-
-// Levels the world by a floor that several frames agree on; returns whether it did.
-bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
-  const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
-  const Plane in_world = transformed(world_from_camera, in_camera);
-  const bool again = estimator_.levelled();
-  if (again && !contradictsFloor(in_world, world_from_camera.translation())) return false;
-  const auto floor = floors_.add(frame.t, in_world, world_from_camera.translation());
-  if (!floor) return false;
-  if (again) ++counts_.reasons["ground: what was taken for the floor was none"];
-  objects_.move({-std::numeric_limits<double>::infinity(), estimator_.level(*floor)});
-  floors_.clear();
-  return true;
-}
-
-FrameProposals SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
-  const auto timing = times_.measure("proposals");
-  const FrameGround ground = seeGround(frame);
-  FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, ground);
-  if (!proposals.ground) ++counts_.reasons["ground: " + proposals.ground_reason];
-  return proposals;
-}
-
 std::vector<ObjectMeasurement> SemanticSlam::select(const Frame& frame, const FrameProposals& proposals,
                                                     const std::vector<FeatureTrack>& features) {
   const auto timing = times_.measure("selection");
@@ -298,9 +257,9 @@ ObjectsInGraph SemanticSlam::inGraph() const {
 }
 
 // With all data, to the end.
-void SemanticSlam::optimizeAll() {
+void SemanticSlam::optimizeAll(PoseEstimator::Effort effort) {
   objects_.tidy();
-  if (const auto landmarks = estimator_.optimizeAll(inGraph()))
+  if (const auto landmarks = estimator_.optimizeAll(inGraph(), effort))
     objects_.apply(sound(*landmarks));
   else
     ++counts_.reasons["back end: no usable solution"];
@@ -341,14 +300,16 @@ SlamResult SemanticSlam::finish() {
 void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   front_ends_.refine();
-  optimizeAll();
+  const auto near = [this] { optimizeAll(PoseEstimator::Effort::kNear); };
+  near();
   // Loops close after poses moved, until nothing new is found.
-  for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) optimizeAll();
-  if (anchor()) optimizeAll();
+  for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) near();
+  if (anchor()) near();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
-  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) optimizeAll();
+  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) near();
   continueInMap();
-  optimizeAll();  // the map is the optimum: the last re-association set places of its own
+  // The map is the optimum: the last re-association set places of its own.
+  optimizeAll(PoseEstimator::Effort::kToTheEnd);
 }
 
 }  // namespace roomgraph

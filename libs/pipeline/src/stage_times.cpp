@@ -27,18 +27,16 @@ double threadTime_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-void StageTimes::add(const char* stage, double ms, double cpu_ms) {
-  calls_.push_back({t_, stage, ms, cpu_ms, memory_mb_});
+void StageTimes::add(const char* stage, const Work& work) {
+  calls_.push_back({t_, stage, work.ms, work.cpu_ms, memory_mb_});
 }
 
-StageTimes::Measured::Measured(StageTimes& times, const char* stage)
-    : times_(times), stage_(stage), started_(std::chrono::steady_clock::now()), cpu_ms_(threadTime_ms()) {}
+StageTimes::Measured::Measured(StageTimes& times, const char* stage) : times_(times), stage_(stage) {}
 
 StageTimes::Measured::~Measured() {
-  const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - started_;
-  const double cpu_ms = threadTime_ms() - cpu_ms_;
+  const Work work = meter_.soFar();
   times_.memory_mb_ = residentMemory_mb();
-  times_.calls_.push_back({times_.t_, stage_, passed.count(), cpu_ms, times_.memory_mb_});
+  times_.add(stage_, work);
 }
 
 std::map<std::string, StageTimes::Totals> StageTimes::totals() const {

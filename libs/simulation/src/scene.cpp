@@ -21,7 +21,7 @@ std::vector<Eigen::Vector2d> lowHull(const Mesh& world_mesh) {
   if (points.empty())
     for (const auto& triangle : world_mesh.triangles)
       for (const auto& corner : triangle.position) points.emplace_back(corner.cast<double>().head<2>());
-  return convexHull<double>(std::move(points));
+  return convexHull<double>(points);
 }
 
 std::string modelName(const std::string& built, const std::string& mesh_file) {

@@ -64,8 +64,9 @@ class PoseEstimator {
   void optimizeWindow();
   /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeLive(const ObjectsInGraph& objects);
-  /// Optimises everything to the end; nothing when the solver found no usable solution.
-  std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects);
+  enum class Effort { kNear, kToTheEnd };  ///< near the optimum will do where what is sought changes yet
+  /// Optimises everything, from the former solution if there is one; nothing when the solver found no usable solution.
+  std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects, Effort effort = Effort::kToTheEnd);
   /// World is the frame of an earlier map, which tells where the robot is.
   void addFix(const MapFix& fix) { measurements_.fixes.push_back(fix); }
   /// Moves the world frame rigidly; there are no fixes yet.

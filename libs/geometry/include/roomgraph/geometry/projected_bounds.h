@@ -131,7 +131,7 @@ std::optional<std::array<T, 4>> boundsWithin(const Box2& window, ShapeKind kind,
     points.emplace_back(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
   };
   forEachSeenCorner<T>(kind, size, axes, bottom, near_m, add);
-  auto polygon = convexHull<T>(std::move(points));
+  auto polygon = convexHull<T>(points);
   const auto cut = [&](double u, double v, double along_u, double along_v) {
     if (std::isfinite(u) && std::isfinite(v)) polygon = leftOf<T>(polygon, {T(u), T(v)}, {T(along_u), T(along_v)});
   };

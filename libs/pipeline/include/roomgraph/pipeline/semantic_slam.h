@@ -2,6 +2,7 @@
 // SemanticSlam: the complete system, record by record, and the result of a run.
 #pragma once
 
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -91,7 +92,7 @@ class SemanticSlam {
   bool planar() const { return estimator_.planar(); }
   const Setup& setup() const { return *setup_; }
   /// Adds work on the record being processed that was done elsewhere to the times.
-  void account(const char* stage, double ms, double cpu_ms) { times_.add(stage, ms, cpu_ms); }
+  void account(const char* stage, const Work& work) { times_.add(stage, work); }
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }
 
@@ -105,7 +106,12 @@ class SemanticSlam {
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   FrameGround seeGround(const Frame& frame);
   bool findFloor(const Frame& frame, const Plane& in_camera);
-  FrameProposals propose(const Frame& frame, const std::vector<Detection>& detections);
+  struct Proposed {
+    FrameProposals proposals;
+    Work work;
+  };
+  std::future<Proposed> propose(const Frame& frame, const std::vector<Detection>& detections);
+  FrameProposals take(std::future<Proposed>& proposing);
   std::vector<ObjectMeasurement> select(const Frame& frame, const FrameProposals& proposals,
                                         const std::vector<FeatureTrack>& features);
   void doubt(std::vector<ObjectMeasurement>& measurements, const Frame& frame) const;
@@ -118,7 +124,7 @@ class SemanticSlam {
   bool closeLoopsOfScans();
   void addClosures(const std::vector<RelativePose>& closures);
   ObjectsInGraph inGraph() const;
-  void optimizeAll();
+  void optimizeAll(PoseEstimator::Effort effort);
   bool anchor();
   void continueInMap();
   void mapOccupancy(SlamResult& result, const Trajectory& dense);

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ground and proposals of a frame: beside its tracking where they do not need its pose.
+#include <limits>
+#include <opencv2/core/utility.hpp>
+
+#include "mounting.h"
+#include "roomgraph/pipeline/semantic_slam.h"
+
+namespace roomgraph {
+
+// On a robot the floor is where the extrinsics say.
+std::future<SemanticSlam::Proposed> SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
+  const bool needs_pose = !isMounted(frame) || estimator_.levelled();
+  const bool beside = !needs_pose && cv::getNumThreads() > 1;
+  return std::async(beside ? std::launch::async : std::launch::deferred, [this, &frame, &detections] {
+    const Meter meter;
+    FrameProposals proposals = setup_->stages.proposal_generator->generate(frame, detections, seeGround(frame));
+    return Proposed{std::move(proposals), meter.soFar()};
+  });
+}
+
+FrameProposals SemanticSlam::take(std::future<Proposed>& proposing) {
+  Proposed proposed = proposing.get();
+  times_.add("proposals", proposed.work);
+  if (!proposed.proposals.ground) ++counts_.reasons["ground: " + proposed.proposals.ground_reason];
+  return std::move(proposed.proposals);
+}
+
+FrameGround SemanticSlam::seeGround(const Frame& frame) {
+  std::optional<Plane> expected;
+  if (isMounted(frame)) expected = groundInCamera(frame.robot_from_camera);
+  if (estimator_.levelled())
+    expected = groundInCamera(estimator_.poses().at(frame.t) * frame.robot_from_camera);
+  GroundDetector& detector = *setup_->stages.ground_detector;
+  FrameGround ground = groundOf(frame, expected, detector);
+  if (estimator_.planar() || (ground.estimate && ground.estimate->from_depth && expected)) return ground;
+  // A handheld camera whose floor is not known yet, or is not where it should be.
+  const FrameGround anywhere = expected ? groundOf(frame, std::nullopt, detector) : ground;
+  if (anywhere.estimate && findFloor(frame, anywhere.estimate->plane)) return seeGround(frame);
+  if (!expected && ground.estimate)
+    return {std::nullopt, "a plane that few frames have seen may be no floor"};
+  return ground;
+}
+
+// Levels the world by a floor that several frames agree on; returns whether it did.
+bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
+  const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;
+  const Plane in_world = transformed(world_from_camera, in_camera);
+  const bool again = estimator_.levelled();
+  if (again && !contradictsFloor(in_world, world_from_camera.translation())) return false;
+  const auto floor = floors_.add(frame.t, in_world, world_from_camera.translation());
+  if (!floor) return false;
+  if (again) ++counts_.reasons["ground: what was taken for the floor was none"];
+  objects_.move({-std::numeric_limits<double>::infinity(), estimator_.level(*floor)});
+  floors_.clear();
+  return true;
+}
+
+}  // namespace roomgraph

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a camera is on a robot.
+#pragma once
+
+#include "roomgraph/observations/frame.h"
+
+namespace roomgraph {
+
+/// A sensor on a robot has a place on it; a handheld camera has none.
+inline bool isMounted(const Frame& frame) {
+  return frame.robot_from_camera.translation().z() > 0.1;
+}
+
+}  // namespace roomgraph
