@@ -225,8 +225,17 @@ std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() c
   return out;
 }
 
+std::vector<LandmarkId> ObjectMapper::whoIsWho() const {
+  std::vector<LandmarkId> out;
+  for (const auto& frame : frames_)
+    for (const auto& decision : frame.decisions) out.push_back(decision.landmark);
+  return out;
+}
+
+// What the E-step takes apart and tidying puts together again is no change: it would come again and again.
 bool ObjectMapper::reassociate() {
   if (!hindsight_ || frames_.empty()) return false;
+  const auto before = whoIsWho();
   const auto by_frame = measurementsInWorld();
   const AssociationModel* model = associator_->model();
   const Reassociation result =
@@ -235,17 +244,14 @@ bool ObjectMapper::reassociate() {
             : roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
                                      frameByFrame(*associator_, by_frame), {}, landmarks_.rules());
   landmarks_.adopt(by_frame, result);
-  bool changed = false;
-  for (std::size_t f = 0; f < frames_.size(); ++f) {
+  for (std::size_t f = 0; f < frames_.size(); ++f)
     for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
-      ObjectDecision& decision = frames_[f].decisions[k];
       const BatchDecision& now = result.decisions[f][k];
-      changed |= decision.landmark != now.landmark;
-      decision = {by_frame[f][k], now.association, now.landmark};
+      frames_[f].decisions[k] = {by_frame[f][k], now.association, now.landmark};
     }
-  }
   respan();
-  return changed;
+  tidy();
+  return whoIsWho() != before;
 }
 
 void ObjectMapper::move(const PathShift& shift) {

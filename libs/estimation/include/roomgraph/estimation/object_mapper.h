@@ -61,8 +61,8 @@ class ObjectMapper {
   /// Merges landmarks that are one object, also in the stored measurements; splits those that are two.
   void tidy();
 
-  /// E-step over everything measured so far, with the current poses (method.md sec. 4); whether a
-  /// decision changed. An associator without a model decides every frame again by its own rule. Does nothing without
+  /// E-step over everything measured so far, with the current poses (method.md sec. 4), and tidy(); whether it is
+  /// decided otherwise who is who. An associator without a model decides every frame again by its own rule. Does nothing without
   /// LandmarkOptions::hindsight.
   bool reassociate();
 
@@ -91,6 +91,7 @@ class ObjectMapper {
   std::map<LandmarkId, double> driftVariances(const Drift& drift) const;
   void renameSightings();
   void shareSightings(LandmarkId first, LandmarkId second);
+  std::vector<LandmarkId> whoIsWho() const;
   void respan();
   void span(const ObjectFrame& frame);
 
