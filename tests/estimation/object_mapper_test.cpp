@@ -146,7 +146,9 @@ TEST(ObjectMapper, MergedLandmarksShareTheirPosterior) {
     mapper.associate({chairAt(frame, 3, i == 0 ? 0.1 : -0.1)}, frame, {}, noDrift());
   }
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
+  EXPECT_EQ(mapper.whoIsWho(), (Partition{0, 1, 0}));
   mapper.tidy();
+  EXPECT_EQ(mapper.whoIsWho(), (Partition{0, 0, 0}));
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
   const LandmarkId kept = mapper.landmarks().landmarks()[0].id;
   double share = 0, all = 0;
@@ -157,6 +159,23 @@ TEST(ObjectMapper, MergedLandmarksShareTheirPosterior) {
   EXPECT_NEAR(share, 0.8, 1e-12);
   EXPECT_NEAR(all, 1, 1e-12);
   for (const auto& frame : mapper.frames()) EXPECT_EQ(frame.decisions[0].landmark, kept);
+}
+
+TEST(ObjectMapper, WhoIsWhoCountsObjectsAsTheyAppear) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  association::registerClasses();
+  ObjectMapper mapper(createStage<Associator>("NearestNeighborAssociator", "test"), {}, 0.03, poses);
+  EXPECT_TRUE(mapper.whoIsWho().empty());
+  const double places[] = {1.5, -1.5, 1.5, 0, -1.5};
+  for (int i = 0; i < 5; ++i) {
+    const Frame frame = frameAt(i, 0.5 * i);
+    mapper.associate({chairAt(frame, 3, places[i])}, frame, {}, noDrift());
+  }
+  const Partition seen{0, 1, 0, 2, 1};
+  EXPECT_EQ(mapper.whoIsWho(), seen);
+  ASSERT_TRUE(mapper.reassociate());
+  EXPECT_EQ(mapper.whoIsWho(), seen);
 }
 
 }  // namespace

@@ -225,17 +225,17 @@ std::vector<std::vector<WorldMeasurement>> ObjectMapper::measurementsInWorld() c
   return out;
 }
 
-std::vector<LandmarkId> ObjectMapper::whoIsWho() const {
-  std::vector<LandmarkId> out;
+Partition ObjectMapper::whoIsWho() const {
+  Partition out;
+  std::map<LandmarkId, int> labels;
   for (const auto& frame : frames_)
-    for (const auto& decision : frame.decisions) out.push_back(decision.landmark);
+    for (const auto& decision : frame.decisions)
+      out.push_back(labels.try_emplace(decision.landmark, static_cast<int>(labels.size())).first->second);
   return out;
 }
 
-// What the E-step takes apart and tidying puts together again is no change: it would come again and again.
 bool ObjectMapper::reassociate() {
   if (!hindsight_ || frames_.empty()) return false;
-  const auto before = whoIsWho();
   const auto by_frame = measurementsInWorld();
   const AssociationModel* model = associator_->model();
   const Reassociation result =
@@ -251,7 +251,7 @@ bool ObjectMapper::reassociate() {
     }
   respan();
   tidy();
-  return whoIsWho() != before;
+  return true;
 }
 
 void ObjectMapper::move(const PathShift& shift) {

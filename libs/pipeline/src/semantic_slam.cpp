@@ -3,6 +3,7 @@
 #include "roomgraph/pipeline/semantic_slam.h"
 
 #include <limits>
+#include <set>
 
 #include "detection_schedule.h"
 #include "mounting.h"
@@ -305,8 +306,13 @@ void SemanticSlam::refine() {
   // Loops close after poses moved, until nothing new is found.
   for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) near();
   if (anchor()) near();
-  // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who.
-  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) near();
+  // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who, until that
+  // comes again: single sightings between two objects go to and fro.
+  std::set<Partition> known{objects_.whoIsWho()};
+  for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) {
+    if (!known.insert(objects_.whoIsWho()).second) break;
+    near();
+  }
   continueInMap();
   // The map is the optimum: the last re-association set places of its own.
   optimizeAll(PoseEstimator::Effort::kToTheEnd);

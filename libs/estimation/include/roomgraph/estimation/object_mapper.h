@@ -22,6 +22,9 @@ namespace roomgraph {
 
 class SpaceMemory;
 
+/// Which measurements belong together: for each in turn the number of its object, counted as they appear.
+using Partition = std::vector<int>;
+
 /// The object part of a run: association (method.md sec. 4, E-step), and the storage of all measurements
 /// relative to the robot, so that they can be decided again when the poses have changed.
 class ObjectMapper {
@@ -61,10 +64,10 @@ class ObjectMapper {
   /// Merges landmarks that are one object, also in the stored measurements; splits those that are two.
   void tidy();
 
-  /// E-step over everything measured so far, with the current poses (method.md sec. 4), and tidy(); whether it is
-  /// decided otherwise who is who. An associator without a model decides every frame again by its own rule. Does nothing without
-  /// LandmarkOptions::hindsight.
+  /// E-step over everything measured so far, with the current poses (method.md sec. 4), and tidy(). An associator
+  /// without a model decides every frame again by its own rule. Whether it was done: not without LandmarkOptions::hindsight.
   bool reassociate();
+  Partition whoIsWho() const;
 
   /// The landmarks of an earlier map, in whose frame world is: those measured again take over their ids.
   void continueIds(const std::vector<Landmark>& earlier);
@@ -91,7 +94,6 @@ class ObjectMapper {
   std::map<LandmarkId, double> driftVariances(const Drift& drift) const;
   void renameSightings();
   void shareSightings(LandmarkId first, LandmarkId second);
-  std::vector<LandmarkId> whoIsWho() const;
   void respan();
   void span(const ObjectFrame& frame);
 
