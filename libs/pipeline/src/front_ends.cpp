@@ -2,17 +2,22 @@
 // Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
+#include "predicted_movement.h"
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 namespace {
 
-constexpr double kPriorHorizon_s =
-    0.15;  // a source may be extrapolated this far to predict another's movement
-
 // What the camera's movement is for the robot it is mounted on.
 Pose3 ofRobot(const Pose3& camera_movement, const Pose3& robot_from_camera) {
   return robot_from_camera * camera_movement * robot_from_camera.inverse();
+}
+
+// Scans may have been matched before their turn, which a run that was interrupted did not come to.
+Trajectory upTo(const Trajectory& all, double t) {
+  Trajectory out;
+  for (std::size_t i = 0; i < all.size() && all.poses()[i].t <= t; ++i) out.add(all.poses()[i].t, all.poses()[i].pose, all.segment(i));
+  return out;
 }
 
 }  // namespace
@@ -21,14 +26,8 @@ FrontEnds::FrontEnds(const Stages& stages, const Options& options)
     : stages_(stages),
       options_(options),
       motion_{MotionSource(options.odometry.noise, true), MotionSource(options.tracking.noise, false),
-              MotionSource(options.lidar.noise, true)} {}
-
-std::optional<Pose3> FrontEnds::predicted(double t_a, double t_b, const MotionSource& first,
-                                          const MotionSource& second) const {
-  for (const auto* source : {&first, &second})
-    if (const auto moved = source->between(t_a, t_b, kPriorHorizon_s)) return moved->a_from_b;
-  return std::nullopt;
-}
+              MotionSource(options.lidar.noise, true)},
+      scans_ahead_(stages.scan_matcher, options.odometry.enabled ? std::optional(options.odometry.noise) : std::nullopt) {}
 
 bool FrontEnds::add(const OdometryReading& reading) {
   return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0, Matrix6d::Zero());
@@ -38,7 +37,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
   robot_from_camera_ = frame.robot_from_camera;
   TrackingPrior prior{std::nullopt, people};
   if (last_frame_t_)
-    if (const auto moved = predicted(*last_frame_t_, frame.t, motion_.odometry, motion_.lidar))
+    if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&motion_.odometry, &motion_.lidar}))
       prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
   last_frame_t_ = frame.t;
   TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
@@ -48,13 +47,18 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
   return result;
 }
 
+void FrontEnds::foresee(const Record& record) {
+  scans_ahead_.see(record);
+  if (const auto* frame = std::get_if<Frame>(&record); frame && stages_.rgbd_odometry) stages_.rgbd_odometry->foresee(*frame);
+}
+
 ScanMatch FrontEnds::match(const Scan& scan) {
   std::optional<Pose2> prior;
   if (last_scan_t_)
-    if (const auto moved = predicted(*last_scan_t_, scan.t, motion_.odometry, motion_.visual))
-      prior = planarPart(*moved);
+    if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&motion_.odometry, &motion_.visual})) prior = planarPart(*moved);
   last_scan_t_ = scan.t;
-  ScanMatch result = stages_.scan_matcher->match(scan, prior);
+  auto foreseen = scans_ahead_.take(scan.t);
+  ScanMatch result = foreseen ? std::move(*foreseen) : stages_.scan_matcher->match(scan, prior);
   if (result.matched)
     motion_.lidar.add(scan.t, toPose3(result.odom_from_robot), result.segment,
                       planarCovariance(result.step_covariance));
@@ -92,8 +96,9 @@ void FrontEnds::refine() {
       robot.add(camera.poses()[i].t, ofRobot(camera.poses()[i].pose, robot_from_camera_), camera.segment(i));
     if (!robot.empty()) motion_.visual.refine(robot);
   }
-  if (stages_.scan_matcher && !stages_.scan_matcher->trajectory().empty())
-    motion_.lidar.refine(stages_.scan_matcher->trajectory());
+  if (stages_.scan_matcher && last_scan_t_)
+    if (const Trajectory scans = upTo(stages_.scan_matcher->trajectory(), *last_scan_t_); !scans.empty())
+      motion_.lidar.refine(scans);
 }
 
 }  // namespace roomgraph

@@ -119,7 +119,7 @@ ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& s
       slam.account("reading", reading);
       reading = {};
     }
-    if (next->foreseeing.ms > 0 && isImage(next->record))
+    if (next->foreseeing.ms > 0 && (isImage(next->record) || std::holds_alternative<Scan>(next->record)))
       slam.account("foreseeing", next->foreseeing);
     state.share = shareDone(next->progress, file_from, state.seconds(), span);
     watch.progress(state);

@@ -9,6 +9,7 @@
 
 #include "roomgraph/estimation/motion.h"
 #include "roomgraph/pipeline/options.h"
+#include "roomgraph/pipeline/scans_ahead.h"
 #include "roomgraph/pipeline/stages.h"
 
 namespace roomgraph {
@@ -27,6 +28,8 @@ class FrontEnds {
   /// `people`: image regions that are not used, px.
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   ScanMatch match(const Scan& scan);
+  /// What can be known of a record before its turn, on the thread that reads ahead: all records in order.
+  void foresee(const Record& record);
 
   /// Loop closures found in images since the last call, between robots.
   std::vector<RelativePose> takeImageClosures();
@@ -36,13 +39,12 @@ class FrontEnds {
   void refine();
 
  private:
-  std::optional<Pose3> predicted(double t_a, double t_b, const MotionSource& first,
-                                 const MotionSource& second) const;
   void toRobot(RelativePose& of_camera) const;
 
   const Stages& stages_;
   const Options& options_;
   Motion motion_;
+  ScansAhead scans_ahead_;
   std::optional<double> last_frame_t_, last_scan_t_;
   Pose3 robot_from_camera_ = Pose3::Identity();
 };

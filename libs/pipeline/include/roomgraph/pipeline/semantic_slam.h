@@ -73,8 +73,8 @@ class SemanticSlam {
   void addSink(std::shared_ptr<Sink> sink) { sinks_.push_back(std::move(sink)); }
   /// The run is to continue this map; until its place in it is known the run is in its own frame.
   void setMap(CSemanticMap map);
-  /// A record that will come: what depends on it alone is computed now and kept until its turn. In the order of the records, on
-  /// any one thread beside process(), or not at all; the result is the same.
+  /// A record that will come: what is known of it before its turn is computed now and kept. For all records in their order, on
+  /// any one thread beside process(), or for none; the result is the same.
   void foresee(const Record& record);
   /// One record, in order of time. Records whose time goes backwards are counted and left out.
   void process(const Record& record);
@@ -102,6 +102,7 @@ class SemanticSlam {
   StepReport step(const OdometryReading& reading);
   StepReport step(const std::shared_ptr<CObservationDetections>& recorded);
 
+  void foreseeDetections(const Frame& frame);
   FrameDetections detect(const Frame& frame);
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   FrameGround seeGround(const Frame& frame);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one sensor tells another about the movement between two of its records.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+
+#include "roomgraph/estimation/motion.h"
+
+namespace roomgraph {
+
+constexpr double kPredictionHorizon_s = 0.15;  // a source may be extrapolated this far
+
+/// By the first source that covers the time.
+inline std::optional<Pose3> predictedMovement(double t_a, double t_b, std::initializer_list<const MotionSource*> sources) {
+  for (const auto* source : sources)
+    if (const auto moved = source->between(t_a, t_b, kPredictionHorizon_s)) return moved->a_from_b;
+  return std::nullopt;
+}
+
+}  // namespace roomgraph
