@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cost functions of movements, ground, landmark positions and marginal priors.
 #include "automatic_cost.h"
+#include "between_cost.h"
 #include "costs.h"
 #include "marginal_prior_cost.h"
 #include "residuals.h"
@@ -8,7 +9,7 @@
 namespace roomgraph {
 
 ceres::CostFunction* costOf(const BetweenFactor& factor) {
-  return automatic<BetweenResidual, 6, 3, 4, 3, 4>(factor);
+  return new BetweenCost(factor);
 }
 ceres::CostFunction* costOf(const PlanarFactor& factor) {
   return automatic<PlanarResidual, 3, 3, 4>(factor);
