@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans matched before their turn: the same bits, until an image comes, and to where a run was interrupted.
-#include "roomgraph/pipeline/scans_ahead.h"
+#include "scans_ahead.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 
 #include "predicted_movement.h"
 #include "roomgraph/geometry/covariance.h"
+#include "scans_ahead.h"
 
 namespace roomgraph {
 namespace {
@@ -27,7 +28,10 @@ FrontEnds::FrontEnds(const Stages& stages, const Options& options)
       options_(options),
       motion_{MotionSource(options.odometry.noise, true), MotionSource(options.tracking.noise, false),
               MotionSource(options.lidar.noise, true)},
-      scans_ahead_(stages.scan_matcher, options.odometry.enabled ? std::optional(options.odometry.noise) : std::nullopt) {}
+      scans_ahead_(std::make_unique<ScansAhead>(
+          stages.scan_matcher, options.odometry.enabled ? std::optional(options.odometry.noise) : std::nullopt)) {}
+
+FrontEnds::~FrontEnds() = default;
 
 bool FrontEnds::add(const OdometryReading& reading) {
   return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0, Matrix6d::Zero());
@@ -48,7 +52,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
 }
 
 void FrontEnds::foresee(const Record& record) {
-  scans_ahead_.see(record);
+  scans_ahead_->see(record);
   if (const auto* frame = std::get_if<Frame>(&record); frame && stages_.rgbd_odometry) stages_.rgbd_odometry->foresee(*frame);
 }
 
@@ -57,7 +61,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
   if (last_scan_t_)
     if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&motion_.odometry, &motion_.visual})) prior = planarPart(*moved);
   last_scan_t_ = scan.t;
-  auto foreseen = scans_ahead_.take(scan.t);
+  auto foreseen = scans_ahead_->take(scan.t);
   ScanMatch result = foreseen ? std::move(*foreseen) : stages_.scan_matcher->match(scan, prior);
   if (result.matched)
     motion_.lidar.add(scan.t, toPose3(result.odom_from_robot), result.segment,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which records are matched before their turn, and with what prediction.
-#include "roomgraph/pipeline/scans_ahead.h"
+#include "scans_ahead.h"
 
 #include "predicted_movement.h"
 #include "stage_borders.h"

@@ -3,16 +3,19 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "roomgraph/estimation/motion.h"
+#include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/pipeline/options.h"
-#include "roomgraph/pipeline/scans_ahead.h"
 #include "roomgraph/pipeline/stages.h"
 
 namespace roomgraph {
+
+class ScansAhead;
 
 /// Sensor records -> movement of the robot. Owns the trajectories of the three sources, each in its own
 /// frame; every source predicts for the others.
@@ -20,6 +23,7 @@ class FrontEnds {
  public:
   /// Both outlive the front ends.
   FrontEnds(const Stages& stages, const Options& options);
+  ~FrontEnds();
 
   const Motion& motion() const { return motion_; }
 
@@ -44,7 +48,7 @@ class FrontEnds {
   const Stages& stages_;
   const Options& options_;
   Motion motion_;
-  ScansAhead scans_ahead_;
+  std::unique_ptr<ScansAhead> scans_ahead_;
   std::optional<double> last_frame_t_, last_scan_t_;
   Pose3 robot_from_camera_ = Pose3::Identity();
 };
