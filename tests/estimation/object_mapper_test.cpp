@@ -178,5 +178,26 @@ TEST(ObjectMapper, WhoIsWhoCountsObjectsAsTheyAppear) {
   EXPECT_EQ(mapper.whoIsWho(), seen);
 }
 
+// Where the graph had an object is where it goes on, not where its sightings are fused to.
+TEST(ObjectMapper, ReassociationKeepsTheOptimum) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  association::registerClasses();
+  ObjectMapper mapper(createStage<Associator>("NearestNeighborAssociator", "test"), {}, 0.03, poses);
+  for (int i = 0; i < 4; ++i) {
+    const Frame frame = frameAt(i, 0.5 * i);
+    mapper.associate({chairAt(frame, 3, 0.5)}, frame, {}, noDrift());
+  }
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
+  const LandmarkId id = mapper.landmarks().landmarks()[0].id;
+  const LandmarkEstimate optimum{{3.05, 0.55, 0}, 0, {ShapeKind::kCylinder, 0.5, 0.5, 0.8}};
+  mapper.apply({{id, optimum}});
+  ASSERT_TRUE(mapper.reassociate());
+  const Landmark* landmark = mapper.landmarks().find(id);
+  ASSERT_TRUE(landmark);
+  EXPECT_EQ(landmark->position, optimum.position);
+  EXPECT_EQ(landmark->shape.height, 0.8);
+}
+
 }  // namespace
 }  // namespace roomgraph::test

@@ -236,6 +236,7 @@ Partition ObjectMapper::whoIsWho() const {
 
 bool ObjectMapper::reassociate() {
   if (!hindsight_ || frames_.empty()) return false;
+  const std::vector<Landmark> optimum = landmarks_.landmarks();
   const auto by_frame = measurementsInWorld();
   const AssociationModel* model = associator_->model();
   const Reassociation result =
@@ -244,14 +245,26 @@ bool ObjectMapper::reassociate() {
             : roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
                                      frameByFrame(*associator_, by_frame), {}, landmarks_.rules());
   landmarks_.adopt(by_frame, result);
+  std::map<LandmarkId, int> kept;  // more sightings that stayed than came
   for (std::size_t f = 0; f < frames_.size(); ++f)
     for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
       const BatchDecision& now = result.decisions[f][k];
+      kept[now.landmark] += frames_[f].decisions[k].landmark == now.landmark ? 1 : -1;
       frames_[f].decisions[k] = {by_frame[f][k], now.association, now.landmark};
     }
+  std::erase_if(kept, [](const auto& entry) { return entry.second <= 0; });
   respan();
   tidy();
+  for (const Landmark& landmark : optimum)
+    if (kept.contains(landmark.id)) goOnFrom(landmark);
   return true;
+}
+
+// The E-step fuses places one sighting after the other: good enough for who is who, but from there a sofa may turn to
+// another optimum than the one that the graph had found.
+void ObjectMapper::goOnFrom(const Landmark& optimum) {
+  if (const Landmark* fused = landmarks_.find(optimum.id))
+    landmarks_.correct(optimum.id, optimum.position, optimum.yaw, optimum.shape, fused->covariance);
 }
 
 void ObjectMapper::move(const PathShift& shift) {

@@ -92,6 +92,7 @@ class ObjectMapper {
  private:
   std::vector<std::vector<WorldMeasurement>> measurementsInWorld() const;
   std::map<LandmarkId, double> driftVariances(const Drift& drift) const;
+  void goOnFrom(const Landmark& optimum);
   void renameSightings();
   void shareSightings(LandmarkId first, LandmarkId second);
   void respan();
