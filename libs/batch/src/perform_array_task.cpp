@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kLookAtChild = std::chrono::milliseconds(20);
-constexpr int kInterrupted = 4;  // exit code
 constexpr auto kLookAtFolder = std::chrono::seconds(2);
 
 // Nobody waits for this task any more: the batch gave it up, and perhaps started it elsewhere.

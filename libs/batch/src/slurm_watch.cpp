@@ -6,6 +6,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "slurm_engine.h"
+#include "task_array.h"
 
 namespace roomgraph {
 namespace {
@@ -15,6 +16,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr double kSilence_s = 120;  // of a command of Slurm, before it is ended
 constexpr double kAccountingLimit_s = 10, kCancelLimit_s = 60;
+constexpr double kRequeue_s = 3;  // for which a job that is requeued may be in no state of a queue
 constexpr double kPollAtTheEnd_s = 1;  // when somebody waits for jobs to be cancelled
 constexpr std::size_t kCancelledAtOnce = 200;
 
@@ -131,14 +133,16 @@ void SlurmEngine::look(Array& array, std::size_t index, const SlurmQueue& queue,
   // A task that is cancelled while it waits leaves no trace in a queue that knows the rest of its array.
   if (queued == queue.end() && isActive(element.state))
     element.state = known_job && !hasBegun(array.folder, index) ? "CANCELLED" : "";
+  if (!element.left_at) element.left_at = Clock::now();
+  const double waited_s = Seconds(Clock::now() - *element.left_at).count();
   if (auto end = readTaskEnd(array.folder, index)) {
+    // Told to end, and not by this batch: the queue may be about to begin it again.
+    if (end->exit_code == kInterrupted && !interrupted_ && waited_s < kRequeue_s) return;
     const QueueEnd known = endOfState(element.state);
     if (end->exit_code != 0 && end->reason.empty() && known.by_queue) *end = {known.exit_code, known.reason};
     return over(array, index, *end);
   }
-  if (!element.left_at) element.left_at = Clock::now();
   const bool begun = hasBegun(array.folder, index);
-  const double waited_s = Seconds(Clock::now() - *element.left_at).count();
   if ((begun || element.state != "CANCELLED") && waited_s < jobs_.slurm.patience_s) return;
   if (element.state.empty()) element.state = stateInAccounting(array.job, index);
   QueueEnd end = endOfState(element.state);

@@ -30,6 +30,8 @@ struct TaskArray {
 void writeTaskArray(const TaskArray& array, const std::filesystem::path& folder);
 TaskArray readTaskArray(const std::filesystem::path& folder);
 
+constexpr int kInterrupted = 4;  ///< exit code of a task that was told to end
+
 /// How a task of an array ended.
 struct TaskEnd {
   int exit_code = 0;
