@@ -314,7 +314,7 @@ void SemanticSlam::refine() {
     near();
   }
   continueInMap();
-  // The map is the optimum: the last re-association set places of its own.
+  // The map is the optimum of who is who in the end.
   optimizeAll(PoseEstimator::Effort::kToTheEnd);
 }
 
