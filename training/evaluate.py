@@ -3,6 +3,7 @@
 import numpy as np
 import torch
 
+import augment
 import data
 from network import boxes_of, cells
 
@@ -60,12 +61,11 @@ def average_precisions(model, views, batch=32, without=None, shrink=1):
     rows, wanted = [[] for _ in data.CLASSES], np.zeros(classes)
     with torch.no_grad():
         for start in range(0, len(views), batch):
-            pictures, boxes = views.batch(range(start, min(len(views), start + batch)))
-            pictures, boxes = data.shrunk(pictures, boxes, shrink)
+            pictures, boxes = augment.shrunk(*views.batch(range(start, min(len(views), start + batch))), shrink)
             if without is not None:
                 pictures[:, without] = 0
-            for output, truth in zip(model(pictures), boxes):
-                found, truth = detections(output, grid, classes), truth.numpy()
+            for output, truth in zip(model(pictures).float().cpu(), boxes.cpu().numpy()):
+                found, truth = detections(output, grid, classes), truth[truth[:, data.KIND] >= 0]
                 for kind in range(classes):
                     rows[kind] += judged(found, truth, kind)
                     wanted[kind] += sum(1 for t in truth if int(t[0]) == kind and t[5] > 0)

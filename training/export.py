@@ -46,7 +46,7 @@ def calibrated(model, views):
             for output, truth in zip(model(pictures), boxes):
                 found = evaluate.detections(output, grid, classes)
                 for kind in range(classes):
-                    rows[kind] += evaluate.judged(found, truth.numpy(), kind)
+                    rows[kind] += evaluate.judged(found, truth[truth[:, data.KIND] >= 0].numpy(), kind)
     table = {}
     for kind, name in enumerate(data.CLASSES):
         scores = np.array([s for s, _ in rows[kind]])

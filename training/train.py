@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trains the room detector on the CPU for a given time; resumes from its own checkpoint.
+"""Trains the room detector for a given time, on the CPU or a GPU; resumes from its own checkpoint.
 
     training/train.py --views DIR/... --check DIR --out DIR --minutes 60
 """
@@ -11,165 +11,147 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from torch.nn import functional as F
 
+import augment
 import data
 import evaluate
-from network import RoomDetector, boxes_of, cells
+from losses import Targets, loss_of
+from network import RoomDetector, cells
 
-RANGES = {8: (0, 48), 16: (32, 112), 32: (80, 1e9)}  # px: largest distance of a side that a level answers for
-CENTRE = 1.5  # strides: cells this near the middle of a box answer for it
-
-
-def assign(boxes, grid):
-    """For each cell the row of the box it answers for, -1: none, -2: not judged (it lies in a box that need not be found)."""
-    owner = torch.full((len(grid),), -1, dtype=torch.long)
-    if not len(boxes):
-        return owner
-    u, v, stride = grid[:, 0:1], grid[:, 1:2], grid[:, 2:3]
-    u0, v0, u1, v1 = (boxes[:, k][None] for k in range(1, 5))
-    sides = torch.stack([u - u0, v - v0, u1 - u, v1 - v], -1)
-    inside, longest = sides.min(-1).values > 0, sides.max(-1).values
-    low = torch.tensor([RANGES[int(s)][0] for s in stride[:, 0]])[:, None]
-    high = torch.tensor([RANGES[int(s)][1] for s in stride[:, 0]])[:, None]
-    near = ((u - (u0 + u1) / 2).abs() < CENTRE * stride) & ((v - (v0 + v1) / 2).abs() < CENTRE * stride)
-    sure = boxes[:, 5][None] > 0
-    owner[(inside & ~sure).any(1)] = -2
-    area = (u1 - u0) * (v1 - v0)
-    cost = torch.where(inside & near & sure & (longest >= low) & (longest < high), area.expand(len(grid), -1), torch.tensor(1e12))
-    best, row = cost.min(1)
-    owner[best < 1e12] = row[best < 1e12]
-    return owner
+LOSSES = ("kinds", "places", "extras")
 
 
-def overlap(a, b):
-    """IoU and generalised IoU (Rezatofighi et al. 2019) of boxes, pairwise."""
-    low, high = torch.maximum(a[:, :2], b[:, :2]), torch.minimum(a[:, 2:], b[:, 2:])
-    both = (high - low).clamp(min=0).prod(1)
-    union = (a[:, 2:] - a[:, :2]).prod(1) + (b[:, 2:] - b[:, :2]).prod(1) - both
-    iou = both / union.clamp(min=1e-6)
-    hull = (torch.maximum(a[:, 2:], b[:, 2:]) - torch.minimum(a[:, :2], b[:, :2])).prod(1)
-    return iou, iou - (hull - union) / hull.clamp(min=1e-6)
-
-
-def loss_of(output, boxes, grid, classes):
-    """Quality focal loss of the classes (Li et al. 2020) and generalised IoU of the boxes."""
-    target, judged = torch.zeros(output.shape[:2] + (classes,)), torch.ones(output.shape[:2])
-    corners, pairs = boxes_of(output, grid, classes), []
-    for i, rows in enumerate(boxes):
-        owner = assign(rows, grid)
-        judged[i] = (owner != -2).float()
-        found = (owner >= 0).nonzero()[:, 0]
-        pairs.append((i, found, rows[owner[found]]))
-    predicted = torch.cat([corners[i, cell] for i, cell, _ in pairs])
-    wanted = torch.cat([rows for _, _, rows in pairs])
-    count = max(1, len(wanted))
-    iou, generalised = overlap(predicted, wanted[:, 1:5])
-    start = 0
-    for i, cell, rows in pairs:
-        target[i, cell, rows[:, 0].long()] = iou[start:start + len(cell)].detach().clamp(min=0)
-        start += len(cell)
-    logits = output[..., :classes]
-    weight = (target - logits.sigmoid()).abs().pow(2) * judged[..., None]
-    kinds = (weight * F.binary_cross_entropy_with_logits(logits, target, reduction="none")).sum() / count
-    return kinds, 2 * (1 - generalised).sum() / count
-
-
-def copy_weights(model, stored):
-    """Weights of an earlier network; classes that are new since then keep their first values."""
-    own = model.state_dict()
-    for name, value in stored.items():
-        if own[name].shape == value.shape:
-            own[name].copy_(value)
-            continue
-        known = len(value) - 4  # rows of the last layer: classes, then the box's four sides
-        own[name][:known].copy_(value[:known])
-        own[name][-4:].copy_(value[-4:])
-
-
-def share_of(state, arguments):
-    """Of the training that is done."""
-    return state["steps"] / arguments.steps if arguments.steps else state["seconds"] / (60 * arguments.minutes)
-
-
-def main():
+def parsed():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--views", nargs="+", required=True, help="folders of `roomgraph training-set`")
-    parser.add_argument("--check", required=True, help="folder of views that are not trained on")
+    parser.add_argument("--views", nargs="+", required=True, help="folders of `roomgraph training-set`, or patterns; such as are finished meanwhile are taken, too")
+    parser.add_argument("--check", help="folder of views that are not trained on: average precision every 1000 steps and in the end")
     parser.add_argument("--out", type=Path, required=True, help="checkpoint.pt, log.jsonl")
     parser.add_argument("--minutes", type=float, default=60, help="of training; the learning rate ends at 0 then")
     parser.add_argument("--steps", type=int, default=0, help="end after so many steps instead, which is the same on every machine")
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--rate", type=float, default=2e-3, help="largest learning rate (AdamW)")
+    parser.add_argument("--decay", type=float, default=0.02, help="of the weights")
+    parser.add_argument("--memory", type=float, default=0.998, help="of the mean of the weights over steps, which is what is shipped")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--start", type=Path, help="checkpoint whose weights to begin with")
     parser.add_argument("--shrink", type=int, default=1, help="2: train on half the resolution, which is four times as fast")
+    parser.add_argument("--device", default="cpu", help="cpu or cuda")
     parser.add_argument("--threads", type=int, default=2)
-    arguments = parser.parse_args()
+    return parser.parse_args()
+
+
+def computes_in_bfloat16(device):
+    """It is four times as fast where the processor does, too."""
+    return device != "cpu" or "avx512_bf16" in Path("/proc/cpuinfo").read_text()
+
+
+class Training:
+    """The network, the mean of its weights over steps, the optimizer, and how far they are."""
+
+    def __init__(self, arguments):
+        self.arguments, self.device = arguments, arguments.device
+        self.model, self.mean = (RoomDetector(len(data.CLASSES)).to(self.device, memory_format=torch.channels_last) for _ in range(2))
+        self.half = computes_in_bfloat16(self.device)
+        self.optimizer = torch.optim.AdamW(self.model.parameters(), lr=arguments.rate, weight_decay=arguments.decay)
+        self.state = {"seconds": 0.0, "steps": 0}
+        self.checkpoint = arguments.out / "checkpoint.pt"
+        if self.checkpoint.exists():
+            self._resume()
+        else:
+            if arguments.start:
+                self.model.load_state_dict(torch.load(arguments.start, map_location=self.device)["mean"])
+            self.mean.load_state_dict(self.model.state_dict())
+        values = list(zip(self.mean.state_dict().values(), self.model.state_dict().values()))
+        self.averaged = [list(pair) for pair in zip(*(p for p in values if p[0].dtype.is_floating_point))]
+        self.counted = [p for p in values if not p[0].dtype.is_floating_point]
+
+    def _resume(self):
+        stored = torch.load(self.checkpoint, map_location=self.device)
+        self.model.load_state_dict(stored["model"])
+        self.mean.load_state_dict(stored["mean"])
+        self.optimizer.load_state_dict(stored["optimizer"])
+        self.state = stored["state"]
+        print(f"goes on from {self.state['steps']} steps")
+
+    def share(self):
+        """Of the training that is done."""
+        if self.arguments.steps:
+            return self.state["steps"] / self.arguments.steps
+        return self.state["seconds"] / (60 * self.arguments.minutes)
+
+    def step(self, pictures, boxes, grid):
+        """One step down the losses of a batch, which are returned."""
+        rate = self.arguments.rate * min(1, (self.state["steps"] + 1) / 200) * (0.5 * (1 + np.cos(np.pi * min(1, self.share()))) + 0.002)
+        for group in self.optimizer.param_groups:
+            group["lr"] = rate
+        self.model.train()
+        targets = Targets(boxes, grid)
+        with torch.autocast(torch.device(self.device).type, dtype=torch.bfloat16, enabled=self.half):
+            output = self.model(pictures.contiguous(memory_format=torch.channels_last))
+        losses = loss_of(output.float(), targets, grid, len(data.CLASSES))
+        self.optimizer.zero_grad(set_to_none=True)
+        sum(losses).backward()
+        torch.nn.utils.clip_grad_norm_(self.model.parameters(), 10)
+        self.optimizer.step()
+        keep = min(self.arguments.memory, self.state["steps"] / (self.state["steps"] + 10))
+        with torch.no_grad():
+            torch._foreach_mul_(self.averaged[0], keep)
+            torch._foreach_add_(self.averaged[0], self.averaged[1], alpha=1 - keep)
+            for old, value in self.counted:
+                old.copy_(value)
+        self.state["steps"] += 1
+        return torch.stack([loss.detach() for loss in losses])
+
+    def save(self):
+        stored = {"model": self.model.state_dict(), "mean": self.mean.state_dict(), "optimizer": self.optimizer.state_dict(), "state": self.state}
+        torch.save(stored, self.checkpoint.with_suffix(".new"))
+        self.checkpoint.with_suffix(".new").replace(self.checkpoint)
+
+
+def report(training, sums, count, views, check):
+    """Appends to the log what has been reached; average precision now and then."""
+    state = training.state
+    figures = {"steps": state["steps"], "minutes": state["seconds"] / 60, "views": len(views)}
+    figures.update({name: value / count for name, value in zip(LOSSES, sums.tolist())})
+    if check and (state["steps"] // 1000 != state.get("checked", 0) or training.share() >= 1):
+        state["checked"] = state["steps"] // 1000
+        figures.update(evaluate.average_precisions(training.mean, check, shrink=training.arguments.shrink))
+    with open(training.arguments.out / "log.jsonl", "a") as log:
+        log.write(json.dumps(figures) + "\n")
+    print({name: round(value, 3) for name, value in figures.items()}, flush=True)
+    training.save()
+
+
+def main():
+    arguments = parsed()
     torch.set_num_threads(arguments.threads)
     torch.manual_seed(arguments.seed)
+    torch.backends.cudnn.benchmark = True
     arguments.out.mkdir(parents=True, exist_ok=True)
-    # bfloat16 is four times as fast where the processor computes in it.
-    half = "avx512_bf16" in Path("/proc/cpuinfo").read_text()
-    views, check = data.Views(arguments.views), data.Views([arguments.check])
-    classes = len(data.CLASSES)
-    model, mean = (RoomDetector(classes).to(memory_format=torch.channels_last) for _ in range(2))
-    grid = cells(views.height // arguments.shrink, views.width // arguments.shrink)
-    optimizer = torch.optim.AdamW(model.parameters(), lr=arguments.rate, weight_decay=0.02)
-    state = {"seconds": 0.0, "steps": 0}
-    checkpoint = arguments.out / "checkpoint.pt"
-    if checkpoint.exists():
-        stored = torch.load(checkpoint)
-        model.load_state_dict(stored["model"])
-        mean.load_state_dict(stored["mean"])
-        optimizer.load_state_dict(stored["optimizer"])
-        state = stored["state"]
-        print(f"goes on from {state['steps']} steps")
-    else:
-        if arguments.start:
-            copy_weights(model, torch.load(arguments.start)["mean"])
-        mean.load_state_dict(model.state_dict())
-    parameters = sum(p.numel() for p in model.parameters())
-    print(f"{len(views)} views, {len(check)} to check, {parameters} weights", flush=True)
-    pairs = list(zip(mean.state_dict().values(), model.state_dict().values()))
-    last, shown, sums = time.time(), time.time(), np.zeros(3)
-    share = share_of(state, arguments)
-    while share < 1:
+    views = data.Views(arguments.views, arguments.device)
+    check = data.Views([arguments.check], arguments.device) if arguments.check else None
+    training = Training(arguments)
+    grid = cells(views.height // arguments.shrink, views.width // arguments.shrink).to(arguments.device)
+    weights = sum(p.numel() for p in training.model.parameters())
+    print(f"{len(views)} views, {len(check) if check else 0} to check, {weights} weights", flush=True)
+    state, last = training.state, time.time()
+    looked = shown = last
+    sums, count = torch.zeros(len(LOSSES), device=arguments.device), 0
+    while training.share() < 1:
+        if last - looked > 5:
+            views.refresh()
+            looked = time.time()
         random = np.random.default_rng([arguments.seed, state["steps"]])
-        pictures, boxes = data.augmented(*data.drawn(views, arguments.batch, random), random)
-        pictures, boxes = data.shrunk(pictures, boxes, arguments.shrink)
-        rate = arguments.rate * min(1, (state["steps"] + 1) / 200) * (0.5 * (1 + np.cos(np.pi * share)) + 0.002)
-        for group in optimizer.param_groups:
-            group["lr"] = rate
-        model.train()
-        with torch.autocast("cpu", dtype=torch.bfloat16, enabled=half):
-            output = model(pictures.contiguous(memory_format=torch.channels_last))
-        kinds, places = loss_of(output.float(), boxes, grid, classes)
-        optimizer.zero_grad()
-        (kinds + places).backward()
-        torch.nn.utils.clip_grad_norm_(model.parameters(), 10)
-        optimizer.step()
-        keep = min(0.998, state["steps"] / (state["steps"] + 10))
-        with torch.no_grad():
-            for old, value in pairs:
-                old.mul_(keep).add_(value, alpha=1 - keep) if value.dtype.is_floating_point else old.copy_(value)
-        state["steps"] += 1
-        sums += (kinds.item(), places.item(), 1)
+        pictures, boxes = augment.augmented(*augment.drawn(views, arguments.batch, random), random)
+        sums += training.step(*augment.shrunk(pictures, boxes, arguments.shrink), grid)
+        count += 1
         state["seconds"] += time.time() - last
-        last, share = time.time(), share_of(state, arguments)
-        if last - shown > 60 or share >= 1:
-            figures = {"steps": state["steps"], "minutes": state["seconds"] / 60, "kinds": sums[0] / sums[2], "places": sums[1] / sums[2]}
-            if state["steps"] // 1000 != state.get("checked", 0) or share >= 1:
-                state["checked"] = state["steps"] // 1000
-                figures.update(evaluate.average_precisions(mean, check, shrink=arguments.shrink))
-            with open(arguments.out / "log.jsonl", "a") as log:
-                log.write(json.dumps(figures) + "\n")
-            print({k: round(v, 3) for k, v in figures.items()}, flush=True)
-            torch.save({"model": model.state_dict(), "mean": mean.state_dict(), "optimizer": optimizer.state_dict(), "state": state},
-                       checkpoint.with_suffix(".new"))
-            checkpoint.with_suffix(".new").replace(checkpoint)
-            last = shown = time.time()
-            sums[:] = 0
+        last = time.time()
+        if last - shown > 60 or training.share() >= 1:
+            report(training, sums, count, views, check)
+            sums.zero_()
+            count, last = 0, time.time()
+            looked = shown = last
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/suggest.h"
+#include "roomgraph/geometry/pose.h"
 #include "roomgraph/observations/rgbd_channels.h"
 #include "roomgraph/simulation/flat.h"
 #include "sensors.h"
@@ -33,7 +34,19 @@ struct TrainingView {
   int boxes = 0;
 };
 
-Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double scale) {
+/// Distance of the middle of an object that stands still, m, and where its front points to: the angle about
+/// the vertical from the direction to the camera, rad.
+void addPlace(Json& label, const SceneObject& object, const Eigen::Vector3d& camera) {
+  const Eigen::Vector3d to_camera = camera - (object.world_from_object.translation() +
+                                              0.5 * object.size_wdh.z() * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d front = object.world_from_object.linear().col(0);
+  label["range"] = roundedTo(to_camera.norm(), 1000);
+  label["front"] =
+      roundedTo(wrapAngle(std::atan2(front.y(), front.x()) - std::atan2(to_camera.y(), to_camera.x())), 1000);
+}
+
+Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double scale,
+             const Eigen::Vector3d& camera) {
   Json out = Json::array();
   for (const auto& view : views) {
     const auto& object = scene.objects()[static_cast<std::size_t>(view.object)];
@@ -43,6 +56,7 @@ Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double sc
                    {"visible", roundedTo(view.visible, 1000)},
                    {"unoccluded", roundedTo(view.unoccluded, 1000)},
                    {"depth", roundedTo(view.median_depth_m, 1000)}});
+    if (!object.moving) addPlace(out.back(), object, camera);
   }
   return out;
 }
@@ -124,7 +138,7 @@ std::optional<TrainingView> FlatViews::view(int index) {
                {"index", index},
                {"fx", roundedTo(coarse_.fx, 100)},
                {"height", roundedTo(world_from_camera.translation().z(), 1000)},
-               {"boxes", boxesOf(exact.views, scene_, 1.0 / kFine)}};
+               {"boxes", boxesOf(exact.views, scene_, 1.0 / kFine, world_from_camera.translation())}};
   out.boxes = static_cast<int>(exact.views.size());
   return out;
 }

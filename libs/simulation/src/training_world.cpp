@@ -146,6 +146,8 @@ void varyWorld(World& world, const MeshChoice& meshes, Random& random) {
     if (random.chance(0.4)) room.floor = drawSurface(floors, random);
     for (auto& doorway : room.doorways) {
       if (random.chance(0.6)) doorway.color = drawColor(random);
+      const bool ajar = doorway.door == DoorState::kOpen || doorway.door == DoorState::kHalfOpen;
+      if (ajar && random.chance(0.25)) doorway.door = DoorState::kNone;  // a passage looks much like a door
       if (doorway.door == DoorState::kClosed) doorway.mesh_file = drawMesh(meshes, "door", random);
     }
   }
