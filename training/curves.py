@@ -29,8 +29,8 @@ def rows_of(logs):
 def draw(rows, file):
     figure, (losses, precisions) = pyplot.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     steps = [row["steps"] for row in rows]
-    for name, label in (("kinds", "classes (quality focal loss)"), ("places", "boxes (2 x generalised IoU loss)")):
-        losses.plot(steps, [row[name] for row in rows], label=label)
+    for name, label in (("kinds", "classes (quality focal loss)"), ("places", "boxes (2 x generalised IoU loss)"), ("extras", "distance and front (0.3 x smooth L1)")):
+        losses.plot(steps, [row.get(name, float("nan")) for row in rows], label=label)
     checked = [row for row in rows if "ap" in row]
     for name in FINDS:
         precisions.plot([row["steps"] for row in checked], [row["ap " + name] for row in checked], marker=".", label=name)

@@ -6,6 +6,7 @@
 """
 import argparse
 import json
+import math
 import time
 from pathlib import Path
 
@@ -81,7 +82,7 @@ class Training:
 
     def step(self, pictures, boxes, grid):
         """One step down the losses of a batch, which are returned."""
-        rate = self.arguments.rate * min(1, (self.state["steps"] + 1) / 200) * (0.5 * (1 + np.cos(np.pi * min(1, self.share()))) + 0.002)
+        rate = self.arguments.rate * min(1, (self.state["steps"] + 1) / 200) * (0.5 * (1 + math.cos(math.pi * min(1, self.share()))) + 0.002)
         for group in self.optimizer.param_groups:
             group["lr"] = rate
         self.model.train()

@@ -14,7 +14,7 @@ namespace {
 
 struct TrainingSetArguments {
   TrainingSetOptions options;
-  std::string flats = "10000-10099", size = "256x192";
+  std::string flats = "10000-10099", size = "320x240";
   std::filesystem::path folder, meshes, choice;
   bool quiet = false;
 };

@@ -74,22 +74,22 @@ std::vector<RawBox> decoded(const cv::Mat& blob, cv::Size input, int classes, do
 
 // 64 x 64 input: 8x8 + 4x4 + 2x2 + 1 = 85 anchors for NanoDet, 84 for YOLOX.
 TEST(RoomDecoderTest, BoxesAreDistancesFromTheCellsCentre) {
-  constexpr int kClasses = 3, kCells = 32 * 24 + 16 * 12 + 8 * 6;  // of 256 x 192 px
-  const int shape[] = {1, kCells, kClasses + 4};
+  constexpr int kClasses = 3, kCells = 40 * 30 + 20 * 15 + 10 * 8;  // of 320 x 240 px
+  const int shape[] = {1, kCells, kClasses + 7};
   cv::Mat blob(3, shape, CV_32F, cv::Scalar(-9));
-  cv::Mat table(kCells, kClasses + 4, CV_32F, blob.data);
+  cv::Mat table(kCells, kClasses + 7, CV_32F, blob.data);
   // Second level, row 3, column 5: centre (88, 56) px.
-  float* row = table.ptr<float>(32 * 24 + 3 * 16 + 5);
+  float* row = table.ptr<float>(40 * 30 + 3 * 20 + 5);
   row[1] = 0.7f;
   const double sides[] = {24, 16, 48, 32};  // px
   for (int k = 0; k < 4; ++k) row[kClasses + k] = static_cast<float>(std::log(sides[k] / 16));
-  const auto boxes = decoded<RoomDecoder>(blob, {256, 192}, kClasses, 0.3);
+  const auto boxes = decoded<RoomDecoder>(blob, {320, 240}, kClasses, 0.3);
   ASSERT_EQ(boxes.size(), 1u);
   expectBox(boxes[0].box, 88 - 24, 56 - 16, 88 + 48, 56 + 32);
   EXPECT_EQ(boxes[0].class_index, 1);
   EXPECT_NEAR(boxes[0].score, 1 / (1 + std::exp(-0.7)), 1e-6);
-  EXPECT_TRUE(decoded<RoomDecoder>(blob, {256, 192}, kClasses, 0.7).empty());
-  EXPECT_FALSE(RoomDecoder().recognises(outputsOf(blob, {256, 192}), kClasses + 1));
+  EXPECT_TRUE(decoded<RoomDecoder>(blob, {320, 240}, kClasses, 0.7).empty());
+  EXPECT_FALSE(RoomDecoder().recognises(outputsOf(blob, {320, 240}), kClasses + 1));
   EXPECT_FALSE(RoomDecoder().recognises(outputsOf(blob, {320, 192}), kClasses));
 }
 

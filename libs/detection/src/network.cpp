@@ -15,7 +15,7 @@
 namespace roomgraph {
 namespace {
 
-const cv::Size kRoomInput(256, 192);  // px; of the room detector of training/
+const cv::Size kRoomInput(320, 240);  // px; of the room detector of training/
 
 /// Input channels of the first convolution; 0: the network has none.
 int firstChannels(cv::dnn::Net& net) {

@@ -12,8 +12,13 @@ namespace roomgraph {
 
 IMPLEMENTS_MRPT_OBJECT(RoomDecoder, NetworkDecoder, roomgraph)
 
+namespace {
+constexpr std::size_t kSides = 4;
+constexpr std::size_t kExtras = 3;  // distance and front, which the training gains from; not read
+}  // namespace
+
 bool RoomDecoder::recognises(const NetworkOutputs& outputs, int classes) const {
-  return outputs.file.extension() == ".onnx" && columnsOf(outputs) == classes + 4 &&
+  return outputs.file.extension() == ".onnx" && columnsOf(outputs) == classes + static_cast<int>(kSides + kExtras) &&
          tableOf(outputs.blobs[0]).rows == static_cast<int>(gridCells({8, 16, 32}, outputs.input).size());
 }
 
@@ -29,8 +34,8 @@ std::vector<RawBox> RoomDecoder::decode(const NetworkOutputs& outputs, const Dec
     const double score = 1 / (1 + std::exp(-static_cast<double>(best.score)));
     if (!(score >= task.min_score)) continue;
     const auto [cell_row, column, stride] = cells[static_cast<std::size_t>(i)];
-    std::array<double, 4> side;
-    for (std::size_t k = 0; k < 4; ++k)
+    std::array<double, kSides> side;
+    for (std::size_t k = 0; k < kSides; ++k)
       side[k] =
           stride *
           std::exp(static_cast<double>(std::min(row[static_cast<std::size_t>(task.classes) + k], kLongest)));

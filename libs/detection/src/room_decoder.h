@@ -7,8 +7,8 @@
 namespace roomgraph {
 
 /// Cells of strides 8, 16 and 32, row by row; a cell has a logit per class, then the logarithms of the
-/// distances of the box's left, top, right and bottom sides from the cell's centre, in strides
-/// (training/network.py).
+/// distances of the box's left, top, right and bottom sides from the cell's centre, in strides, and three
+/// more values (training/network.py).
 class RoomDecoder : public NetworkDecoder {
   DEFINE_MRPT_OBJECT(RoomDecoder, roomgraph)
  public:

@@ -18,7 +18,7 @@ using MeshChoice = std::map<std::string, std::vector<std::filesystem::path>>;
 struct TrainingSetOptions {
   std::uint64_t first_flat = 10000, last_flat = 10099;
   int views = 40;                                ///< of each flat
-  cv::Size size{256, 192};                       ///< px, of the network's input
+  cv::Size size{320, 240};                       ///< px, of the network's input
   MeshChoice meshes;                             ///< take the place of half of the built shapes; may be empty
   std::function<void(double, double)> progress;  ///< flats done and in all; may be empty
   std::function<bool()> interrupted;             ///< true: stop after this flat; may be empty
