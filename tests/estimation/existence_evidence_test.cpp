@@ -78,8 +78,12 @@ TEST_F(Evidence, OfSightingsByHand) {
   far.world_from_object.translation().x() = 3.4;
   far.covariance = 0.04 * Eigen::Matrix4d::Identity();
   far.measurement.proposal.score = 0.8;
+  for (auto& frame : frames_) frame.decisions[0].seen.measurement.detection.score = 0.4;
+  far.measurement.detection.score = 0.3;
   const ExistenceEvidence evidence = of({chair});
   EXPECT_NEAR(evidence.score, (0.5 * 0.5 + 0.8 * 0.8 + 0.5 * 0.5) / 1.8, 1e-12);
+  EXPECT_NEAR(evidence.confidence, (0.5 * 0.4 + 0.8 * 0.3 + 0.5 * 0.4) / 1.8 / 0.4, 1e-6)
+      << "of what is sure here";
   EXPECT_NEAR(evidence.sightings, std::log(1 + 0.8), 1e-12) << "one key pose: the largest weight";
   EXPECT_NEAR(evidence.directions, 0, 1e-12) << "one direction";
   EXPECT_NEAR(evidence.scatter, std::log(0.05 + 0.4 * 0.4 / 0.04 / 3), 1e-12);
@@ -255,7 +259,9 @@ TEST_F(Evidence, ADoorIsInAWall) {
 
 // Rows of the image that see the plane at `range_m` between two heights; the camera is at 1 m and level.
 cv::Range rowsBetween(double low_m, double high_m, double range_m) {
-  const auto row = [&](double z_m) { return static_cast<int>(std::lround(119.5 + 260 * (1 - z_m) / range_m)); };
+  const auto row = [&](double z_m) {
+    return static_cast<int>(std::lround(119.5 + 260 * (1 - z_m) / range_m));
+  };
   return {std::max(0, row(high_m)), std::min(240, row(low_m))};
 }
 

@@ -51,7 +51,8 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"beside_filled", &E::beside_filled},
                                                              {"beams_crossed", &E::beams_crossed},
                                                              {"above_filled", &E::above_filled},
-                                                             {"uneven", &E::uneven}};
+                                                             {"uneven", &E::uneven},
+                                                             {"confidence", &E::confidence}};
   ASSERT_EQ(fields.size(), E::kNames.size());
   for (const auto& [name, field] : fields) {
     ExistenceOptions options;

@@ -11,31 +11,20 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -9.69",       "filter 0.283",   "sightings 0.653",  "directions 0.111",
-               "score 4.71",       "label 4.12",     "scatter -0.204",   "turned -0.878",
-               "measured 1.09",    "detected 0.627", "contested -0.686", "outdone -5.63",
-               "mislabelled -4.2", "crossed -3.49",  "spread 1.13",      "beams_crossed -1.08",
-               "above_filled -2"},
-      cuboid{"bias -7.59",     "filter 0.224",    "sightings 0.0201", "score 3.07",
-             "label 5.11",     "scatter -0.199",  "turned -2.23",     "measured 2.37",
-             "detected 0.238", "contested -1.51", "outdone -4.38",    "mislabelled -4.26",
-             "crossed -5.24",  "filled 0.0312",   "spread 1.43",      "beams_crossed -1.62"},
-      planar{"bias -6.1",
-             "filter 0.271",
-             "sightings 0.379",
-             "directions 0.832",
-             "score 4.51",
-             "label 3.58",
-             "measured 0.598",
-             "detected 0.319",
-             "contested -1.06",
-             "outdone -4.01",
-             "mislabelled -5.09",
-             "crossed -3.52",
-             "beside_crossed -5.06",
-             "beside_filled 0.396",
-             "beams_crossed -1.1",
-             "uneven -2.5"} {}
+    : cylinder{"bias -19.7",     "filter 0.0621",   "sightings 0.686",     "score 5.18",
+               "label 6.52",     "scatter -0.0995", "turned -0.575",       "measured 0.0764",
+               "detected 0.46",  "contested -1.48", "outdone -9.87",       "mislabelled -1.85",
+               "crossed -2.47",  "spread 3.13",     "beams_crossed -4.56", "above_filled -2.31",
+               "confidence 9.28"},
+      cuboid{"bias -8.21",          "filter 0.134",       "score 3.68",      "scatter -0.234",
+             "turned -1.43",        "measured 0.686",     "detected 0.0946", "contested -0.554",
+             "outdone -6.46",       "mislabelled -0.86",  "crossed -3.69",   "spread 2.15",
+             "beams_crossed -6.82", "above_filled -2.11", "confidence 8.38"},
+      planar{"bias -15.8",          "filter 0.13",        "sightings 0.367",      "directions 0.269",
+             "score 4.61",          "label 2.96",         "scatter -0.0491",      "measured 0.969",
+             "detected 0.304",      "contested -2.48",    "outdone -6.56",        "mislabelled -2.56",
+             "crossed -2.48",       "spread 0.439",       "beside_crossed -6.09", "beside_filled 1.13",
+             "beams_crossed -4.56", "above_filled -1.78", "confidence 12.4"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,
@@ -51,7 +40,8 @@ void ExistenceOptions::declareParameters(ParameterVisitor& v) {
          .min = 1,
          .max = 1000});
   v.add("least_planar_sightings", least_planar_sightings,
-        {.doc = "The same for doors and other planar objects: the wall around it confirms what a single good view shows.",
+        {.doc = "The same for doors and other planar objects: the wall around it confirms what a single good "
+                "view shows.",
          .min = 1,
          .max = 1000});
   v.add("cylinder_weights", cylinder,

@@ -10,6 +10,7 @@
 
 #include "ray_evidence.h"
 #include "roomgraph/association/landmark_rules.h"
+#include "roomgraph/core/order_statistics.h"
 #include "roomgraph/geometry/projection.h"
 
 namespace roomgraph {
@@ -20,6 +21,7 @@ constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
 constexpr double kSameBox = 0.7;  // IoU of two boxes of a frame that bound the same thing
 constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
+constexpr double kMostConfidence = 1.2;
 constexpr double kSameMoment_s =
     0.35;                        // between an image and a box of the same view; not every image is searched
 constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
@@ -36,7 +38,8 @@ struct YawsSeen {
 
 struct SightingSums {
   int count = 0, contested = 0, placed = 0;
-  double weight = 0, score = 0, outdone = 0, mislabelled = 0;  // weighted by the sightings' weights
+  double weight = 0, score = 0, confidence = 0, outdone = 0,
+         mislabelled = 0;  // weighted by the sightings' weights
   double scatter = 0;
   YawsSeen yaws, in_good_view;
   std::map<NodeId, double> at_nodes;  // the largest weight at each key pose
@@ -113,6 +116,7 @@ void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& s
   sums.times.insert(t);
   sums.weight += weight;
   sums.score += weight * proposal.score;
+  sums.confidence += weight * seen.measurement.detection.score;
   sums.at_nodes[node] = std::max(sums.at_nodes[node], weight);
   const Eigen::Vector3d from = camera_in_world - landmark.position;
   LengthSeen& length =
@@ -163,13 +167,24 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
   return out;
 }
 
-void setSightings(ExistenceEvidence& evidence, const SightingSums& sums) {
+// What this detector calls sure: scores of one are probabilities, those of another hardly exceed a half.
+double sureScore(const std::vector<ObjectFrame>& frames) {
+  constexpr double kUpperQuartile = 0.75;
+  std::vector<double> scores;
+  for (const auto& frame : frames)
+    for (const auto& decision : frame.decisions) scores.push_back(decision.seen.measurement.detection.score);
+  return quantile(std::move(scores), kUpperQuartile);
+}
+
+void setSightings(ExistenceEvidence& evidence, const SightingSums& sums, double sure_score) {
   if (sums.weight <= 0) return;
   double of_nodes = 0;
   for (const auto& [node, weight] : sums.at_nodes) of_nodes += weight;
   evidence.sightings = std::log1p(of_nodes);
   evidence.directions = std::log(static_cast<double>(sums.lengths.size()));
   evidence.score = sums.score / sums.weight;
+  if (sure_score > 0)
+    evidence.confidence = std::min(kMostConfidence, sums.confidence / sums.weight / sure_score);
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
   evidence.mislabelled = sums.mislabelled / sums.weight;
   evidence.outdone = sums.outdone / sums.weight;
@@ -199,11 +214,12 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
   GoodViews good_views;
   for (const auto& landmark : landmarks) good_views[landmark.id] = views.timesInGoodView(landmark);
   auto sums = sumsBySightings(landmarks, frames, poses, good_views);
+  const double sure_score = sureScore(frames);
   std::vector<ExistenceEvidence> out;
   for (const auto& landmark : landmarks) {
     ExistenceEvidence evidence;
     evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
-    setSightings(evidence, sums[landmark.id]);
+    setSightings(evidence, sums[landmark.id], sure_score);
     evidence.detected = detectionLogOdds(sums[landmark.id].times, good_views[landmark.id]);
     if (const auto own = landmark.class_posterior.find(landmark.class_name);
         own != landmark.class_posterior.end())

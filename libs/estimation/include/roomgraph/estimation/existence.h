@@ -20,14 +20,17 @@ struct ExistenceEvidence {
   double sightings = 0;   ///< log(1 + sum of their weights, one for each key pose)
   double directions = 0;  ///< log(number of directions it was seen from)
   double score = 0;       ///< mean initialisation score of its sightings
-  double label = 0;       ///< posterior of its class
-  double scatter = 0;     ///< log of the sightings' mean squared normalised distance from it
-  double turned = 0;      ///< share of the sightings whose yaw is another one, but for front and back
-  double size = 0;        ///< normalised distance of its size from its class's
+  /// Mean score that the detector gave their boxes, as a share of the upper quartile of all in the run, at
+  /// most 1.2.
+  double confidence = 0;
+  double label = 0;    ///< posterior of its class
+  double scatter = 0;  ///< log of the sightings' mean squared normalised distance from it
+  double turned = 0;   ///< share of the sightings whose yaw is another one, but for front and back
+  double size = 0;     ///< normalised distance of its size from its class's
   double measured =
       0;  ///< share of the information on its longer side that is its sightings', not its class's
-  double detected = 0;    ///< log odds of its being detected from a place with it in good view
-  double contested = 0;   ///< share of sightings whose box another landmark, not seen in that frame, covers
+  double detected = 0;   ///< log odds of its being detected from a place with it in good view
+  double contested = 0;  ///< share of sightings whose box another landmark, not seen in that frame, covers
   double outdone =
       0;  ///< share of sightings whose box has another label too, with a shape that fits it better
   double mislabelled = 0;  ///< share of sightings whose box has a surer label, of nothing that is mapped
@@ -39,18 +42,21 @@ struct ExistenceEvidence {
   double beside_crossed = 0;  ///< of doors: of the wall beside and above, by depth rays
   double beside_filled = 0;   ///< of doors: share of it where they ended
   double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams
-  double above_filled = 0;    ///< of all but doors: share of the space above its middle where depth rays ended
-  double uneven = 0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
+  double above_filled = 0;  ///< of all but doors: share of the space above its middle where depth rays ended
+  double uneven =
+      0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
 
-  static constexpr std::array<std::string_view, 21> kNames = {
-      "filter", "sightings", "directions",     "score",         "label",        "scatter",     "turned",
-      "size",   "measured",  "detected",       "contested",     "outdone",      "mislabelled", "crossed",
-      "filled", "spread",    "beside_crossed", "beside_filled", "beams_crossed", "above_filled", "uneven"};
+  static constexpr std::array<std::string_view, 22> kNames = {
+      "filter",        "sightings",    "directions", "score",     "label",          "scatter",
+      "turned",        "size",         "measured",   "detected",  "contested",      "outdone",
+      "mislabelled",   "crossed",      "filled",     "spread",    "beside_crossed", "beside_filled",
+      "beams_crossed", "above_filled", "uneven",     "confidence"};
   /// In the order of kNames.
-  std::array<double, 21> values() const {
-    return {filter, sightings, directions,     score,         label,        scatter,     turned,
-            size,   measured,  detected,       contested,     outdone,      mislabelled, crossed,
-            filled, spread,    beside_crossed, beside_filled, beams_crossed, above_filled, uneven};
+  std::array<double, 22> values() const {
+    return {filter,        sightings,    directions, score,     label,          scatter,
+            turned,        size,         measured,   detected,  contested,      outdone,
+            mislabelled,   crossed,      filled,     spread,    beside_crossed, beside_filled,
+            beams_crossed, above_filled, uneven,     confidence};
   }
 };
 
