@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped recordings through the whole program: objects, trajectory and map against the simulator's truth.
+// The shipped recordings through the whole program: objects, trajectory and map against the simulator's
+// truth.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "program.h"
 #include "roomgraph/core/order_statistics.h"
+#include "roomgraph/estimation/existence.h"
 #include "temporary_folder.h"
 
 namespace roomgraph::test {
@@ -24,8 +26,8 @@ const fs::path kSource = ROOMGRAPH_SOURCE_DIR;
 class TruthTest : public ::testing::Test {
  protected:
   void run(const std::string& name, std::vector<std::string> settings = {}) {
-    settings.insert(settings.begin(), {"run", (kSource / "rawlogs" / (name + ".rawlog")).string(), "-o", out.string(),
-                                       "--quiet", "--no-snapshot"});
+    settings.insert(settings.begin(), {"run", (kSource / "rawlogs" / (name + ".rawlog")).string(), "-o",
+                                       out.string(), "--quiet", "--no-snapshot"});
     const CallResult result = call(folder.path(), settings);
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
@@ -66,8 +68,26 @@ class TruthTest : public ::testing::Test {
     }
     return errors;
   }
+  /// The probability that the shipped weights make of the evidence beside a landmark.
+  static double byEvidence(const json& landmark) {
+    const ExistenceOptions weights;
+    const std::string shape = landmark.at("shape");
+    double log_odds = 0;
+    for (const auto& entry : shape == "cylinder" ? weights.cylinder
+                             : shape == "cuboid" ? weights.cuboid
+                                                 : weights.planar) {
+      std::istringstream in(entry);
+      std::string name;
+      double weight = 0;
+      in >> name >> weight;
+      log_odds += weight * (name == "bias" ? 1 : landmark.at("evidence").at(name).get<double>());
+    }
+    return 1 / (1 + std::exp(-log_odds));
+  }
   json landmarks() const { return json::parse(contentOf(out / "landmarks.json")).at("landmarks"); }
-  static fs::path truthOf(const std::string& name) { return kSource / "tests" / "regression" / "truth" / name; }
+  static fs::path truthOf(const std::string& name) {
+    return kSource / "tests" / "regression" / "truth" / name;
+  }
 
   TemporaryFolder folder;
   fs::path out = folder.file("out");
@@ -98,7 +118,8 @@ TEST_F(TruthTest, TinyRoom) {
     EXPECT_NEAR(landmark.at("z"), 0, 0.02) << "they stand on the floor";
     EXPECT_NE(landmark.at("class"), "person");
     EXPECT_GT(landmark.at("existence"), 0.85);
-    EXPECT_LT(landmark.at("existence"), 0.995) << "of all evidence, not of so many boxes alone";
+    EXPECT_NEAR(landmark.at("existence"), byEvidence(landmark), 1e-6)
+        << "of all evidence, not of so many boxes alone";
   }
   const json map = evaluated({"map", (truth / "map_truth.yaml").string(), (out / "map.yaml").string()});
   EXPECT_GT(map.at("f1"), 0.99) << "of occupied cells, to one cell";
@@ -177,7 +198,8 @@ TEST_F(TruthTest, TinyHandheld) {
     json record{{"timestamp", frame.at("t")}, {"boxes", json::array()}};
     for (const json& object : frame.at("objects"))
       if (object.at("class") != "other" && object.at("visible") > 0.4)
-        record["boxes"].push_back({{"class", object.at("class")}, {"score", 0.9}, {"bbox", object.at("bbox")}});
+        record["boxes"].push_back(
+            {{"class", object.at("class")}, {"score", 0.9}, {"bbox", object.at("bbox")}});
     boxes += record.dump() + "\n";
   }
   run("tiny_handheld", {"--set", "detection.file=" + folder.write("boxes.jsonl", boxes).string()});

@@ -11,20 +11,20 @@
 namespace roomgraph {
 
 ExistenceOptions::ExistenceOptions()
-    : cylinder{"bias -19.7",     "filter 0.0621",   "sightings 0.686",     "score 5.18",
-               "label 6.52",     "scatter -0.0995", "turned -0.575",       "measured 0.0764",
-               "detected 0.46",  "contested -1.48", "outdone -9.87",       "mislabelled -1.85",
-               "crossed -2.47",  "spread 3.13",     "beams_crossed -4.56", "above_filled -2.31",
-               "confidence 9.28"},
-      cuboid{"bias -8.21",          "filter 0.134",       "score 3.68",      "scatter -0.234",
-             "turned -1.43",        "measured 0.686",     "detected 0.0946", "contested -0.554",
-             "outdone -6.46",       "mislabelled -0.86",  "crossed -3.69",   "spread 2.15",
-             "beams_crossed -6.82", "above_filled -2.11", "confidence 8.38"},
-      planar{"bias -15.8",          "filter 0.13",        "sightings 0.367",      "directions 0.269",
-             "score 4.61",          "label 2.96",         "scatter -0.0491",      "measured 0.969",
-             "detected 0.304",      "contested -2.48",    "outdone -6.56",        "mislabelled -2.56",
-             "crossed -2.48",       "spread 0.439",       "beside_crossed -6.09", "beside_filled 1.13",
-             "beams_crossed -4.56", "above_filled -1.78", "confidence 12.4"} {}
+    : cylinder{"bias -20.3",     "filter 0.0636",   "sightings 0.668",     "score 5.15",
+               "label 6.6",      "scatter -0.0926", "turned -0.575",       "measured 0.0647",
+               "detected 0.454", "contested -1.5",  "outdone -10.1",       "mislabelled -1.74",
+               "crossed -2.48",  "spread 3.16",     "beams_crossed -4.56", "above_filled -2.3",
+               "confidence 9.94"},
+      cuboid{"bias -8.4",           "filter 0.135",       "score 3.66",      "scatter -0.229",
+             "turned -1.43",        "measured 0.682",     "detected 0.0917", "contested -0.547",
+             "outdone -6.53",       "mislabelled -0.787", "crossed -3.7",    "spread 2.17",
+             "beams_crossed -6.83", "above_filled -2.1",  "confidence 8.61"},
+      planar{"bias -16.1",          "filter 0.13",        "sightings 0.359",      "directions 0.273",
+             "score 4.61",          "label 2.99",         "scatter -0.0467",      "measured 0.954",
+             "detected 0.301",      "contested -2.48",    "outdone -6.66",        "mislabelled -2.5",
+             "crossed -2.48",       "spread 0.443",       "beside_crossed -6.11", "beside_filled 1.15",
+             "beams_crossed -4.57", "above_filled -1.77", "confidence 12.7"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

@@ -21,7 +21,6 @@ constexpr double kCovered = 0.7;  // of a box, by the landmark that explains it
 constexpr double kSameBox = 0.7;  // IoU of two boxes of a frame that bound the same thing
 constexpr double kOtherYaw_rad = 0.35;
 constexpr double kLeastScatter = 0.05;
-constexpr double kMostConfidence = 1.2;
 constexpr double kSameMoment_s =
     0.35;                        // between an image and a box of the same view; not every image is searched
 constexpr int kEstablished = 6;  // sightings of a landmark that may explain boxes of others
@@ -183,8 +182,7 @@ void setSightings(ExistenceEvidence& evidence, const SightingSums& sums, double 
   evidence.sightings = std::log1p(of_nodes);
   evidence.directions = std::log(static_cast<double>(sums.lengths.size()));
   evidence.score = sums.score / sums.weight;
-  if (sure_score > 0)
-    evidence.confidence = std::min(kMostConfidence, sums.confidence / sums.weight / sure_score);
+  if (sure_score > 0) evidence.confidence = std::min(1.0, sums.confidence / sums.weight / sure_score);
   evidence.contested = static_cast<double>(sums.contested) / sums.count;
   evidence.mislabelled = sums.mislabelled / sums.weight;
   evidence.outdone = sums.outdone / sums.weight;
