@@ -166,7 +166,7 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
   return out;
 }
 
-// What this detector calls sure: scores of one are probabilities, those of another hardly exceed a half.
+// What this detector calls sure: scores of one are probabilities, those of another hardly exceed .7.
 double sureScore(const std::vector<ObjectFrame>& frames) {
   constexpr double kUpperQuartile = 0.75;
   std::vector<double> scores;

@@ -260,9 +260,11 @@ bool ObjectMapper::reassociate() {
   return true;
 }
 
-// The E-step fuses places one sighting after the other: good enough for who is who, but from there a sofa may turn to
-// another optimum than the one that the graph had found.
+// The E-step fuses places one sighting after the other: good enough for who is who, but from there a sofa may
+// turn to another optimum than the one that the graph had found. What cannot turn begins at the fused place:
+// its sightings have changed, and the former one may hold it back.
 void ObjectMapper::goOnFrom(const Landmark& optimum) {
+  if (optimum.shape.kind != ShapeKind::kCuboid) return;
   if (const Landmark* fused = landmarks_.find(optimum.id))
     landmarks_.correct(optimum.id, optimum.position, optimum.yaw, optimum.shape, fused->covariance);
 }
