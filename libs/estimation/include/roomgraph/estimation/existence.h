@@ -21,7 +21,7 @@ struct ExistenceEvidence {
   double directions = 0;  ///< log(number of directions it was seen from)
   double score = 0;       ///< mean initialisation score of its sightings
   /// Mean score that the detector gave their boxes, as a share of the upper quartile of all in the run, at
-  /// most 1.2.
+  /// most 1.
   double confidence = 0;
   double label = 0;    ///< posterior of its class
   double scatter = 0;  ///< log of the sightings' mean squared normalised distance from it
