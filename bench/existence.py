@@ -3,9 +3,13 @@
 """Fits the weights of [existence] to the landmarks of simulated flats, and says how well they do on flats left out.
 
     bench/existence.py [--seeds 1-20] [--near-shipped] [--set k=v ...] [--out DIR] [--program PATH]
-                       [--mesh-seeds 1-5 --meshes DIR --mesh-set detection.models=...]
+                       [--network-seeds 1-5 --network-set k=v ... [--meshes DIR]]
 
---mesh-seeds adds flats furnished with catalogue models (worlds/extract_meshes.sh), to be seen by networks.
+--network-seeds adds runs that see by a network, furnished with catalogue models where --meshes names them (worlds/extract_meshes.sh).
+The shipped weights are of both detectors on the same flats:
+
+    bench/existence.py --seeds 1-12,21-38 --network-seeds 1-12,21-38 --network-set detection.class=DnnDetector \\
+      detection.models=models/room_detector/room_detector.onnx
 
 Flats 1 to 99 only: those from 1000 on are for reporting. Every flat is simulated (as by bench/flats.py, whose sequences are
 used again), run and evaluated; each landmark of candidates.json with enough sightings is one sample, true when the evaluation
@@ -159,10 +163,11 @@ def decisions(samples, probabilities, limit):
     return f"from {limit} on: {false} false landmarks kept, {lost} true ones lost"
 
 
-def collect(program, number, out, settings, meshes=None):
+def collect(program, number, out, settings, of="flat", meshes=None):
+    """Samples of one flat; its run is kept as `of`_`number`. Left out together is what has the same flat."""
     furnished = ["--meshes", meshes.resolve()] if meshes else []
     truth = seeds.simulated(program, "flat", repr(furnished).encode(), number, out / "sequences", ["--flat", number, *furnished])
-    run = out / "runs" / "existence" / (f"meshes_{number}" if meshes else f"flat_{number}")
+    run = out / "runs" / "existence" / f"{of}_{number}"
     _, problems = seeds.measure(program, truth, run, False, settings, 0)
     report = run / "candidates_score.json"
     problem = program.call("evaluate", "objects", truth / "objects.json", run / "candidates.json", "--truth-trajectory",
@@ -177,23 +182,24 @@ def main(argv=None):
     parser.add_argument("--seeds", type=flats.parse_seeds, default=flats.parse_seeds("1-20"), metavar="1-20", help="numbers of the flats")
     parser.add_argument("--near-shipped", action="store_true", help="weights near the program's own")
     parser.add_argument("--set", nargs="+", action="extend", default=[], metavar="K=V")
-    parser.add_argument("--mesh-seeds", type=flats.parse_seeds, default=[], metavar="1-5", help="numbers of the flats with --meshes")
-    parser.add_argument("--meshes", type=Path, metavar="DIR")
-    parser.add_argument("--mesh-set", nargs="+", action="extend", default=[], metavar="K=V")
+    parser.add_argument("--network-seeds", type=flats.parse_seeds, default=[], metavar="1-5", help="flats seen by the network of --network-set, too")
+    parser.add_argument("--network-set", nargs="+", action="extend", default=[], metavar="K=V")
+    parser.add_argument("--meshes", type=Path, metavar="DIR", help="furniture of the flats of --network-seeds")
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "flats")
     parser.add_argument("--program", type=Path, default=seeds.PROGRAM)
     arguments = parser.parse_args(argv)
-    if arguments.mesh_seeds and not arguments.meshes:
-        parser.error("--mesh-seeds needs --meshes")
-    if any(seeds_of and seeds_of[0] in flats.REPORTING for seeds_of in (arguments.seeds, arguments.mesh_seeds)):
+    if bool(arguments.network_seeds) != bool(arguments.network_set):
+        parser.error("--network-seeds and --network-set need each other")
+    if any(seeds_of and seeds_of[0] in flats.REPORTING for seeds_of in (arguments.seeds, arguments.network_seeds)):
         parser.error("flats from 1000 on are for reporting: nothing is fitted to them")
     program, samples = seeds.Program(arguments.program), []
     for number in arguments.seeds:
         samples += collect(program, number, arguments.out.resolve(), arguments.set)
         print(f"flat {number}: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
-    for number in arguments.mesh_seeds:
-        samples += collect(program, number, arguments.out.resolve(), arguments.mesh_set, arguments.meshes)
-        print(f"flat {number} with meshes: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
+    for number in arguments.network_seeds:
+        of = "network_meshes" if arguments.meshes else "network"
+        samples += collect(program, number, arguments.out.resolve(), arguments.network_set, of, arguments.meshes)
+        print(f"flat {number}, {of}: {len(samples)} landmarks so far", file=sys.stderr, flush=True)
     print(summary(samples, shipped_weights(arguments.program) if arguments.near_shipped else None))
     return 0
 
