@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -45,7 +46,7 @@ TEST(TrainingSetTest, WritesViewsWithTheirBoxesAndRepeats) {
   const std::string pixels = contentOf(folder.path() / "a" / "views.u8");
   EXPECT_EQ(pixels.size(), static_cast<std::size_t>(result.views) * kRgbdChannels * 128 * 96);
   std::istringstream lines(contentOf(folder.path() / "a" / "views.jsonl"));
-  int views = 0, boxes = 0;
+  int views = 0, boxes = 0, placed = 0;
   for (std::string line; std::getline(lines, line); ++views) {
     const auto label = nlohmann::json::parse(line);
     EXPECT_EQ(label["flat"], 7);
@@ -58,10 +59,16 @@ TEST(TrainingSetTest, WritesViewsWithTheirBoxesAndRepeats) {
       EXPECT_LE(box["box"][3], 96);
       EXPECT_GT(box["visible"], 0);
       EXPECT_LE(box["visible"], 1);
+      if (!box.contains("range")) continue;
+      ++placed;
+      EXPECT_GT(box["range"].get<double>(), box["depth"].get<double>() - 2)
+          << "no piece of furniture is larger";
+      EXPECT_LE(std::abs(box["front"].get<double>()), std::numbers::pi + 1e-3);
     }
   }
   EXPECT_EQ(views, result.views);
   EXPECT_EQ(boxes, result.boxes);
+  EXPECT_GT(placed, 0);
   const auto about = nlohmann::json::parse(contentOf(folder.path() / "a" / "set.json"));
   EXPECT_EQ(about["views"], views);
   EXPECT_EQ(about["height"], 96);
@@ -69,6 +76,21 @@ TEST(TrainingSetTest, WritesViewsWithTheirBoxesAndRepeats) {
   writeTrainingSet(twoViews(), folder.path() / "b");
   for (const char* name : {"views.u8", "views.jsonl", "set.json"})
     EXPECT_EQ(contentOf(folder.path() / "a" / name), contentOf(folder.path() / "b" / name)) << name;
+}
+
+TEST(TrainingSetTest, PlacesAreWhereTheCameraSeesThem) {
+  const Eigen::Vector3d camera(1, 1, 1.2);
+  const double quarter = std::numbers::pi / 2;
+  // 4 m ahead along x, its middle .9 m lower.
+  const SeenPlace facing = seenPlace(poseFromYpr(5, 1, 0, 2 * quarter, 0, 0), 0.6, camera);
+  EXPECT_NEAR(facing.range_m, std::hypot(4, 0.9), 1e-12);
+  EXPECT_NEAR(facing.front_rad, 0, 1e-12);
+  EXPECT_NEAR(std::abs(seenPlace(poseFromYpr(5, 1, 0, 0, 0, 0), 0.6, camera).front_rad), 2 * quarter, 1e-12);
+  // Counter-clockwise from above: a front along y, seen by a camera on the negative x side of it, is turned
+  // to its right.
+  EXPECT_NEAR(seenPlace(poseFromYpr(5, 1, 0, quarter, 0, 0), 0.6, camera).front_rad, -quarter, 1e-12);
+  EXPECT_NEAR(seenPlace(poseFromYpr(1, 4, 0, 2 * quarter, 0, 0), 0.6, camera).front_rad, -quarter, 1e-12)
+      << "as before, all turned by 90 degrees";
 }
 
 TEST(TrainingSetTest, FlatsForReportingAreRefused) {
@@ -129,7 +151,8 @@ TEST(TrainingWorldTest, PeopleAndChairsAreAddedInTheRooms) {
       });
     };
     for (std::size_t i = plain.people.size(); i < varied.people.size(); ++i) {
-      for (const auto& at : varied.people[i].path_m) EXPECT_TRUE(isIndoors(at)) << "flat " << flat << " person " << i;
+      for (const auto& at : varied.people[i].path_m)
+        EXPECT_TRUE(isIndoors(at)) << "flat " << flat << " person " << i;
       ++(varied.people[i].sits ? sitting : standing);
     }
     for (std::size_t i = plain.furniture.size(); i < varied.furniture.size(); ++i, ++chairs)

@@ -19,6 +19,15 @@ namespace {
 
 constexpr int kSurvived = 0;
 
+// Sanitizers take terabytes of addresses.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
 std::size_t addressSpaceNow() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -30,12 +39,10 @@ void limitProcess(const TrialLimits& limits) {
       cpu{limits.cpu_s, limits.cpu_s + 1};  // at the second one the signal would be SIGKILL
   setrlimit(RLIMIT_CORE, &none);
   setrlimit(RLIMIT_CPU, &cpu);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-  // Sanitizers take terabytes of addresses.
+  if (kSanitized) return;
   const rlim_t bytes = addressSpaceNow() + limits.memory_bytes;
   const rlimit memory{bytes, bytes};
   setrlimit(RLIMIT_AS, &memory);
-#endif
 }
 
 [[noreturn]] void tryOut(const std::function<void()>& work, const TrialLimits& limits) {

@@ -34,17 +34,6 @@ struct TrainingView {
   int boxes = 0;
 };
 
-/// Distance of the middle of an object that stands still, m, and where its front points to: the angle about
-/// the vertical from the direction to the camera, rad.
-void addPlace(Json& label, const SceneObject& object, const Eigen::Vector3d& camera) {
-  const Eigen::Vector3d to_camera = camera - (object.world_from_object.translation() +
-                                              0.5 * object.size_wdh.z() * Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d front = object.world_from_object.linear().col(0);
-  label["range"] = roundedTo(to_camera.norm(), 1000);
-  label["front"] =
-      roundedTo(wrapAngle(std::atan2(front.y(), front.x()) - std::atan2(to_camera.y(), to_camera.x())), 1000);
-}
-
 Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double scale,
              const Eigen::Vector3d& camera) {
   Json out = Json::array();
@@ -56,7 +45,10 @@ Json boxesOf(const std::vector<ObjectView>& views, const Scene& scene, double sc
                    {"visible", roundedTo(view.visible, 1000)},
                    {"unoccluded", roundedTo(view.unoccluded, 1000)},
                    {"depth", roundedTo(view.median_depth_m, 1000)}});
-    if (!object.moving) addPlace(out.back(), object, camera);
+    if (object.moving) continue;
+    const SeenPlace place = seenPlace(object.world_from_object, object.size_wdh.z(), camera);
+    out.back()["range"] = roundedTo(place.range_m, 1000);
+    out.back()["front"] = roundedTo(place.front_rad, 1000);
   }
   return out;
 }

@@ -207,6 +207,14 @@ void spoilDepth(cv::Mat& depth, const cv::Mat& object, Random& random) {
   }
 }
 
+SeenPlace seenPlace(const Pose3& world_from_object, double height_m, const Eigen::Vector3d& camera) {
+  const Eigen::Vector3d to_camera =
+      camera - (world_from_object.translation() + 0.5 * height_m * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d front = world_from_object.linear().col(0);
+  return {to_camera.norm(),
+          wrapAngle(std::atan2(front.y(), front.x()) - std::atan2(to_camera.y(), to_camera.x()))};
+}
+
 cv::Mat spoilColor(const cv::Mat& color, Random& random) {
   cv::Mat out = color;
   if (random.chance(0.3)) cv::GaussianBlur(out, out, {}, random.uniform(0.4, 1.5));

@@ -26,6 +26,15 @@ Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random);
 /// px against the colours. `depth`: CV_16U, mm.
 void spoilDepth(cv::Mat& depth, const cv::Mat& object, Random& random);
 
+/// Where an object stands, as a camera sees it.
+struct SeenPlace {
+  double range_m = 0;  ///< from the camera to the object's middle
+  double front_rad =
+      0;  ///< about the vertical, from the direction to the camera to the object's front (its x axis)
+};
+/// Of an object of that height whose origin is at its foot; `camera`: in world.
+SeenPlace seenPlace(const Pose3& world_from_object, double height_m, const Eigen::Vector3d& camera);
+
 /// Exposure, white balance, blur and JPEG.
 cv::Mat spoilColor(const cv::Mat& color, Random& random);
 
