@@ -14,8 +14,10 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/geometry/pose.h"
 #include "roomgraph/observations/rgbd_channels.h"
 #include "roomgraph/simulation/flat.h"
+#include "scene.h"
 #include "sitting.h"
 #include "temporary_folder.h"
 #include "training_world.h"
@@ -161,6 +163,33 @@ TEST(TrainingWorldTest, PeopleAndChairsAreAddedInTheRooms) {
   EXPECT_GT(sitting, 5u);
   EXPECT_GT(standing, 5u);
   EXPECT_GT(chairs, 5u);
+}
+
+TEST(TrainingWorldTest, OneViewInThreeIsOfAnObjectCloseBy) {
+  const Scene scene(randomFlat({7, 0, false, {}}));
+  Random random(1);
+  int close = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double seconds = random.uniform(0, scene.duration());
+    const Pose3 camera = drawTrainingView(scene, seconds, random);
+    const Eigen::Vector3d at = camera.translation(), ahead = camera.linear().col(2);
+    EXPECT_GE(at.z(), 0.25);
+    EXPECT_LE(at.z(), 1.8);
+    if ((at - scene.worldFromRobot(seconds).translation()).head<2>().norm() < 0.25)
+      continue;  // from the path
+    ++close;
+    EXPECT_TRUE(std::ranges::any_of(
+        scene.objects(),
+        [&](const SceneObject& object) {
+          const Eigen::Vector2d to = (object.world_from_object.translation() - at).head<2>();
+          const double beside =
+              std::abs(wrapAngle(std::atan2(to.y(), to.x()) - std::atan2(ahead.y(), ahead.x())));
+          return to.norm() > 0.79 && to.norm() < 2.21 && beside < 0.51;
+        }))
+        << "view " << i;
+  }
+  EXPECT_GT(close, 60);
+  EXPECT_LT(close, 150);
 }
 
 TEST(Sitting, OnWhatIsASeatAndWhereItsFrontIs) {

@@ -177,7 +177,12 @@ CameraSpec drawTrainingCamera(cv::Size size, Random& random) {
   return out;
 }
 
-Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random) {
+namespace {
+
+constexpr double kCloseShare = 0.35;  // of the views
+
+/// From the path: what a robot sees, or who walks where it drives.
+Pose3 viewFromPath(const Scene& scene, double seconds, Random& random) {
   const Pose3 robot = scene.worldFromRobot(seconds);
   const Eigen::Vector3d at(robot.translation().x() + random.uniform(-0.15, 0.15),
                            robot.translation().y() + random.uniform(-0.15, 0.15), random.uniform(0.25, 1.75));
@@ -189,8 +194,30 @@ Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random) {
   }
   const double lean = std::clamp(0.35 * (at.z() - 0.25), 0.0, 0.5);  // what looks from above looks down
   const double pitch = std::clamp(lean + 12 * kDegree * random.normal(), -12 * kDegree, 35 * kDegree);
-  Pose3 out =
-      poseFromYpr(at.x(), at.y(), at.z(), yaw, pitch, random.chance(0.5) ? 0 : 4 * kDegree * random.normal());
+  return poseFromYpr(at.x(), at.y(), at.z(), yaw, pitch,
+                     random.chance(0.5) ? 0 : 4 * kDegree * random.normal());
+}
+
+/// From close by, over tables and round corners: objects are cut by the picture's edge and by what stands
+/// before them, and often the floor is not in view.
+Pose3 closeView(const SceneObject& object, Random& random) {
+  const Eigen::Vector3d middle =
+      object.world_from_object.translation() + 0.6 * object.size_wdh.z() * Eigen::Vector3d::UnitZ();
+  const double direction = random.uniform(-std::numbers::pi, std::numbers::pi),
+               away = random.uniform(0.8, 2.2);
+  const Eigen::Vector3d at(middle.x() + away * std::cos(direction), middle.y() + away * std::sin(direction),
+                           random.uniform(0.7, 1.8));
+  const double yaw = direction + std::numbers::pi + random.uniform(-0.5, 0.5);
+  const double pitch = std::atan2(at.z() - middle.z(), away) + 10 * kDegree * random.normal();
+  return poseFromYpr(at.x(), at.y(), at.z(), yaw, std::clamp(pitch, -12 * kDegree, 42 * kDegree),
+                     6 * kDegree * random.normal());
+}
+
+}  // namespace
+
+Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random) {
+  const bool close = random.chance(kCloseShare) && !scene.objects().empty();
+  Pose3 out = close ? closeView(pick(random, scene.objects()), random) : viewFromPath(scene, seconds, random);
   out.linear() *= bodyFromOptical();
   return out;
 }

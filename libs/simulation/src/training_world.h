@@ -18,8 +18,9 @@ void varyWorld(World& world, const MeshChoice& meshes, Random& random);
 /// Light, range and noise of a camera of the given size, with its field of view.
 CameraSpec drawTrainingCamera(cv::Size size, Random& random);
 
-/// A view from near the path: any height from .25 to 1.75 m, leaning up to 35 degrees down and 12 up, rolled
-/// a little; every second one looks at an object.
+/// A view from near the path, any height from .25 to 1.75 m, leaning up to 35 degrees down and 12 up, rolled
+/// a little, every second one at an object; or, one in three, of an object from .8 to 2.2 m, often over a
+/// table.
 Pose3 drawTrainingView(const Scene& scene, double seconds, Random& random);
 
 /// Depth of some objects, of round patches or of all that is far is lost, and the whole is shifted by up to 2
