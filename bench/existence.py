@@ -190,6 +190,8 @@ def main(argv=None):
     arguments = parser.parse_args(argv)
     if bool(arguments.network_seeds) != bool(arguments.network_set):
         parser.error("--network-seeds and --network-set need each other")
+    if arguments.meshes and not arguments.network_seeds:
+        parser.error("--meshes needs --network-seeds")
     if any(seeds_of and seeds_of[0] in flats.REPORTING for seeds_of in (arguments.seeds, arguments.network_seeds)):
         parser.error("flats from 1000 on are for reporting: nothing is fitted to them")
     program, samples = seeds.Program(arguments.program), []
