@@ -80,8 +80,35 @@ TEST(LocalMaps, FactorsAreCountedOnceEach) {
     return buildWindow(poses, motion, {}, ofNodes(nodes), since, std::nullopt).graph.factors();
   };
   EXPECT_EQ(factors(0, 0), 11u + 11u + 11u) << "wheels, scans, floor";
-  EXPECT_EQ(factors(4, 0), 11u + (12u + 2u) + 11u) << "scans: key poses in their maps, and between maps";
-  EXPECT_EQ(factors(4, 6), 5u + (6u + 1u) + 5u);
+  EXPECT_EQ(factors(4, 0), 11u + (12u + 2u) + 11u + 3u)
+      << "wheels; scans: key poses in their maps, and between maps; floor: key poses and maps";
+  EXPECT_EQ(factors(4, 6), 5u + (6u + 1u) + 5u + 2u);
+}
+
+double tiltOf(const Pose3& pose) {
+  return std::acos(std::min(1.0, pose.linear()(2, 2)));
+}
+
+// Images that turn too far, and nod a little, against scans that do not: the maps of scans could escape by tilting,
+// which scans do not measure, and the yaw would be the images'.
+TEST(LocalMaps, OfScansStayLevelWhereImagesDisagree) {
+  Random random(1);
+  const auto nod = [&random] { return random.uniform(-0.004, 0.004); };
+  const double turned_too_far = 0.01;
+  const MotionSource level = drifting(1, 1 + turned_too_far, {});
+  MotionSource images({0.001, 0.02, 0.0005, 0.02, 0.004}, false);
+  for (const StampedPose& seen : level.poses().poses())
+    images.add(seen.t, seen.pose * poseFromYpr(0, 0, 0, 0, nod(), nod()), 0, 1e-5 * Matrix6d::Identity());
+  const Motion motion{kNone, images, drifting(1, 1, kScanNoise)};
+  const KeyPoses poses = everySecond(motion, kNodes);
+  FactorGraph graph = buildGraph(poses, motion, {}, {}, ofNodes(5));
+  ASSERT_TRUE(graph.optimize(100).usable);
+  for (int first = 0; first < kNodes; first += 5)
+    EXPECT_LT(tiltOf(graph.pose(NodeId{20'000'000 + first})), 0.002) << "map of scans from key pose " << first;
+  // Of two chains of maps the one with the smaller variances leads.
+  const double yaw = planarPart(truthAt(kNodes - 1).inverse() * graph.pose(NodeId{kNodes - 1})).yaw;
+  EXPECT_GT(yaw, 0);
+  EXPECT_LT(yaw, 0.25 * turned_too_far * 2 * M_PI) << "it is .8 of it where maps of scans may tilt";
 }
 
 // The same sums by hand: in a map one match, from map to map one match and a share of all steps, turned into

@@ -42,6 +42,23 @@ TEST(Report, StableNames) {
   EXPECT_NEAR(r.at("rot_abs_std_deg").get<double>(), 0.5, 1e-12);
 }
 
+TEST(Report, EveryLandmarkSaysHowFarItIsInItsOwnStandardDeviations) {
+  EvaluatedObject chair;
+  chair.class_name = "swivel_chair";
+  chair.width = chair.depth = chair.height = 0.6;
+  EvaluatedObject seen = chair;
+  seen.position.x() = 0.06;
+  seen.place_covariance = Eigen::Matrix2d(Eigen::Vector2d(0.03 * 0.03, 1).asDiagonal());
+  ObjectOptions options;
+  options.classes = test::usualClasses();
+  const auto nees = [&] {
+    return json::parse(toJson(evaluateObjects({chair}, {seen}, options))).at("landmarks").at(0).at("position_nees");
+  };
+  EXPECT_NEAR(nees().get<double>(), 4, 1e-9);
+  seen.place_covariance.reset();
+  EXPECT_TRUE(nees().is_null());
+}
+
 TEST(Report, WhatCannotBeComputedIsNull) {
   const json t = json::parse(toJson(TrajectoryErrors{}));
   EXPECT_TRUE(t.at("ate_rmse_m").is_null());

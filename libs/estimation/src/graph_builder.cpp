@@ -89,7 +89,13 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
   for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
-  return local_maps ? addLocalMaps(graph, poses, motion, first, options) : std::vector<LocalMap>();
+  if (!local_maps) return {};
+  const auto maps = addLocalMaps(graph, poses, motion, first, options);
+  // Scans do not measure tilt and height of their maps: left free, these would give way where yaws disagree.
+  if (measurements.planar)
+    for (const LocalMap& map : maps)
+      graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+  return maps;
 }
 
 // Local maps that the prior knows and that later data of their source have replaced: the prior needs their

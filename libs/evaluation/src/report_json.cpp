@@ -61,7 +61,8 @@ ordered_json objectsJson(const ObjectErrors& e) {
                                 {"truth", matched ? ordered_json(v.truth) : ordered_json(nullptr)},
                                 {"distance_m", orNull(v.distance_m, matched)},
                                 {"yaw_error_deg", orNull(v.yaw_error_deg, v.yaw_error_deg >= 0)},
-                                {"iou3d", orNull(v.iou3d, v.verdict == Verdict::kCorrect)}});
+                                {"iou3d", orNull(v.iou3d, v.verdict == Verdict::kCorrect)},
+                                {"position_nees", orNull(v.nees, v.nees >= 0)}});
   }
   out["missed_objects"] = e.missed;
   return out;
