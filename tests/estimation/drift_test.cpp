@@ -29,10 +29,10 @@ class DrivingDrift : public ::testing::Test {
 
   double of(double t) const { return drift_.variance(poses_, t, poses_.at(t).translation().head<2>()); }
 
-  static constexpr MotionNoise kNone{0, 0, 0, 0, 0};
+  static constexpr MotionNoise kNone{0, 0, 0, 0, 0, kShare};
   Motion motion_{MotionSource(kNone, true), MotionSource(kNone, false), MotionSource(kNone, true)};
   KeyPoses poses_{motion_};
-  Drift drift_{motion_, kShare};
+  Drift drift_{motion_, true};
 };
 
 TEST_F(DrivingDrift, IsTheSumOfTheStepsAndOfTurnsTimesTheDistance) {

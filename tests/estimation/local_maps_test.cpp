@@ -20,7 +20,7 @@ constexpr double kMatch_m = 0.01, kMatch_rad = 0.004;
 // first, which is held.
 MotionSource matched(unsigned seed) {
   Random random(seed);
-  MotionSource source({1e-4, 0.01, 1e-4, 0.01, 0.003}, true);
+  MotionSource source({1e-4, 0.01, 1e-4, 0.01, 0.003, 0.05}, true);
   const auto noise = [&](double t, double sigma) {
     return t > 0 ? random.uniform(-1, 1) * std::sqrt(3.0) * sigma : 0;
   };
@@ -96,7 +96,7 @@ TEST(LocalMaps, OfScansStayLevelWhereImagesDisagree) {
   const auto nod = [&random] { return random.uniform(-0.004, 0.004); };
   const double turned_too_far = 0.01;
   const MotionSource level = drifting(1, 1 + turned_too_far, {});
-  MotionSource images({0.001, 0.02, 0.0005, 0.02, 0.004}, false);
+  MotionSource images({0.001, 0.02, 0.0005, 0.02, 0.004, 0.05}, false);
   for (const StampedPose& seen : level.poses().poses())
     images.add(seen.t, seen.pose * poseFromYpr(0, 0, 0, 0, nod(), nod()), 0, 1e-5 * Matrix6d::Identity());
   const Motion motion{kNone, images, drifting(1, 1, kScanNoise)};
@@ -114,7 +114,7 @@ TEST(LocalMaps, OfScansStayLevelWhereImagesDisagree) {
 // The same sums by hand: in a map one match, from map to map one match and a share of all steps, turned into
 // the frame of the beginning.
 TEST(LocalMaps, ErrorsOfMatchesDoNotAddUp) {
-  MotionSource source({0.001, 0, 0.002, 0, 0}, false);
+  MotionSource source({0.001, 0, 0.002, 0, 0, 0.1}, false);
   Vector6d along;
   along << 0.04, 0.0001, 0.0001, 1e-4, 1e-4, 1e-4;
   for (int i = 0; i <= 4; ++i)
@@ -125,7 +125,7 @@ TEST(LocalMaps, ErrorsOfMatchesDoNotAddUp) {
   EXPECT_NEAR(in_map(5, 5), 4e-6 + 1e-4, 1e-9);
   EXPECT_NEAR(source.inLocalMap(0, 2, 0)->covariance.trace(), in_map.trace(), 1e-9)
       << "as after half the way";
-  const Matrix6d drift = source.betweenLocalMaps(0, 4, 0, 0.1)->covariance - in_map;
+  const Matrix6d drift = source.betweenLocalMaps(0, 4, 0)->covariance - in_map;
   EXPECT_LT((drift - 0.1 * source.between(0, 4, 0)->covariance).norm(), 1e-12);
   EXPECT_FALSE(source.inLocalMap(0, 5, 0.25));
 }

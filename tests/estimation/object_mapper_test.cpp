@@ -80,7 +80,7 @@ TEST(ObjectMapper, AfterALostCameraTheGateIsWide) {
   association::registerClasses();
   for (const bool lost : {false, true}) {
     KeyPoses poses(standing());
-    Drift drift(standing(), 1);
+    Drift drift(standing(), false);
     ObjectMapper mapper(createStage<Associator>("SoftAssociator", "test"), {}, 0.03, poses);
     poses.add(0, Pose3::Identity());
     drift.extend(poses);

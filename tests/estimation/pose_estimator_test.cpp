@@ -87,7 +87,6 @@ TEST(PoseEstimator, WindowWithLocalMapsEndsWhereTheWholeGraphDoes) {
     for (Estimation* run : {&open, &closed}) {
       run->motion.lidar = drifting(1.03, 1.06, {0.001, 0.04, 0.0005, 0.04, 0.02});
       run->options.local_map_nodes = 6;
-      run->options.local_map_drift_share = 1;
     }
     open.drive(false);
     closed.drive(true);

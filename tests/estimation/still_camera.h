@@ -16,7 +16,7 @@ inline const Motion& standing() {
 }
 
 inline const Drift& noDrift() {
-  static const Drift drift(standing(), 1);
+  static const Drift drift(standing(), false);
   return drift;
 }
 

@@ -108,7 +108,8 @@ TEST_F(ObjectStagesTest, WhatBeamsCrossIsNotInTheMap) {
 TEST_F(ObjectStagesTest, TheMapIsTheOptimumOfTheGraph) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);
   place("swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, 0.5, 2.9, 0);
-  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nenabled = false\n"));
+  SemanticSlam slam(
+      setupWith(kFakeObjects + "[tracking]\nenabled = false\n[landmarks]\ndoubt_by_scan = false\n"));
   const SlamResult result = drive(slam);
   ASSERT_EQ(result.map.landmarks.size(), 2u);
   const auto covariances = slam.graph().landmarkCovariances();

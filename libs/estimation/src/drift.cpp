@@ -20,8 +20,8 @@ double horizontalVariance(const Matrix6d& covariance) {
 // Of the source that knows the place best.
 Drift::Variance Drift::ofStep(const KeyPose& a, const KeyPose& b) const {
   std::optional<Variance> least;
-  for (const auto& [source, share] :
-       {std::pair{&motion_.lidar, share_}, {&motion_.visual, share_}, {&motion_.odometry, 1.0}}) {
+  for (const auto* source : {&motion_.lidar, &motion_.visual, &motion_.odometry}) {
+    const double share = local_maps_ && source != &motion_.odometry ? source->driftShare() : 1;
     const auto seen = source->between(a.t, b.t, kSourceGap_s);
     if (!seen) continue;
     const Variance own{share * horizontalVariance(seen->covariance), share * seen->covariance(5, 5)};

@@ -11,17 +11,14 @@ const NodeId kFirstOfImages{10'000'000}, kFirstOfScans{20'000'000};
 constexpr double kMatchRobustWidth = 3;  // Cauchy, in standard deviations: a wrong match is rare
 
 void addFactors(FactorGraph& graph, const KeyPoses& poses, const MotionSource& source,
-                const std::vector<LocalMap>& maps, std::size_t since, const BackendOptions& options) {
+                const std::vector<LocalMap>& maps, std::size_t since) {
   const auto& nodes = poses.nodes();
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const LocalMap& map = maps[k];
     const double begin_t = nodes[map.first].t;
     graph.addPose(map.id, nodes[map.first].world_from_robot);
     if (k > 0 && map.follows) {
-      const Movement moved = source
-                                 .betweenLocalMaps(nodes[maps[k - 1].first].t, begin_t, kSourceGap_s,
-                                                   options.local_map_drift_share)
-                                 .value();
+      const Movement moved = source.betweenLocalMaps(nodes[maps[k - 1].first].t, begin_t, kSourceGap_s).value();
       graph.add(BetweenFactor{maps[k - 1].id, map.id, moved.a_from_b, moved.covariance, kMatchRobustWidth});
     }
     for (std::size_t i = std::max(map.first, since); i < map.end; ++i) {
@@ -65,7 +62,7 @@ std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, co
   for (const auto& [source, first_id] :
        {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}}) {
     const std::vector<LocalMap> maps = localMaps(poses, *source, first_id, since, options);
-    addFactors(graph, poses, *source, maps, since, options);
+    addFactors(graph, poses, *source, maps, since);
     all.insert(all.end(), maps.begin(), maps.end());
   }
   return all;

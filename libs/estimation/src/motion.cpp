@@ -104,11 +104,14 @@ Matrix6d MotionSource::stepAt(double t) const {
 }
 
 std::optional<Movement> MotionSource::inLocalMap(double t_a, double t_b, double horizon_s) const {
-  return betweenLocalMaps(t_a, t_b, horizon_s, 0);
+  return matched(t_a, t_b, horizon_s, 0);
 }
 
-std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, double horizon_s,
-                                                       double drift_share) const {
+std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, double horizon_s) const {
+  return matched(t_a, t_b, horizon_s, noise_.drift_share);
+}
+
+std::optional<Movement> MotionSource::matched(double t_a, double t_b, double horizon_s, double drift_share) const {
   if (poses_.empty()) return std::nullopt;
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;

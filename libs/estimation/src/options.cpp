@@ -27,6 +27,14 @@ void MotionNoise::declare(ParameterVisitor& v) {
          .max = 1});
 }
 
+void MotionNoise::declareDrift(ParameterVisitor& v) {
+  v.add("drift_share", drift_share,
+        {.doc = "Share of the variance of single movements that adds up from one local map ([backend] local_map_nodes) "
+                "to the next.",
+         .min = 0,
+         .max = 1});
+}
+
 namespace {
 
 // When key poses are made, and when which of them are optimised.
@@ -48,10 +56,6 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
            "errors do not add up within it. 0: each movement is measured for itself.",
        .min = 0,
        .max = 1000});
-  v.add("local_map_drift_share", o.local_map_drift_share,
-        {.doc = "Share of the variance of single movements that adds up from one local map to the next.",
-         .min = 0,
-         .max = 1});
   v.add("optimize_every_nodes", o.optimize_every_nodes,
         {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
   v.add("urgent_closure_m", o.urgent_closure_m,

@@ -19,7 +19,7 @@ PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion
     : options_(options),
       motion_(motion),
       poses_(motion),
-      drift_(motion, options.local_map_nodes > 0 ? options.local_map_drift_share : 1) {
+      drift_(motion, options.local_map_nodes > 0) {
   measurements_.planar = false;
 }
 

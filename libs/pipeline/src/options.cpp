@@ -45,6 +45,7 @@ void TrackingOptions::declareParameters(ParameterVisitor& v) {
   v.add("class", stage, {.doc = "Class of the RGB-D odometry."});
   v.add("loop_closing", loop_closing, {.doc = "Whether loop closures found in images are used."});
   noise.declare(v);
+  noise.declareDrift(v);
 }
 
 void LidarOptions::declareParameters(ParameterVisitor& v) {
@@ -53,6 +54,7 @@ void LidarOptions::declareParameters(ParameterVisitor& v) {
   declareLabel(label, v);
   v.add("loop_closing", loop_closing, {.doc = "Whether loop closures found in scans are used."});
   noise.declare(v);
+  noise.declareDrift(v);
 }
 
 void OdometryOptions::declareParameters(ParameterVisitor& v) {

@@ -17,9 +17,9 @@ namespace roomgraph {
 /// up to date in O(key poses) per key pose and closure.
 class Drift {
  public:
-  /// `share`: of the variance of movements by images and scans, which are matched to local maps, that adds up
-  /// (BackendOptions::local_map_drift_share; 1 without local maps). `motion` outlives this.
-  Drift(const Motion& motion, double share) : motion_(motion), share_(share) {}
+  /// `local_maps`: images and scans are matched to such, and of the variances of their movements only
+  /// MotionNoise::drift_share adds up. `motion` outlives this.
+  Drift(const Motion& motion, bool local_maps) : motion_(motion), local_maps_(local_maps) {}
 
   /// Takes in the key poses that are new since the last call.
   void extend(const KeyPoses& poses);
@@ -36,7 +36,7 @@ class Drift {
   Variance ofStep(const KeyPose& a, const KeyPose& b) const;
 
   const Motion& motion_;
-  double share_;
+  bool local_maps_;
   std::vector<Variance> walked_;  ///< sums of the steps from the first key pose
   std::vector<Variance> since_;   ///< of the latest key pose relative to each
 };

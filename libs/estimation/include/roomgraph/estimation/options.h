@@ -12,7 +12,11 @@ struct MotionNoise {
   double floor_m = 0.01, per_m = 0.02;       ///< translation
   double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
   double rad_per_m = 0.01;                   ///< rotation, by distance driven
+  /// Of a source that is matched against local maps: share of the variance of single movements that adds up from one
+  /// local map to the next.
+  double drift_share = 1;
   void declare(ParameterVisitor& v);
+  void declareDrift(ParameterVisitor& v);
 };
 
 /// [backend]
@@ -20,7 +24,6 @@ struct BackendOptions : Configurable {
   double node_distance_m = 0.15, node_angle_rad = 0.15, node_interval_s = 5;
   int window_nodes = 10, optimize_every_nodes = 20, max_iterations = 30;
   int local_map_nodes = 10;
-  double local_map_drift_share = 0.05;
   double live_tolerance = 1e-4, final_tolerance = 1e-6;
   double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
   double closure_robust_width = 1.0, landmark_robust_width = 1.0;
