@@ -119,8 +119,8 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
 // The pause grows with the graph, so that the work per key pose stays bounded on long runs.
 bool PoseEstimator::due() const {
   const int nodes = static_cast<int>(poses_.nodes().size());
-  const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 4, nodes / 100)
-                               : std::max(options_.optimize_every_nodes, nodes / 10);
+  const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 2, nodes / 100)
+                                         : std::max(options_.optimize_every_nodes, nodes / 20);
   return nodes_since_optimization_ >= pause;
 }
 
