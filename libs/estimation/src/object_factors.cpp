@@ -37,44 +37,10 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, c
 
 namespace {
 
-// Weight of a sighting in a mean place.
+// Weight of a sighting in a mean offset.
 double shareOf(const LandmarkFactor& sighting) {
   return std::max(sighting.weight, 1e-9) / sighting.covariance.topLeftCorner<2, 2>().trace();
 }
-
-}  // namespace
-
-LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings) {
-  LandmarkFactor mean = sightings.front();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector2d direction = Eigen::Vector2d::Zero();
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  double sum = 0, yaw_sum = 0, yaw_weight = 0;
-  for (const auto& s : sightings) {
-    const double share = shareOf(s);
-    position += share * s.position_in_robot;
-    covariance += share * s.covariance;
-    sum += share;
-    mean.weight = std::max(mean.weight, s.weight);
-    if (!s.has_yaw) continue;
-    const double yaw_share = std::max(s.weight, 1e-9) / s.covariance(3, 3);
-    direction += yaw_share * Eigen::Vector2d(std::cos(s.yaw_in_robot), std::sin(s.yaw_in_robot));
-    yaw_sum += yaw_share;
-    yaw_weight += std::max(s.weight, 1e-9);
-  }
-  mean.position_in_robot = position / sum;
-  mean.covariance = covariance / sum;
-  mean.has_yaw = direction.norm() > 1e-9;
-  if (!mean.has_yaw) return mean;
-  mean.yaw_in_robot = std::atan2(direction.y(), direction.x());
-  // Places may be well known where yaws are not, and the other way round.
-  mean.covariance.row(3).setZero();
-  mean.covariance.col(3).setZero();
-  mean.covariance(3, 3) = yaw_weight / yaw_sum;
-  return mean;
-}
-
-namespace {
 
 constexpr std::size_t kMinViews = 3;  // key poses from which a point must be seen
 
@@ -227,15 +193,15 @@ int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_
 }
 
 std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* usual, const KeyPoses& poses,
-                                     double yaw, double angle_rad) {
+                                     double yaw, const BackendOptions& options) {
   std::map<int, View> views;
   for (const auto& [id, group] : seen.sightings) {
     const KeyPose& node = poses.node(id);
     const double yaw_in_robot = yaw - planarPart(node.world_from_robot).yaw;
     const LandmarkFactor sighting =
-        inWorld(meanSighting(withYawsNear(yaw_in_robot, group)), node.world_from_robot);
+        inWorld(meanSighting(withYawsNear(yaw_in_robot, group), options.landmark_robust_width), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
-    View& view = views[directionOf(sighting.position_in_robot, node, angle_rad)];
+    View& view = views[directionOf(sighting.position_in_robot, node, options.landmark_view_rad)];
     // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see
     // the object.
     const bool gone =
@@ -259,7 +225,7 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
 
 // `visits`: mean sightings in world.
 LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const BackendOptions& options) {
-  const LandmarkFactor mean = meanSighting(visits);
+  const LandmarkFactor mean = meanSighting(visits, options.landmark_robust_width);
   return {.landmark = mean.landmark,
           .has_yaw = mean.has_yaw,
           .covariance = options.landmark_repeating_share * mean.covariance,
@@ -276,12 +242,12 @@ LandmarkId viewId(LandmarkId landmark, int direction) {
 bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   const double yaw = votedYaw(seen, poses).value_or(landmark.yaw);
-  const auto views = viewsByDirection(seen, usual, poses, yaw, options.landmark_view_rad);
+  const auto views = viewsByDirection(seen, usual, poses, yaw, options);
   for (const auto& [direction, view] : views) {
     std::vector<LandmarkFactor> visits;
     const LandmarkId id = viewId(landmark.id, direction);
     for (const Visit& visit : view.visits) {
-      visits.push_back(meanSighting(visit));
+      visits.push_back(meanSighting(visit, options.landmark_robust_width));
       LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
       sighting.robust_width = options.landmark_robust_width;
       if (options.object_views) {

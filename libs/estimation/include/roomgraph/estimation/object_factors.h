@@ -63,8 +63,9 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
 LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, const KeyPose& node,
                           const Pose3& node_from_camera);
 
-/// Weighted mean of sightings of one landmark from one key pose; covariance and weight are those of a single
-/// one of them. At least one sighting.
-LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings);
+/// Mean of sightings of one landmark in one frame: the place of least weighted Cauchy losses, whose width is
+/// `robust_width` standard deviations of each, so that a few whose depth failed do not count (0: every sighting counts); and the weighted mean yaw.
+/// Covariance and weight are those of a single one of them. At least one sighting.
+LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings, double robust_width);
 
 }  // namespace roomgraph
