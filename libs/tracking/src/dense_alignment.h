@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Alignment of two RGB-D images by depth and brightness, for images without features.
+#pragma once
+
+#include <optional>
+
+#include "dense_image.h"
+#include "roomgraph/geometry/covariance.h"
+
+namespace roomgraph::tracking {
+
+/// What is known of a movement before the images are aligned: standard deviations of its translation (m) and
+/// rotation (rad), in every direction.
+struct DensePrior {
+  Pose3 reference_from_current = Pose3::Identity();
+  double sigma_m = 0.1, sigma_rad = 0.1;
+};
+
+struct DenseAlignment {
+  Pose3 reference_from_current = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  ///< of (translation, rotation) in the reference's frame
+  double overlap = 0;  ///< share of the current pixels with depth that the reference explains, [0, 1]
+};
+
+/// Iteratively reweighted least squares of point-to-plane distances and differences of brightness (Kerl et al.,
+/// "Dense visual SLAM for RGB-D cameras", IROS 2013, with the geometric term of Chen and Medioni 1992), from coarse to
+/// fine. Directions that neither measures, as along a bare wall, stay as the prior has them, with its variance. Nothing
+/// when too few pixels meet.
+std::optional<DenseAlignment> alignDense(const DenseImage& reference, const DenseImage& current,
+                                         const DensePrior& prior);
+
+}  // namespace roomgraph::tracking

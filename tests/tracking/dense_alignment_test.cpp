@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dense alignment: rendered movements, a bare wall, people left out, images that do not meet.
+#include "dense_alignment.h"
+
+#include <gtest/gtest.h>
+
+#include "textured_room.h"
+
+namespace roomgraph::tracking {
+namespace {
+
+using test::TexturedRoom;
+
+double angleBetween(const Pose3& a, const Pose3& b) {
+  return rotationAngle(a.inverse() * b);
+}
+
+TEST(DenseAlignment, FindsMovementsOfARoom) {
+  const TexturedRoom room;
+  // Into a corner of the room, and down.
+  const Pose3 first = poseFromYpr(1.2, 0.1, 0.2, 0, 0.9, -0.5);
+  const DenseImage reference(room.render(0, first), {});
+  for (const Pose3& moved :
+       {poseFromYpr(0.05, -0.02, 0.08, 0.02, 0.03, -0.02), poseFromYpr(-0.1, 0, 0.05, 0, 0.1, 0), Pose3(Pose3::Identity())}) {
+    const DenseImage current(room.render(1, first * moved), {});
+    const auto found = alignDense(reference, current, {});
+    ASSERT_TRUE(found);
+    EXPECT_LT((found->reference_from_current.translation() - moved.translation()).norm(), 0.006);
+    EXPECT_LT(angleBetween(found->reference_from_current, moved), 0.003);
+    EXPECT_GT(found->overlap, 0.7);
+    EXPECT_LT((found->covariance.topLeftCorner<3, 3>().trace()), 3 * 0.01 * 0.01) << "corners and textures say all";
+  }
+}
+
+// A wall straight ahead at 2 m, without a texture: along it and about its normal nothing is seen.
+Frame bareWall(double t, const Pose3& world_from_camera) {
+  Frame frame;
+  frame.t = t;
+  frame.camera = TexturedRoom::camera();
+  frame.gray = cv::Mat(frame.camera.height, frame.camera.width, CV_8UC1, cv::Scalar(120));
+  frame.depth.create(frame.gray.size(), CV_32FC1);
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) {
+      const Eigen::Vector3d ray = world_from_camera.linear() * frame.camera.ray(u, v);
+      frame.depth.at<float>(v, u) = static_cast<float>((2 - world_from_camera.translation().z()) / ray.z());
+    }
+  return frame;
+}
+
+TEST(DenseAlignment, AlongABareWallThePriorIsWhatIsKnown) {
+  const DenseImage reference(bareWall(0, Pose3::Identity()), {});
+  const DenseImage current(bareWall(1, poseFromYpr(0.1, 0, 0.06, 0, 0.04, 0)), {});
+  const DensePrior prior{poseFromYpr(0.07, 0.01, 0, 0, 0, 0), 0.1, 0.2};
+  const auto found = alignDense(reference, current, prior);
+  ASSERT_TRUE(found);
+  const Eigen::Vector3d place = found->reference_from_current.translation();
+  EXPECT_NEAR(place.z(), 0.06, 0.003) << "towards the wall";
+  EXPECT_NEAR(angleBetween(found->reference_from_current, poseFromYpr(0, 0, 0, 0, 0.04, 0)), 0, 0.005);
+  EXPECT_NEAR(place.x(), 0.07, 0.02) << "along it, as predicted";
+  EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
+  EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.2, 0.02) << "about its normal";
+  EXPECT_LT(std::sqrt(found->covariance(2, 2)), 0.01);
+}
+
+TEST(DenseAlignment, WhatIsLeftOutDoesNotCount) {
+  const TexturedRoom room;
+  Frame first = room.render(0, Pose3::Identity()), second = room.render(1, poseFromYpr(0.04, 0, 0, 0, 0, 0));
+  // Somebody near who goes the other way.
+  for (const auto& [frame, at] : {std::pair{&first, 80}, {&second, 110}}) {
+    frame->depth(cv::Rect(at, 40, 110, 180)) = 1.0f;
+    frame->gray(cv::Rect(at, 40, 110, 180)) = 30;
+  }
+  const DenseImage reference(first, {Box2{75, 35, 195, 225}}), current(second, {Box2{105, 35, 225, 225}});
+  const auto found = alignDense(reference, current, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT((found->reference_from_current.translation() - Eigen::Vector3d(0.04, 0, 0)).norm(), 0.006);
+}
+
+TEST(DenseAlignment, NothingWhereImagesDoNotMeet) {
+  const TexturedRoom room;
+  const DenseImage reference(room.render(0, Pose3::Identity()), {});
+  Frame without = room.render(1, Pose3::Identity());
+  without.depth.setTo(0);
+  EXPECT_FALSE(alignDense(reference, DenseImage(without, {}), {}));
+  const DenseImage behind(room.render(1, poseFromYpr(0, 0, 0, 0, M_PI, 0)), {});
+  EXPECT_FALSE(alignDense(reference, behind, {poseFromYpr(0, 0, 0, 0, M_PI, 0), 0.1, 0.1}));
+}
+
+}  // namespace
+}  // namespace roomgraph::tracking
