@@ -77,8 +77,9 @@ TEST(DenseAlignment, WhatIsLeftOutDoesNotCount) {
 }
 
 TEST(DenseAlignment, NothingWhereImagesDoNotMeet) {
-  const TexturedRoom room;
+  const TexturedRoom room, elsewhere(77);
   const DenseImage reference(room.render(0, Pose3::Identity()), {});
+  EXPECT_FALSE(alignDense(reference, DenseImage(elsewhere.render(1, Pose3::Identity()), {}), {})) << "the same walls";
   Frame without = room.render(1, Pose3::Identity());
   without.depth.setTo(0);
   EXPECT_FALSE(alignDense(reference, DenseImage(without, {}), {}));

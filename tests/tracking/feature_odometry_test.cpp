@@ -10,6 +10,7 @@
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/tracking/register_classes.h"
 #include "textured_room.h"
+#include "tracker.h"
 
 namespace roomgraph {
 namespace {
@@ -150,6 +151,43 @@ TEST(FeatureOdometry, RelocalisesAfterBlankImages) {
   ASSERT_TRUE(back.tracked);
   EXPECT_EQ(back.segment, 0);
   EXPECT_LT(distance(poseAt(0).inverse() * poseAt(1), back.odom_from_camera), 0.01);
+}
+
+// Along the corner of the room and round, 4 cm and 2 degrees a frame.
+Pose3 inCorner(int i) {
+  return poseFromYpr(0.6 + 0.04 * i, 0.1, 0.2, 0, 0.5 + 0.035 * i, -0.5);
+}
+
+Frame withoutFeatures(int i) {
+  Frame frame = room().render(i, inCorner(i));
+  frame.gray.setTo(128);
+  return frame;
+}
+
+TEST(FeatureOdometry, FollowsDepthWhereThereAreNoFeatures) {
+  TrackingParameters parameters;
+  parameters.dense_alignment = true;
+  tracking::Tracker odometry(parameters);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(odometry.track(room().render(i, inCorner(i)), {}).tracked);
+  for (int i = 3; i < 20; ++i) {
+    const auto result = odometry.track(withoutFeatures(i), {});
+    ASSERT_TRUE(result.tracked) << i;
+    EXPECT_THAT(result.reason, HasSubstr("by depth and brightness"));
+    EXPECT_EQ(result.segment, 0);
+    const Pose3 error = result.odom_from_camera.inverse() * inCorner(0).inverse() * inCorner(i);
+    EXPECT_LT(error.translation().norm(), 0.02) << i;
+    EXPECT_LT(error.translation().norm(), 3 * std::sqrt(result.step_covariance.topLeftCorner(3, 3).trace()));
+  }
+  EXPECT_EQ(odometry.trajectory().size(), 20u);
+  EXPECT_TRUE(odometry.takeLoopClosures().empty());
+  // Features again, of what was never seen: a new segment, and how it is placed in the old one.
+  int first = 20;
+  while (odometry.track(room().render(first, inCorner(first)), {}).segment == 0) ASSERT_LT(++first, 30);
+  const auto links = odometry.takeLoopClosures();
+  ASSERT_EQ(links.size(), 1u);
+  EXPECT_EQ(links[0].source, kDenseAlignment);
+  EXPECT_EQ(links[0].t_b, first);
+  EXPECT_LT(distance(inCorner(static_cast<int>(links[0].t_a)).inverse() * inCorner(first), links[0].a_from_b), 0.04);
 }
 
 TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {

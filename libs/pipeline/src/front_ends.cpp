@@ -70,8 +70,10 @@ ScanMatch FrontEnds::match(const Scan& scan) {
 }
 
 std::vector<RelativePose> FrontEnds::takeImageClosures() {
-  if (!stages_.rgbd_odometry || !options_.tracking.loop_closing) return {};
+  if (!stages_.rgbd_odometry) return {};
   std::vector<RelativePose> closures = stages_.rgbd_odometry->takeLoopClosures();
+  if (!options_.tracking.loop_closing)
+    std::erase_if(closures, [](const RelativePose& closure) { return closure.source != kDenseAlignment; });
   for (auto& closure : closures) toRobot(closure);
   return closures;
 }

@@ -177,10 +177,8 @@ TrackingResult SemanticSlam::track(const Frame& frame, const std::vector<Box2>& 
   if (!setup_->stages.rgbd_odometry) return {};
   const auto timing = times_.measure("RGB-D odometry");
   TrackingResult result = front_ends_.track(frame, people);
-  if (!result.tracked) {
-    ++counts_.frames_lost;
-    ++counts_.reasons["tracking: " + result.reason];
-  }
+  counts_.frames_lost += !result.tracked;
+  if (!result.reason.empty()) ++counts_.reasons["tracking: " + result.reason];
   return result;
 }
 

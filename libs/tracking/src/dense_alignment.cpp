@@ -18,6 +18,10 @@ constexpr double kStill = 1e-5;               // m, rad
 constexpr double kGate_m = 0.15, kGatePerLevel = 2;  // coarser levels allow for more
 constexpr double kBrightnessSigma = 8;        // grey levels, with what exposure and shading do
 constexpr double kHuber = 1.5;
+// Less is noise, which would tie the images to each other, or the light that a camera carries along.
+constexpr double kLeastSlope = 4;  // grey levels per px
+// Where both images have contrast, they must look alike: another place has the same walls.
+constexpr double kContrast = 6, kLeastCorrelation = 0.5;
 // Neighbouring pixels err alike: so many count as one.
 constexpr double kAlike = 40;
 
@@ -25,11 +29,26 @@ double depthSigma(double z) {
   return 0.004 + 0.004 * z * z;
 }
 
+// Of pairs of brightnesses.
+struct Likeness {
+  double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+
+  void add(double first, double second) {
+    n += 1, a += first, b += second, aa += first * first, bb += second * second, ab += first * second;
+  }
+  double bias() const { return (a - b) / n; }
+  bool isAlike() const {
+    const double first = aa / n - a * a / (n * n), second = bb / n - b * b / (n * n);
+    if (std::min(first, second) < kContrast * kContrast) return true;
+    return ab / n - a * b / (n * n) > kLeastCorrelation * std::sqrt(first * second);
+  }
+};
+
 struct Normal {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   int pixels = 0, met = 0;
-  double brightness_sum = 0;
+  Likeness brightness;
 
   void add(const Vector6d& derivative, double residual, double sigma) {
     const double size = std::abs(residual) / sigma;
@@ -66,8 +85,10 @@ Vector6d pointDerivative(const Eigen::Vector3d& by_point, const Eigen::Vector3d&
 }
 
 void addBrightness(const DenseLevel& reference, const Met& met, double brightness, double bias, Normal& normal) {
-  const double difference = reference.brightness.at<float>(met.v, met.u) - brightness;
-  normal.brightness_sum += difference;
+  const double there = reference.brightness.at<float>(met.v, met.u), difference = there - brightness;
+  normal.brightness.add(there, brightness);
+  if (std::hypot(reference.slope_x.at<float>(met.v, met.u), reference.slope_y.at<float>(met.v, met.u)) < kLeastSlope)
+    return;
   const double sx = reference.slope_x.at<float>(met.v, met.u), sy = reference.slope_y.at<float>(met.v, met.u);
   const PinholeCamera& camera = reference.camera;
   const Eigen::Vector3d& p = met.point;
@@ -129,7 +150,7 @@ std::optional<DenseAlignment> alignDense(const DenseImage& reference, const Dens
     for (int i = 0; i < kIterations; ++i) {
       normal = linearise(reference.levels()[level], current.levels()[level], out.reference_from_current, gate_m, bias);
       if (normal.met < kLeastPixels / std::pow(4.0, static_cast<double>(level))) return std::nullopt;
-      bias = normal.brightness_sum / normal.met;
+      bias = normal.brightness.bias();
       const Matrix6d information = normal.information / alike + prior_information;
       const Vector6d to_prior = changeBetween(prior.reference_from_current, out.reference_from_current);
       const Vector6d step = -information.ldlt().solve(normal.gradient / alike + prior_information * to_prior);
@@ -138,7 +159,7 @@ std::optional<DenseAlignment> alignDense(const DenseImage& reference, const Dens
     }
   }
   out.overlap = static_cast<double>(normal.met) / std::max(1, normal.pixels);
-  if (out.overlap < kLeastOverlap) return std::nullopt;
+  if (out.overlap < kLeastOverlap || !normal.brightness.isAlike()) return std::nullopt;
   out.covariance = (normal.information / kAlike + prior_information).inverse();
   return out;
 }

@@ -56,18 +56,25 @@ Matrix6d floorCovariance(double sigma_m, double sigma_rad) {
 }  // namespace
 
 Pose3 Tracker::lastPose() const {
-  return map_.keyframe(records_.back().keyframe).odom_from_camera * records_.back().keyframe_from_camera;
+  return map_.keyframe(placed_.keyframe).odom_from_camera * placed_.keyframe_from_camera;
 }
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   // Without other sensors the last velocity is trusted for a moment only.
-  const Pose3 guess = lost_frames_ < kCoastFrames ? velocity_ : Pose3::Identity();
+  const Pose3 guess = blind_frames_ < kCoastFrames ? velocity_ : Pose3::Identity();
+  dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
   last_t_ = frame.t;
   const auto known = results_ ? results_->recall("view", frame.t) : std::nullopt;
   keeps_view_ = results_ && !known;
-  return known && !known->empty() ? recall(frame, *known) : look(frame, prior);
+  densely_placed_ = false;
+  TrackingResult result = known && !known->empty() ? recall(frame, *known) : look(frame, prior);
+  if (result.tracked)
+    dense_.begin(frame, prior.dynamic_regions);
+  else
+    acceptDense(frame, result);
+  return result;
 }
 
 void Tracker::foresee(const Frame& frame) {
@@ -97,11 +104,12 @@ TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   const int with_depth = countDepth(view.features);
   if (with_depth < parameters_.min_inliers) {
     keep(nullptr);
+    alignDensely(frame, prior);
     return lost(with_depth == 0 && view.features.size() > 0 ? "no depth" : "too few features", nullptr);
   }
   const Pose3 previous = reference_ < 0 ? Pose3::Identity() : lastPose();
   view.odom_from_camera = previous * dead_reckoned_;
-  if (reference_ >= 0 && findPose(view)) return accept(view, previous);
+  if (reference_ >= 0 && findPose(view, previous, prior)) return accept(view, previous);
   keep(nullptr);
   return reference_ < 0 ? start(std::move(view)) : lost("too few inliers", &view);
 }
@@ -156,14 +164,16 @@ void Tracker::keep(const View* view) {
 TrackingResult Tracker::start(View view) {
   TrackingResult result;
   if (!records_.empty()) {
+    linkSegments(view.frame->t);
     view.odom_from_camera = lastPose() * dead_reckoned_;
     ++segment_;
   }
   view.points.assign(view.features.size(), -1);
   addKeyframe(view);
   records_.push_back({view.frame->t, reference_, Pose3::Identity()});
+  placed_ = records_.back();
   velocity_ = dead_reckoned_ = Pose3::Identity();
-  lost_frames_ = 0;
+  lost_frames_ = blind_frames_ = 0;
   last_covariance_.setZero();
   result.keyframe = true;
   result.inliers = result.matches = static_cast<int>(last_points_.size());
@@ -172,6 +182,7 @@ TrackingResult Tracker::start(View view) {
 }
 
 TrackingResult Tracker::lost(const std::string& reason, View* view) {
+  ++blind_frames_;
   if (++lost_frames_ > parameters_.relocalisation_frames && view && reference_ >= 0)
     return start(std::move(*view));
   TrackingResult result;
@@ -198,7 +209,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   // A step over several frames, or between segments, says nothing about the next one.
   if (lost_frames_ > 0 || segment != segment_) velocity_ = Pose3::Identity();
   dead_reckoned_ = Pose3::Identity();
-  lost_frames_ = 0;
+  lost_frames_ = blind_frames_ = 0;
   segment_ = segment;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
@@ -213,6 +224,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
                       result.keyframe
                           ? Pose3::Identity()
                           : map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera});
+  placed_ = records_.back();
   report(view.features, result.keyframe ? map_.keyframe(reference_).points : view.points, result);
   return result;
 }

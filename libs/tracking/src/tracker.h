@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dense_chain.h"
 #include "feature_extractor.h"
 #include "local_map.h"
 #include "pose_solver.h"
@@ -63,7 +64,8 @@ class Tracker {
   bool trackKeyframe(View& view, int keyframe, int min_inliers) const;
   bool relocalise(View& view);
   bool trackLocalMap(View& view);
-  bool findPose(View& view);
+  bool trackNear(View& view);
+  bool findPose(View& view, const Pose3& previous, const TrackingPrior& prior);
   /// Solves for the pose of the view from its matched points and drops outliers.
   bool solve(View& view, int min_inliers, bool start_is_good) const;
   std::vector<std::int64_t> localPoints(const View& view) const;
@@ -83,6 +85,13 @@ class Tracker {
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
   TrackingResult accept(const View& view, const Pose3& previous);
+  /// Where the frame is by dense alignment with the frames since the last one that features placed, when no other sensor
+  /// saw the movement: from then on that is dead reckoning. Whether it is known.
+  bool alignDensely(const Frame& frame, const TrackingPrior& prior);
+  /// Fills in what a frame that only dense alignment placed reports.
+  void acceptDense(const Frame& frame, TrackingResult& result);
+  /// A segment begins at this time: its link to the last one, if dense alignment knows it.
+  void linkSegments(double t);
   /// Fills in what a tracked frame reports; its record must be the last one.
   void report(const Features& features, const std::vector<std::int64_t>& points,
               TrackingResult& result) const;
@@ -100,13 +109,18 @@ class Tracker {
   Foreseen<Sight> foreseen_;
   LocalMap map_;
   std::vector<Record> records_;
+  Record placed_{};  ///< the last one that features placed
   std::vector<RelativePose> closures_;
   std::vector<std::int64_t> last_points_;    ///< inliers of the last tracked frame
   Pose3 velocity_ = Pose3::Identity();       ///< previous_from_current of the last step
-  Pose3 dead_reckoned_ = Pose3::Identity();  ///< movement since the last tracked frame, as far as is known
+  /// Movement since the last frame that features placed, as far as is known: now, and one frame before.
+  Pose3 dead_reckoned_ = Pose3::Identity(), dead_reckoned_before_ = Pose3::Identity();
+  DenseChain dense_;                         ///< since that frame
+  bool densely_placed_ = false;              ///< the frame being tracked
   Matrix6d last_covariance_ = Matrix6d::Zero();
   int segment_ = 0;
-  int lost_frames_ = 0;
+  int lost_frames_ = 0;   ///< since features placed one
+  int blind_frames_ = 0;  ///< since anything placed one
   int reference_ = -1;         ///< keyframe that holds the frames tracked now
   int reference_inliers_ = 0;  ///< of the first frame after it, 0: not seen yet
   int last_loop_ = -1000;

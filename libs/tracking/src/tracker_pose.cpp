@@ -63,12 +63,20 @@ bool Tracker::relocalise(View& view) {
   });
 }
 
-bool Tracker::findPose(View& view) {
+bool Tracker::trackNear(View& view) {
   const Pose3 predicted = view.odom_from_camera;
   // Wider and dearer with each attempt; the local map must confirm it.
   for (const double radius : {parameters_.search_radius_px, 3 * parameters_.search_radius_px})
     if (trackLastPoints(view, predicted, radius) && trackLocalMap(view)) return true;
-  if (trackKeyframe(view, reference_, parameters_.min_inliers) && trackLocalMap(view)) return true;
+  return trackKeyframe(view, reference_, parameters_.min_inliers) && trackLocalMap(view);
+}
+
+bool Tracker::findPose(View& view, const Pose3& previous, const TrackingPrior& prior) {
+  if (trackNear(view)) return true;
+  if (alignDensely(*view.frame, prior)) {
+    view.odom_from_camera = previous * dead_reckoned_;
+    if (trackNear(view)) return true;
+  }
   return relocalise(view);
 }
 

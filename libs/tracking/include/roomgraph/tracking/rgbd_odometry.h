@@ -22,10 +22,14 @@ struct TrackingPrior {
   std::vector<Box2> dynamic_regions;
 };
 
+/// Source of the closures that link a segment to the one before it: they belong to the odometry, and close no loop.
+inline constexpr const char* kDenseAlignment = "dense alignment";
+
 /// Outcome for one frame.
 struct TrackingResult {
   bool tracked = false;
-  std::string reason;  ///< why not: "too few features", "too few inliers", "no depth", …
+  /// Why not: "too few features", "too few inliers", "no depth", …; of a tracked frame, how, if not in the usual way.
+  std::string reason;
   Pose3 odom_from_camera = Pose3::Identity();  ///< pose in the tracker's own, drifting frame
   int segment = 0;  ///< counts up after each loss: poses of two segments are unrelated
   int inliers = 0, matches = 0;
@@ -48,8 +52,8 @@ class RgbdOdometry : public Stage {
   /// Best current estimate of every tracked frame (later frames refine earlier ones), in the tracker's frame.
   virtual Trajectory trajectory() const = 0;
 
-  /// Loop closures found since the last call, between cameras at two frame times (a_from_b of the optical
-  /// frames).
+  /// Loop closures found since the last call, and links between segments, between cameras at two frame times (a_from_b of
+  /// the optical frames).
   virtual std::vector<RelativePose> takeLoopClosures() { return {}; }
 
   /// Checks and refines a closure that something else proposed, between the cameras near its two times;

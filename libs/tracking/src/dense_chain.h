@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// DenseChain: the camera's movement since the last frame that features placed, by dense alignment.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dense_alignment.h"
+
+namespace roomgraph::tracking {
+
+/// Movement since the frame that the chain began with.
+struct ChainedMovement {
+  Pose3 first_from_current = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< of (translation, rotation) in the first frame's axes
+};
+
+/// Aligns frames one after the other with the same reference for as long as they show enough of it, so that errors add up
+/// with new references only.
+class DenseChain {
+ public:
+  /// From now on movements are those since this frame. Its images are shared, not copied.
+  void begin(const Frame& frame, const std::vector<Box2>& excluded);
+  /// `predicted`: movement since the beginning, by the velocity before. Nothing when the images do not say how the camera
+  /// moved; the chain is broken from then on, until it begins again.
+  std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted);
+  /// Whether all since the beginning is known.
+  bool unbroken() const { return begun_ && !broken_; }
+  const ChainedMovement& last() const { return last_; }
+
+ private:
+  bool begun_ = false, broken_ = false;
+  Frame first_;  ///< becomes the reference with the first frame that is aligned with it
+  std::vector<Box2> excluded_;
+  std::shared_ptr<const DenseImage> reference_;
+  ChainedMovement to_reference_, last_;
+};
+
+}  // namespace roomgraph::tracking

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frames that features do not place: by dense alignment since the last one that they did.
+#include "roomgraph/geometry/covariance.h"
+#include "tracker.h"
+
+namespace roomgraph::tracking {
+
+bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
+  // Where another sensor sees the movement it is known better: tried on flats, docs/results.md.
+  if (!parameters_.dense_alignment || prior.previous_from_current) return false;
+  const auto moved = dense_.follow(frame, prior.dynamic_regions, dead_reckoned_);
+  densely_placed_ = moved.has_value();
+  if (moved) dead_reckoned_ = moved->first_from_current;
+  return densely_placed_;
+}
+
+void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
+  if (!densely_placed_) return;
+  records_.push_back({frame.t, placed_.keyframe, placed_.keyframe_from_camera * dead_reckoned_});
+  velocity_ = normalized(dead_reckoned_before_.inverse() * dead_reckoned_);
+  blind_frames_ = 0;
+  result.tracked = true;
+  result.reason = "by depth and brightness: " + result.reason;
+  result.segment = map_.keyframe(placed_.keyframe).segment;
+  result.odom_from_camera = lastPose() * dead_reckoned_;
+  // The movement is told in the first frame's axes, an error of a match in the camera's.
+  result.step_covariance =
+      rotateCovariance(dense_.last().covariance, dead_reckoned_.linear().transpose());
+}
+
+void Tracker::linkSegments(double t) {
+  if (!densely_placed_) return;
+  closures_.push_back({.t_a = placed_.t,
+                       .t_b = t,
+                       .a_from_b = dead_reckoned_,
+                       .covariance = dense_.last().covariance,
+                       .source = kDenseAlignment});
+}
+
+}  // namespace roomgraph::tracking
