@@ -32,12 +32,15 @@ TEST(DenseAlignment, FindsMovementsOfARoom) {
   }
 }
 
-// A wall straight ahead at 2 m, without a texture: along it and about its normal nothing is seen.
+// A wall straight ahead at 2 m, without a texture but for the camera's own noise, the same in every image: along it and
+// about its normal nothing is seen.
 Frame bareWall(double t, const Pose3& world_from_camera) {
   Frame frame;
   frame.t = t;
   frame.camera = TexturedRoom::camera();
-  frame.gray = cv::Mat(frame.camera.height, frame.camera.width, CV_8UC1, cv::Scalar(120));
+  frame.gray.create(frame.camera.height, frame.camera.width, CV_8UC1);
+  cv::RNG random(1);
+  random.fill(frame.gray, cv::RNG::NORMAL, 120, 12);
   frame.depth.create(frame.gray.size(), CV_32FC1);
   for (int v = 0; v < frame.depth.rows; ++v)
     for (int u = 0; u < frame.depth.cols; ++u) {
