@@ -42,6 +42,8 @@ double shareOf(const LandmarkFactor& sighting) {
   return std::max(sighting.weight, 1e-9) / sighting.covariance.topLeftCorner<2, 2>().trace();
 }
 
+// Of the mean of sightings, in widths of the loss of one of them: what is cut off is another depth, not scatter.
+constexpr double kMeanWidth = 3;
 constexpr std::size_t kMinViews = 3;  // key poses from which a point must be seen
 
 // A point on a landmark, seen from one key pose.
@@ -199,7 +201,7 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
     const KeyPose& node = poses.node(id);
     const double yaw_in_robot = yaw - planarPart(node.world_from_robot).yaw;
     const LandmarkFactor sighting =
-        inWorld(meanSighting(withYawsNear(yaw_in_robot, group), options.landmark_robust_width), node.world_from_robot);
+        inWorld(meanSighting(withYawsNear(yaw_in_robot, group), kMeanWidth * options.landmark_robust_width), node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
     View& view = views[directionOf(sighting.position_in_robot, node, options.landmark_view_rad)];
     // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see
@@ -225,7 +227,7 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
 
 // `visits`: mean sightings in world.
 LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const BackendOptions& options) {
-  const LandmarkFactor mean = meanSighting(visits, options.landmark_robust_width);
+  const LandmarkFactor mean = meanSighting(visits, kMeanWidth * options.landmark_robust_width);
   return {.landmark = mean.landmark,
           .has_yaw = mean.has_yaw,
           .covariance = options.landmark_repeating_share * mean.covariance,
@@ -247,7 +249,7 @@ bool addViews(const Gathered& seen, const Landmark& landmark, const ObjectModel*
     std::vector<LandmarkFactor> visits;
     const LandmarkId id = viewId(landmark.id, direction);
     for (const Visit& visit : view.visits) {
-      visits.push_back(meanSighting(visit, options.landmark_robust_width));
+      visits.push_back(meanSighting(visit, kMeanWidth * options.landmark_robust_width));
       LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
       sighting.robust_width = options.landmark_robust_width;
       if (options.object_views) {
