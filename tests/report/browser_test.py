@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -130,8 +131,12 @@ class Report(browser_pages.Paper, browser_pages.Events, unittest.TestCase):
         self.assertIn(f"{chosen['class'].replace('_', ' ')} {chosen['id']}", one.wait("return !document.getElementById('tip').hidden && document.getElementById('tip').textContent"))
         one.click(f"{shape} .shape")
         detail = one.wait("return document.querySelector('#detail')?.textContent")
-        self.assertIn(f"{chosen['size_wdh'][0]:.2f} × {chosen['size_wdh'][1]:.2f} × {chosen['size_wdh'][2]:.2f}\u00a0m", detail)
-        self.assertIn(f"{chosen['x']:.2f}, {chosen['y']:.2f}", detail)
+        # In whole centimetres, of what the page holds in tenths of millimetres.
+        centimetres = r"(-?\d+\.\d\d)"
+        size = re.search(rf"{centimetres} × {centimetres} × {centimetres}\u00a0m", detail)
+        place = re.search(rf"Place x, y, z{centimetres}, {centimetres}, {centimetres}\u00a0m", detail)
+        for seen, value in zip(size.groups() + place.groups(), [*chosen["size_wdh"], chosen["x"], chosen["y"], chosen["z"]]):
+            self.assertAlmostEqual(float(seen), value, delta=0.0051)
         self.assertEqual(one.run(f"return document.querySelector(\"{shape}\").classList.contains('selected')"), True)
         other = self.objects[1]["id"]
         one.click(f".object-list button[data-id='{other}']")
