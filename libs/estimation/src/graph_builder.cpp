@@ -91,7 +91,8 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
   for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
   if (!local_maps) return {};
   const auto maps = addLocalMaps(graph, poses, motion, first, options);
-  // Scans do not measure tilt and height of their maps: left free, these would give way where yaws disagree.
+  // Where a map begins the robot stood on the floor. Scans do not measure tilt and height of theirs: left free, these
+  // would give way where yaws disagree.
   if (measurements.planar)
     for (const LocalMap& map : maps)
       graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});

@@ -13,6 +13,7 @@
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/geometry/covariance.h"
 #include "roomgraph/geometry/projection.h"
+#include "sighting_mean.h"
 #include "size_mean.h"
 
 namespace roomgraph {
@@ -36,11 +37,6 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, c
 }
 
 namespace {
-
-// Weight of a sighting in a mean offset.
-double shareOf(const LandmarkFactor& sighting) {
-  return std::max(sighting.weight, 1e-9) / sighting.covariance.topLeftCorner<2, 2>().trace();
-}
 
 // Of the mean of sightings, in widths of the loss of one of them: what is cut off is another depth, not scatter.
 constexpr double kMeanWidth = 3;
@@ -95,7 +91,7 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
   out.sightings[node.id].push_back(sighting);
   const auto& measurement = decision.seen.measurement;
   out.sizes[node.id].push_back({&measurement.proposal, sighting.yaw_in_robot,
-                                sighting.weight * visibleFraction(measurement), shareOf(sighting)});
+                                sighting.weight * visibleFraction(measurement), shareOfPlace(sighting)});
   gatherBox(measurement, frame.camera,
             {.node = node.id,
              .landmark = landmark.id,
@@ -201,7 +197,8 @@ std::map<int, View> viewsByDirection(const Gathered& seen, const ObjectModel* us
     const KeyPose& node = poses.node(id);
     const double yaw_in_robot = yaw - planarPart(node.world_from_robot).yaw;
     const LandmarkFactor sighting =
-        inWorld(meanSighting(withYawsNear(yaw_in_robot, group), kMeanWidth * options.landmark_robust_width), node.world_from_robot);
+        inWorld(meanSighting(withYawsNear(yaw_in_robot, group), kMeanWidth * options.landmark_robust_width),
+                node.world_from_robot);
     if (sighting.weight < kLeastWeight) continue;
     View& view = views[directionOf(sighting.position_in_robot, node, options.landmark_view_rad)];
     // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see

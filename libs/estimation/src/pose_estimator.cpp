@@ -120,7 +120,7 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
 bool PoseEstimator::due() const {
   const int nodes = static_cast<int>(poses_.nodes().size());
   const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 2, nodes / 100)
-                                         : std::max(options_.optimize_every_nodes, nodes / 20);
+                                          : std::max(options_.optimize_every_nodes, nodes / 20);
   return nodes_since_optimization_ >= pause;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Robust mean place and mean yaw of the sightings of one landmark.
-#include <algorithm>
+#include "sighting_mean.h"
+
 #include <cmath>
 #include <limits>
 
@@ -9,18 +10,8 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kLeastWeight = 1e-9;
 constexpr int kMostSteps = 20;
 constexpr double kStill_m = 1e-4;
-
-double weightOf(const LandmarkFactor& sighting) {
-  return std::max(sighting.weight, kLeastWeight);
-}
-
-// Weight of a sighting in a mean place.
-double shareOfPlace(const LandmarkFactor& sighting) {
-  return weightOf(sighting) / sighting.covariance.topLeftCorner<2, 2>().trace();
-}
 
 // Squared distance in plan, in units of the robust width and the sighting's own standard deviations.
 class PlaceDistance {

@@ -9,8 +9,6 @@
 namespace roomgraph::tracking {
 namespace {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-
 constexpr int kIterations = 12;
 constexpr int kLeastPixels = 150;
 constexpr double kLeastOverlap = 0.25;
@@ -87,9 +85,8 @@ Vector6d pointDerivative(const Eigen::Vector3d& by_point, const Eigen::Vector3d&
 void addBrightness(const DenseLevel& reference, const Met& met, double brightness, double bias, Normal& normal) {
   const double there = reference.brightness.at<float>(met.v, met.u), difference = there - brightness;
   normal.brightness.add(there, brightness);
-  if (std::hypot(reference.slope_x.at<float>(met.v, met.u), reference.slope_y.at<float>(met.v, met.u)) < kLeastSlope)
-    return;
   const double sx = reference.slope_x.at<float>(met.v, met.u), sy = reference.slope_y.at<float>(met.v, met.u);
+  if (std::hypot(sx, sy) < kLeastSlope) return;
   const PinholeCamera& camera = reference.camera;
   const Eigen::Vector3d& p = met.point;
   const Eigen::Vector2d pixel = camera.project(p);
@@ -128,9 +125,8 @@ Pose3 movedBy(const Pose3& pose, const Vector6d& step) {
 // Small change, in the reference's frame, that leads from one pose to the other.
 Vector6d changeBetween(const Pose3& from, const Pose3& to) {
   const Pose3 change = to * from.inverse();
-  const Eigen::AngleAxisd turn(change.linear());
   Vector6d out;
-  out << change.translation(), turn.angle() * turn.axis();
+  out << change.translation(), logSO3(change.linear());
   return out;
 }
 

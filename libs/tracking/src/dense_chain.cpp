@@ -2,6 +2,8 @@
 // Change of the reference, and sums of covariances along the chain.
 #include "dense_chain.h"
 
+#include <Eigen/Geometry>
+
 namespace roomgraph::tracking {
 namespace {
 
@@ -10,17 +12,12 @@ constexpr double kKeepsReference = 0.6;  // overlap
 constexpr double kFloor_m = 0.01, kFloor_rad = 0.006;
 constexpr double kPredicted_m = 0.15, kPredicted_rad = 0.15;
 
-Eigen::Matrix3d crossing(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d out;
-  out << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return out;
-}
-
 // Of first_from_reference * reference_from_current: a turn of the first part moves the end of the second.
 ChainedMovement chained(const ChainedMovement& to_reference, const DenseAlignment& step) {
   const Eigen::Matrix3d turn = to_reference.first_from_current.linear();
   Matrix6d lever = Matrix6d::Identity();
-  lever.topRightCorner<3, 3>() = -crossing(turn * step.reference_from_current.translation());
+  lever.topRightCorner<3, 3>() =
+      Eigen::Matrix3d::Identity().colwise().cross(Eigen::Vector3d(turn * step.reference_from_current.translation()));
   Matrix6d own = rotateCovariance(step.covariance, turn);
   own.diagonal().head<3>().array() += kFloor_m * kFloor_m;
   own.diagonal().tail<3>().array() += kFloor_rad * kFloor_rad;

@@ -70,6 +70,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   keeps_view_ = results_ && !known;
   densely_placed_ = false;
   TrackingResult result = known && !known->empty() ? recall(frame, *known) : look(frame, prior);
+  if (!parameters_.dense_alignment) return result;
   if (result.tracked)
     dense_.begin(frame, prior.dynamic_regions);
   else

@@ -64,8 +64,8 @@ LandmarkFactor sightingOf(const ObjectDecision& decision, LandmarkId landmark, c
                           const Pose3& node_from_camera);
 
 /// Mean of sightings of one landmark in one frame: the place of least weighted Cauchy losses, whose width is
-/// `robust_width` standard deviations of each, so that a few whose depth failed do not count (0: every sighting counts); and the weighted mean yaw.
-/// Covariance and weight are those of a single one of them. At least one sighting.
+/// `robust_width` standard deviations of each, so that a few whose depth failed do not count (0: every sighting
+/// counts); and the weighted mean yaw. Covariance and weight are those of a single one of them. At least one sighting.
 LandmarkFactor meanSighting(const std::vector<LandmarkFactor>& sightings, double robust_width);
 
 }  // namespace roomgraph
