@@ -41,11 +41,19 @@ class TerminalOnStderr {
     close(former_);
     close(outer_);
   }
-  // What has been written since the last call.
+  // What has been written since the last call: a terminal hands it over in pieces, so up to an end mark.
   std::string text() {
-    char bytes[4096];
-    const auto count = read(outer_, bytes, sizeof bytes);
-    return {bytes, count > 0 ? static_cast<std::size_t>(count) : 0};
+    constexpr char kEnd = '\1';
+    if (write(STDERR_FILENO, &kEnd, 1) != 1) throw std::runtime_error("cannot write to the pseudo-terminal");
+    std::string text;
+    while (text.empty() || text.back() != kEnd) {
+      char bytes[4096];
+      const auto count = read(outer_, bytes, sizeof bytes);
+      if (count <= 0) throw std::runtime_error("the pseudo-terminal is closed");
+      text.append(bytes, static_cast<std::size_t>(count));
+    }
+    text.pop_back();
+    return text;
   }
 
  private:
