@@ -67,6 +67,45 @@ TEST_F(DrivingDrift, IsLeastAlongAClosureAndTheStepsFromIt) {
   EXPECT_EQ(of(2), closed) << "said twice, and the other way round";
 }
 
+// What no source saw is known by a link: drift is that of the steps and of the link.
+TEST_F(DrivingDrift, ALinkStandsForTheGap) {
+  for (int scan = 0; scan <= 50; ++scan) {
+    const double t = scan / 5.0;
+    if (t > 4.1 && t < 6.9) continue;
+    Matrix6d step = Vector6d(Vector6d::Constant(kStep_m2 / 5)).asDiagonal();
+    step(5, 5) = kStep_rad2 / 5;
+    motion_.lidar.add(t, poseFromYpr(t, 0, 0, 0, 0, 0), t > 4.1, step);
+  }
+  for (int i = 0; i <= 10; ++i) {
+    poses_.add(i, poseFromYpr(i, 0, 0, 0, 0, 0));
+    drift_.extend(poses_);
+    if (i != 7) continue;
+    RelativePose link{4, 7};
+    link.covariance = 0.01 * Matrix6d::Identity();
+    link.covariance(5, 5) = 1e-8;
+    EXPECT_GT(std::sqrt(of(4)), 1);
+    drift_.link(poses_, link);
+    EXPECT_NEAR(of(4), 0.01, 1e-5);
+  }
+  const double moved = 0.01 + kShare * kStep_m2 * (4 + 3), turned = 1e-8 + kShare * kStep_rad2 * (4 + 3);
+  EXPECT_NEAR(of(0), moved + turned * 100, 1e-6);
+  EXPECT_NEAR(drift_.turned(poses_, 0), turned, 1e-9);
+}
+
+TEST_F(DrivingDrift, ContradictsWhatItCannotHaveDone) {
+  drive(11);
+  RelativePose closure{2, 10, poseFromYpr(8, 0, 0, 0, 0, 0)};
+  closure.covariance = 1e-10 * Matrix6d::Identity();
+  EXPECT_FALSE(drift_.contradicts(poses_, closure));
+  const double sigma = std::sqrt(of(2));
+  closure.a_from_b.translation().y() = 4.5 * sigma;
+  EXPECT_FALSE(drift_.contradicts(poses_, closure));
+  closure.a_from_b.translation().y() = 5.5 * sigma;
+  EXPECT_TRUE(drift_.contradicts(poses_, closure));
+  closure.a_from_b = poseFromYpr(8, 0, 0, 6 * std::sqrt(drift_.turned(poses_, 2)), 0, 0);
+  EXPECT_TRUE(drift_.contradicts(poses_, closure));
+}
+
 TEST_F(DrivingDrift, OfNoKeyPoseIsNone) {
   EXPECT_EQ(drift_.variance(poses_, 3, {1, 2}), 0);
 }

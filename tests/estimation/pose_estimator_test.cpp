@@ -179,6 +179,35 @@ TEST(PoseEstimator, AClosureIsUrgentUntilItIsMetOrOutvoted) {
   EXPECT_TRUE(run.estimator.due()) << "as often as without it";
 }
 
+// Far off, a robust loss lets closures of images go; two that agree pull the path to them first.
+TEST(PoseEstimator, TwoClosuresThatAgreePullAPathThatIsFarOff) {
+  BackendOptions options;
+  options.optimize_every_nodes = 1000;
+  const MotionSource none{MotionNoise{}, true};
+  const MotionNoise loose{0.001, 0.04, 0.05, 0.05, 0, 1};
+  Motion motion{MotionSource{loose, true}, none, none};
+  // Half a circle whose radius wheels take for half as long again.
+  const auto arc = [](double t, double radius) { return poseFromYpr(radius * std::sin(t / radius), radius - radius * std::cos(t / radius), 0, t / radius, 0, 0); };
+  const auto truth = [&](double t) { return arc(t, 10); };
+  for (int t = 0; t <= 31; ++t) motion.odometry.add(t, arc(t, 15), 0, Matrix6d::Zero());
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  for (int t = 0; t <= 31; ++t) ASSERT_TRUE(estimator.advance(t));
+  std::vector<RelativePose> closures;
+  for (const double t : {29.0, 30.0}) {
+    RelativePose closure{0, t, truth(t)};
+    closure.covariance = 1e-4 * Matrix6d::Identity();
+    closure.source = "tracking";
+    closures.push_back(closure);
+  }
+  estimator.addClosures({closures[0]});
+  EXPECT_TRUE(estimator.closures().empty()) << "alone it waits";
+  estimator.addClosures({closures[1]});
+  ASSERT_EQ(estimator.closures().size(), 2u);
+  for (int solve = 0; solve < 3; ++solve) EXPECT_TRUE(estimator.optimizeLive({}));
+  for (const double t : {29.0, 30.0}) EXPECT_LT(distance(estimator.poses().at(t), truth(t)), 0.1) << t;
+}
+
 // The wheels stop for a while, and nothing saw the way: a closure says where the robot went on.
 TEST(PoseEstimator, AClosureOverAGapMovesWhatCameAfterIt) {
   BackendOptions options;

@@ -32,15 +32,21 @@ TEST(DenseAlignment, FindsMovementsOfARoom) {
   }
 }
 
-// A wall straight ahead at 2 m, without a texture but for the camera's own noise, the same in every image: along it and
-// about its normal nothing is seen.
+// A wall straight ahead at 2 m, without a texture but for the camera's noise, and darker towards the image's border as lenses
+// make it: along it and about its normal nothing is seen.
 Frame bareWall(double t, const Pose3& world_from_camera) {
   Frame frame;
   frame.t = t;
   frame.camera = TexturedRoom::camera();
   frame.gray.create(frame.camera.height, frame.camera.width, CV_8UC1);
-  cv::RNG random(1);
-  random.fill(frame.gray, cv::RNG::NORMAL, 120, 12);
+  cv::RNG random(static_cast<std::uint64_t>(1 + t));
+  cv::Mat noise(frame.gray.size(), CV_32FC1);
+  random.fill(noise, cv::RNG::NORMAL, 0, 4);
+  for (int v = 0; v < frame.gray.rows; ++v)
+    for (int u = 0; u < frame.gray.cols; ++u) {
+      const Eigen::Vector3d ray = frame.camera.ray(u, v);
+      frame.gray.at<uchar>(v, u) = cv::saturate_cast<uchar>(160 / (1 + 0.5 * ray.head<2>().squaredNorm()) + noise.at<float>(v, u));
+    }
   frame.depth.create(frame.gray.size(), CV_32FC1);
   for (int v = 0; v < frame.depth.rows; ++v)
     for (int u = 0; u < frame.depth.cols; ++u) {
@@ -53,7 +59,7 @@ Frame bareWall(double t, const Pose3& world_from_camera) {
 TEST(DenseAlignment, AlongABareWallThePriorIsWhatIsKnown) {
   const DenseImage reference(bareWall(0, Pose3::Identity()), {});
   const DenseImage current(bareWall(1, poseFromYpr(0.1, 0, 0.06, 0, 0.04, 0)), {});
-  const DensePrior prior{poseFromYpr(0.07, 0.01, 0, 0, 0, 0), 0.1, 0.2};
+  const DensePrior prior{poseFromYpr(0.07, 0.01, 0, 0, 0, 0), 0.02, 0.03, 0.1, 0.2};
   const auto found = alignDense(reference, current, prior);
   ASSERT_TRUE(found);
   const Eigen::Vector3d place = found->reference_from_current.translation();
@@ -63,6 +69,47 @@ TEST(DenseAlignment, AlongABareWallThePriorIsWhatIsKnown) {
   EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
   EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.2, 0.02) << "about its normal";
   EXPECT_LT(std::sqrt(found->covariance(2, 2)), 0.01);
+}
+
+// What was found far from where the velocity leads is a likeness.
+TEST(DenseAlignment, AnImplausibleStepIsNone) {
+  const TexturedRoom room;
+  const Pose3 first = poseFromYpr(1.2, 0.1, 0.2, 0, 0.9, -0.5), moved = poseFromYpr(0.1, 0, 0, 0, 0, 0);
+  const DenseImage reference(room.render(0, first), {}), current(room.render(1, first * moved), {});
+  EXPECT_TRUE(alignDense(reference, current, {Pose3::Identity(), 0.03, 0.03}));
+  EXPECT_FALSE(alignDense(reference, current, {Pose3::Identity(), 0.02, 0.02})) << "five standard deviations";
+}
+
+// A plane that leans away: each normal against the plane's own, and how far noise turns it.
+TEST(DenseImage, NormalsArePlanesOfTheirNeighbours) {
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.2, -1).normalized();
+  Frame frame = bareWall(0, Pose3::Identity());
+  const auto depthOf = [&](int u, int v) { return -2 / normal.dot(frame.camera.ray(u, v)); };
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) frame.depth.at<float>(v, u) = static_cast<float>(depthOf(u, v));
+  const DenseLevel exact = DenseImage(frame, {}).levels().front();
+  for (int v = 5; v + 5 < exact.depth.rows; v += 7)
+    for (int u = 5; u + 5 < exact.depth.cols; u += 7) {
+      const cv::Vec3f n = exact.normals.at<cv::Vec3f>(v, u);
+      ASSERT_LT((Eigen::Vector3d(n[0], n[1], n[2]) - normal).norm(), 0.005) << u << " " << v;
+      EXPECT_LT(exact.normal_variance.at<float>(v, u), 1e-4);
+    }
+  EXPECT_EQ(exact.normals.at<cv::Vec3f>(0, 0), cv::Vec3f()) << "the square is not within the image";
+
+  cv::RNG random(3);
+  for (int v = 0; v < frame.depth.rows; ++v)
+    for (int u = 0; u < frame.depth.cols; ++u) frame.depth.at<float>(v, u) += static_cast<float>(random.gaussian(0.005));
+  const DenseLevel noisy = DenseImage(frame, {}).levels().front();
+  double scatter = 0, said = 0;
+  int count = 0;
+  for (int v = 5; v + 5 < noisy.depth.rows; ++v)
+    for (int u = 5; u + 5 < noisy.depth.cols; ++u, ++count) {
+      const cv::Vec3f n = noisy.normals.at<cv::Vec3f>(v, u);
+      scatter += (Eigen::Vector3d(n[0], n[1], n[2]) - normal).squaredNorm() / 2;
+      said += noisy.normal_variance.at<float>(v, u);
+    }
+  // Depth cameras err alike over some pixels, which is allowed for; this noise is independent.
+  EXPECT_NEAR(said / scatter, 8, 2);
 }
 
 TEST(DenseAlignment, WhatIsLeftOutDoesNotCount) {

@@ -139,8 +139,14 @@ Frame blank(double t) {
   return frame;
 }
 
+TrackingParameters featuresAlone() {
+  TrackingParameters parameters;
+  parameters.dense_alignment = false;
+  return parameters;
+}
+
 TEST(FeatureOdometry, RelocalisesAfterBlankImages) {
-  FeatureOdometry odometry;
+  tracking::Tracker odometry(featuresAlone());
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(odometry.track(room().render(i, poseAt(i)), {}).tracked);
   for (int i = 3; i < 20; ++i) {
     const auto result = odometry.track(blank(i), {});
@@ -185,13 +191,49 @@ TEST(FeatureOdometry, FollowsDepthWhereThereAreNoFeatures) {
   while (odometry.track(room().render(first, inCorner(first)), {}).segment == 0) ASSERT_LT(++first, 30);
   const auto links = odometry.takeLoopClosures();
   ASSERT_EQ(links.size(), 1u);
-  EXPECT_EQ(links[0].source, kDenseAlignment);
+  EXPECT_TRUE(links[0].link);
   EXPECT_EQ(links[0].t_b, first);
   EXPECT_LT(distance(inCorner(static_cast<int>(links[0].t_a)).inverse() * inCorner(first), links[0].a_from_b), 0.04);
 }
 
+// For a moment a velocity goes on; its variance grows until something is seen again.
+TEST(FeatureOdometry, PredictsWhileNothingIsSeen) {
+  tracking::Tracker odometry({});
+  const auto at = [](int i) { return 0.1 * i; };
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(odometry.track(room().render(at(i), inCorner(i)), {}).tracked);
+  double before = 0;
+  for (int i = 5; i < 12; ++i) {
+    Frame frame = withoutFeatures(i);
+    frame.t = at(i);
+    frame.depth.setTo(0);
+    const auto result = odometry.track(frame, {});
+    EXPECT_FALSE(result.tracked);
+    EXPECT_TRUE(result.predicted) << i;
+    const Pose3 error = result.odom_from_camera.inverse() * inCorner(0).inverse() * inCorner(i);
+    EXPECT_LT(error.translation().norm(), 0.05) << "it moved on as before";
+    const double sigma = std::sqrt(result.step_covariance.topLeftCorner(3, 3).trace());
+    EXPECT_GT(sigma, before);
+    before = sigma;
+  }
+  Frame seen = withoutFeatures(12);
+  seen.t = at(12);
+  const auto back = odometry.track(seen, {});
+  EXPECT_FALSE(back.tracked) << "there is nothing to compare it with";
+  EXPECT_TRUE(back.predicted);
+  seen = withoutFeatures(13);
+  seen.t = at(13);
+  EXPECT_TRUE(odometry.track(seen, {}).tracked);
+  for (int i = 14; i < 40; ++i) {
+    Frame frame = withoutFeatures(13);
+    frame.t = at(i);
+    frame.depth.setTo(0);
+    const auto result = odometry.track(frame, {});
+    EXPECT_EQ(result.predicted, i < 13 + 15) << "1.5 s";
+  }
+}
+
 TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
-  FeatureOdometry odometry;
+  tracking::Tracker odometry(featuresAlone());
   for (int i = 0; i < 3; ++i) odometry.track(room().render(i, poseAt(i)), {});
   const test::TexturedRoom elsewhere(77);
   int first_tracked = 0;

@@ -11,6 +11,8 @@
 namespace roomgraph {
 namespace {
 
+constexpr double kContradicts = 5;  // standard deviations
+
 double horizontalVariance(const Matrix6d& covariance) {
   return covariance.topLeftCorner<2, 2>().trace() / 2;
 }
@@ -47,6 +49,19 @@ void Drift::extend(const KeyPoses& poses) {
   }
 }
 
+void Drift::link(const KeyPoses& poses, const RelativePose& movement) {
+  const std::size_t from = static_cast<std::size_t>(poses.nearest(movement.t_a).id.value), last = walked_.size() - 1;
+  const auto instead = [&](double walked, double linked, double Variance::*part) {
+    const double less = walked - linked;
+    if (less <= 0) return;
+    for (std::size_t k = 0; k <= from; ++k) since_[k].*part = std::max(since_[k].*part - less, linked);
+    for (std::size_t k = from + 1; k <= last; ++k) walked_[k].*part = std::min(walked_[k].*part, walked_[last].*part - less);
+  };
+  const Variance then = walked_.at(from), now = walked_.at(last);
+  instead(now.position_m2 - then.position_m2, horizontalVariance(movement.covariance), &Variance::position_m2);
+  instead(now.yaw_rad2 - then.yaw_rad2, movement.covariance(5, 5), &Variance::yaw_rad2);
+}
+
 void Drift::close(const KeyPoses& poses, const RelativePose& closure) {
   const auto index = [&poses](double t) { return static_cast<std::size_t>(poses.nearest(t).id.value); };
   std::size_t near = index(closure.t_a), far = index(closure.t_b);
@@ -58,6 +73,21 @@ void Drift::close(const KeyPoses& poses, const RelativePose& closure) {
                               there.yaw_rad2 + std::abs(walked_[k].yaw_rad2 - walked_[far].yaw_rad2)};
     if (by_closure.position_m2 < since_[k].position_m2) since_[k] = by_closure;
   }
+}
+
+double Drift::turned(const KeyPoses& poses, double t) const {
+  return since_.empty() ? 0 : since_.at(static_cast<std::size_t>(poses.nearest(t).id.value)).yaw_rad2;
+}
+
+bool Drift::contradicts(const KeyPoses& poses, const RelativePose& closure) const {
+  const Pose3 a = poses.at(closure.t_a), b = poses.at(closure.t_b);
+  const Pose3 difference = closure.a_from_b.inverse() * (a.inverse() * b);
+  const double then = std::min(closure.t_a, closure.t_b);
+  const Eigen::Vector2d place = (closure.t_a < closure.t_b ? b : a).translation().head<2>();
+  const double drifted_m2 = variance(poses, then, place) + horizontalVariance(closure.covariance);
+  const double turned_rad2 = turned(poses, then) + closure.covariance(5, 5);
+  return difference.translation().norm() > kContradicts * std::sqrt(drifted_m2) ||
+         rotationAngle(difference) > kContradicts * std::sqrt(turned_rad2);
 }
 
 double Drift::variance(const KeyPoses& poses, double t, const Eigen::Vector2d& place) const {

@@ -122,7 +122,7 @@ std::optional<BetweenFactor> closureFactor(const RelativePose& closure, const Ke
   if (a.id == b.id) return std::nullopt;
   BetweenFactor factor{
       a.id, b.id, poses.offset(a, closure.t_a) * closure.a_from_b * poses.offset(b, closure.t_b).inverse(),
-      closure.covariance, width};
+      closure.covariance, closure.link ? 0 : width};
   if (closure.planar) {
     for (int i : {2, 3, 4}) {
       factor.covariance.row(i).setZero();
@@ -165,6 +165,8 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
   if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
     if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
+  for (const auto& closure : measurements.pulls)
+    if (const auto factor = closureFactor(closure, poses, 0)) graph.add(*factor);
   addObjects(graph, objects, options, former != nullptr);
   if (former) graph.startFrom(*former, onlyInGraph(local_maps, objects.factors));
   return graph;

@@ -52,6 +52,13 @@ double PoseEstimator::surpriseOf(const RelativePose& closure) const {
                   rotationAngle(difference) / options_.urgent_closure_rad);
 }
 
+// Far from the solution a robust loss makes a closure too weak: one that other views confirm is held without it, once.
+void PoseEstimator::pullSurprises() {
+  measurements_.pulls.clear();
+  for (Surprise& surprise : surprises_)
+    if (!std::exchange(surprise.pulled, true) && ClosureGate::needsWitness(surprise.closure)) measurements_.pulls.push_back(surprise.closure);
+}
+
 // After an optimisation: those that it brought nearer without satisfying them ask for another one; those that it left
 // where they were are outvoted.
 void PoseEstimator::settleSurprises() {
@@ -78,15 +85,18 @@ std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
   return std::nullopt;
 }
 
-std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose>& closures) {
+std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose>& offered) {
   std::vector<PathShift> shifts;
-  for (const auto& closure : closures) {
+  for (const auto& closure : gate_.admit(offered, poses_, drift_)) {
     if (const double size = surpriseOf(closure); size > 1) {
       surprises_.push_back({closure, size});
       if (const auto shift = reconnect(closure)) shifts.push_back(*shift);
     }
     measurements_.closures.push_back(closure);
-    drift_.close(poses_, closure);
+    if (closure.link)
+      drift_.link(poses_, closure);
+    else
+      drift_.close(poses_, closure);
   }
   return shifts;
 }
@@ -193,6 +203,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& o
                                                          const FactorGraph* former) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;
+  pullSurprises();
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, former);
   const SolveReport report = solveWhole(until);
   if (report.usable)

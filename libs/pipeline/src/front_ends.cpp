@@ -45,7 +45,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
       prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
   last_frame_t_ = frame.t;
   TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
-  if (result.tracked)
+  if (result.tracked || result.predicted)
     motion_.visual.add(frame.t, ofRobot(result.odom_from_camera, robot_from_camera_), result.segment,
                        rotateCovariance(result.step_covariance, robot_from_camera_.linear()));
   return result;
@@ -73,7 +73,7 @@ std::vector<RelativePose> FrontEnds::takeImageClosures() {
   if (!stages_.rgbd_odometry) return {};
   std::vector<RelativePose> closures = stages_.rgbd_odometry->takeLoopClosures();
   if (!options_.tracking.loop_closing)
-    std::erase_if(closures, [](const RelativePose& closure) { return closure.source != kDenseAlignment; });
+    std::erase_if(closures, [](const RelativePose& closure) { return !closure.link; });
   for (auto& closure : closures) toRobot(closure);
   return closures;
 }

@@ -3,6 +3,7 @@
 #include "dense_alignment.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,12 +15,15 @@ constexpr int kLeastPixels = 150;
 constexpr double kLeastOverlap = 0.25;
 constexpr double kStill = 1e-5;               // m, rad
 constexpr double kGate_m = 0.15, kGatePerLevel = 2;  // coarser levels allow for more
-constexpr double kBrightnessSigma = 8;        // grey levels, with what exposure and shading do
-constexpr double kHuber = 1.5;
-// Less is noise, which would tie the images to each other, or the light that a camera carries along.
-constexpr double kLeastSlope = 4;  // grey levels per px
+constexpr double kBrightnessSigma = 3;  // grey levels
+constexpr double kLooseAtFirst = 4;
+constexpr double kTightens = 0.7;  // from one iteration to the next
+constexpr double kForgotten = 3;  // standard deviations: what errs by more hardly counts (Geman-McClure)
+// Less is noise, which would tie the images to each other.
+constexpr double kLeastSlope = 0.7;  // grey levels per px
 // Where both images have contrast, they must look alike: another place has the same walls.
-constexpr double kContrast = 6, kLeastCorrelation = 0.5;
+constexpr double kContrast = 1, kLeastCorrelation = 0.5;
+constexpr double kImplausible = 4;  // standard deviations of the step: found elsewhere, by a likeness
 // Neighbouring pixels err alike: so many count as one.
 constexpr double kAlike = 40;
 
@@ -34,7 +38,6 @@ struct Likeness {
   void add(double first, double second) {
     n += 1, a += first, b += second, aa += first * first, bb += second * second, ab += first * second;
   }
-  double bias() const { return (a - b) / n; }
   bool isAlike() const {
     const double first = aa / n - a * a / (n * n), second = bb / n - b * b / (n * n);
     if (std::min(first, second) < kContrast * kContrast) return true;
@@ -46,11 +49,15 @@ struct Normal {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   int pixels = 0, met = 0;
+  double loose;  ///< factor on what may err
   Likeness brightness;
 
-  void add(const Vector6d& derivative, double residual, double sigma) {
-    const double size = std::abs(residual) / sigma;
-    const double weight = (size <= kHuber ? 1 : kHuber / size) / (sigma * sigma);
+  double weightOf(double residual, double sigma) const {
+    const double size = residual / (loose * kForgotten * sigma);
+    const double robust = 1 / (1 + size * size);
+    return robust * robust / (sigma * sigma);
+  }
+  void add(const Vector6d& derivative, double residual, double weight) {
     information += weight * derivative * derivative.transpose();
     gradient += weight * residual * derivative;
   }
@@ -59,6 +66,7 @@ struct Normal {
 // A point of the current image in the reference's frame, and the pixel there.
 struct Met {
   Eigen::Vector3d point, on_surface, normal;
+  double normal_variance;
   int u, v;
 };
 
@@ -70,7 +78,8 @@ std::optional<Met> meet(const DenseLevel& reference, const Eigen::Vector3d& poin
   const float z = reference.depth.at<float>(v, u);
   const cv::Vec3f n = reference.normals.at<cv::Vec3f>(v, u);
   if (z <= 0 || n == cv::Vec3f()) return std::nullopt;
-  const Met met{point, reference.camera.backProject(u, v, z), {n[0], n[1], n[2]}, u, v};
+  const Met met{point, reference.camera.backProject(u, v, z), {n[0], n[1], n[2]},
+                reference.normal_variance.at<float>(v, u), u, v};
   if (std::abs(met.normal.dot(point - met.on_surface)) > gate_m) return std::nullopt;
   return met;
 }
@@ -82,11 +91,24 @@ Vector6d pointDerivative(const Eigen::Vector3d& by_point, const Eigen::Vector3d&
   return out;
 }
 
-void addBrightness(const DenseLevel& reference, const Met& met, double brightness, double bias, Normal& normal) {
-  const double there = reference.brightness.at<float>(met.v, met.u), difference = there - brightness;
+// Normals scatter about that of a wall, which looks as if it held along the wall, too: so much of it is taken off.
+void addDistance(const Met& met, double sigma, Normal& normal) {
+  const double residual = met.normal.dot(met.point - met.on_surface), weight = normal.weightOf(residual, sigma);
+  normal.add(pointDerivative(met.normal, met.point), residual, weight);
+  Eigen::Matrix<double, 6, 3> by_normal;
+  by_normal.topRows<3>().setIdentity();
+  by_normal.bottomRows<3>() = Eigen::Matrix3d::Identity().colwise().cross(Eigen::Vector3d(-met.point));
+  const Eigen::Matrix3d scatter = Eigen::Matrix3d::Identity() - met.normal * met.normal.transpose();
+  normal.information -= weight * met.normal_variance * by_normal * scatter * by_normal.transpose();
+}
+
+void addBrightness(const DenseLevel& reference, const Met& met, const DenseLevel& current, int u, int v, Normal& normal) {
+  const double brightness = current.brightness.at<float>(v, u), there = reference.brightness.at<float>(met.v, met.u), difference = there - brightness;
   normal.brightness.add(there, brightness);
   const double sx = reference.slope_x.at<float>(met.v, met.u), sy = reference.slope_y.at<float>(met.v, met.u);
-  if (std::hypot(sx, sy) < kLeastSlope) return;
+  // An edge that only one of them shows is hidden, or lies beyond the other's border.
+  const double least = std::min(std::hypot(sx, sy), double{std::hypot(current.slope_x.at<float>(v, u), current.slope_y.at<float>(v, u))});
+  if (least < kLeastSlope) return;
   const PinholeCamera& camera = reference.camera;
   const Eigen::Vector3d& p = met.point;
   const Eigen::Vector2d pixel = camera.project(p);
@@ -94,12 +116,13 @@ void addBrightness(const DenseLevel& reference, const Met& met, double brightnes
   const double between = sx * (pixel.x() - met.u) + sy * (pixel.y() - met.v);
   const Eigen::Vector3d by_point(sx * camera.fx / p.z(), sy * camera.fy / p.z(),
                                  -(sx * camera.fx * p.x() + sy * camera.fy * p.y()) / (p.z() * p.z()));
-  normal.add(pointDerivative(by_point, p), difference + between - bias, kBrightnessSigma);
+  const double residual = difference + between;
+  normal.add(pointDerivative(by_point, p), residual, normal.weightOf(residual, kBrightnessSigma));
 }
 
 Normal linearise(const DenseLevel& reference, const DenseLevel& current, const Pose3& reference_from_current,
-                 double gate_m, double bias) {
-  Normal normal;
+                 double gate_m, double loose) {
+  Normal normal{.loose = loose};
   for (int v = 0; v < current.depth.rows; ++v)
     for (int u = 0; u < current.depth.cols; ++u) {
       const float z = current.depth.at<float>(v, u);
@@ -108,9 +131,8 @@ Normal linearise(const DenseLevel& reference, const DenseLevel& current, const P
       const auto met = meet(reference, reference_from_current * current.camera.backProject(u, v, z), gate_m);
       if (!met) continue;
       ++normal.met;
-      normal.add(pointDerivative(met->normal, met->point), met->normal.dot(met->point - met->on_surface),
-                 depthSigma(z));
-      addBrightness(reference, *met, current.brightness.at<float>(v, u), bias, normal);
+      addDistance(*met, depthSigma(z), normal);
+      addBrightness(reference, *met, current, u, v, normal);
     }
   return normal;
 }
@@ -130,33 +152,44 @@ Vector6d changeBetween(const Pose3& from, const Pose3& to) {
   return out;
 }
 
+Matrix6d positivePart(const Matrix6d& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> parts(symmetric);
+  return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
+}
+
+Matrix6d informationOf(double sigma_m, double sigma_rad) {
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(sigma_m), Eigen::Vector3d::Constant(sigma_rad);
+  return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+}
+
 }  // namespace
 
 std::optional<DenseAlignment> alignDense(const DenseImage& reference, const DenseImage& current,
                                          const DensePrior& prior) {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(prior.sigma_m), Eigen::Vector3d::Constant(prior.sigma_rad);
-  const Matrix6d prior_information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+  const Matrix6d predicted = informationOf(prior.sigma_m, prior.sigma_rad);
   DenseAlignment out{prior.reference_from_current};
-  Normal normal;
+  Normal normal{};
+  double loose = kLooseAtFirst;
   for (std::size_t level = reference.levels().size(); level-- > 0;) {
     const double gate_m = kGate_m * std::pow(kGatePerLevel, static_cast<double>(level));
     const double alike = kAlike / std::pow(4.0, static_cast<double>(level));
-    double bias = 0;
     for (int i = 0; i < kIterations; ++i) {
-      normal = linearise(reference.levels()[level], current.levels()[level], out.reference_from_current, gate_m, bias);
+      normal = linearise(reference.levels()[level], current.levels()[level], out.reference_from_current, gate_m, loose);
       if (normal.met < kLeastPixels / std::pow(4.0, static_cast<double>(level))) return std::nullopt;
-      bias = normal.brightness.bias();
-      const Matrix6d information = normal.information / alike + prior_information;
+      const Matrix6d information = positivePart(normal.information) / alike + predicted;
       const Vector6d to_prior = changeBetween(prior.reference_from_current, out.reference_from_current);
-      const Vector6d step = -information.ldlt().solve(normal.gradient / alike + prior_information * to_prior);
+      const Vector6d step = -information.ldlt().solve(normal.gradient / alike + predicted * to_prior);
       out.reference_from_current = movedBy(out.reference_from_current, step);
-      if (step.norm() < kStill) break;
+      if (step.norm() < kStill && loose == 1) break;
+      loose = std::max(1.0, kTightens * loose);
     }
   }
   out.overlap = static_cast<double>(normal.met) / std::max(1, normal.pixels);
-  if (out.overlap < kLeastOverlap || !normal.brightness.isAlike()) return std::nullopt;
-  out.covariance = (normal.information / kAlike + prior_information).inverse();
+  const Vector6d unexpected = changeBetween(prior.reference_from_current, out.reference_from_current);
+  const double jump = std::max(unexpected.head<3>().norm() / prior.sigma_m, unexpected.tail<3>().norm() / prior.sigma_rad);
+  if (out.overlap < kLeastOverlap || jump > kImplausible || !normal.brightness.isAlike()) return std::nullopt;
+  out.covariance = (positivePart(normal.information) / kAlike + informationOf(prior.unseen_m, prior.unseen_rad)).inverse();
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace roomgraph::tracking {
 /// rotation (rad), in every direction.
 struct DensePrior {
   Pose3 reference_from_current = Pose3::Identity();
-  double sigma_m = 0.1, sigma_rad = 0.1;
+  double sigma_m = 0.1, sigma_rad = 0.1;    ///< of the last frame's step, by a velocity that hardly changes
+  double unseen_m = 0.1, unseen_rad = 0.1;  ///< of all that was predicted since the reference
 };
 
 struct DenseAlignment {

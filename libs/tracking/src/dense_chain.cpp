@@ -3,6 +3,7 @@
 #include "dense_chain.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace roomgraph::tracking {
 namespace {
@@ -10,29 +11,36 @@ namespace {
 constexpr double kKeepsReference = 0.6;  // overlap
 // What the residuals do not show: depth bias, registration of the images, things that moved.
 constexpr double kFloor_m = 0.01, kFloor_rad = 0.006;
-constexpr double kPredicted_m = 0.15, kPredicted_rad = 0.15;
+// Changes of the velocity of a robot or a hand.
+constexpr double kAcceleration = 0.7, kTurning = 2;  // m/s^2, rad/s^2
+constexpr double kLeastStep_m = 0.005, kLeastStep_rad = 0.01;
+constexpr double kAnyVelocity = 0.4, kAnyTurn = 0.6;  // m/s, rad/s
+constexpr double kCoast_s = 1.5;
+// Standard deviations of what was not seen: of a direction in images, and of all, m/s, rad/s.
+constexpr double kVelocity = 0.15, kTurn = 0.25, kBlindVelocity = 0.3, kBlindTurn = 0.5;
 
 // Of first_from_reference * reference_from_current: a turn of the first part moves the end of the second.
 ChainedMovement chained(const ChainedMovement& to_reference, const DenseAlignment& step) {
   const Eigen::Matrix3d turn = to_reference.first_from_current.linear();
   Matrix6d lever = Matrix6d::Identity();
-  lever.topRightCorner<3, 3>() =
-      Eigen::Matrix3d::Identity().colwise().cross(Eigen::Vector3d(turn * step.reference_from_current.translation()));
+  lever.topRightCorner<3, 3>() = Eigen::Matrix3d::Identity().colwise().cross(
+      Eigen::Vector3d(turn * step.reference_from_current.translation()));
   Matrix6d own = rotateCovariance(step.covariance, turn);
   own.diagonal().head<3>().array() += kFloor_m * kFloor_m;
   own.diagonal().tail<3>().array() += kFloor_rad * kFloor_rad;
-  return {normalized(to_reference.first_from_current * step.reference_from_current),
+  return {true, normalized(to_reference.first_from_current * step.reference_from_current),
           lever * to_reference.covariance * lever.transpose() + own};
 }
 
 }  // namespace
 
-void DenseChain::begin(const Frame& frame, const std::vector<Box2>& excluded) {
-  begun_ = true, broken_ = false;
+void DenseChain::begin(const Frame& frame, const std::vector<Box2>& excluded, bool moving) {
+  begun_ = true, broken_ = false, moving_ = moving;
   first_ = frame;
   excluded_ = excluded;
   reference_.reset();
-  to_reference_ = last_ = {};
+  reference_t_ = last_t_ = seen_t_ = frame.t;
+  to_reference_ = seen_ = last_ = {};
 }
 
 std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std::vector<Box2>& excluded,
@@ -40,12 +48,33 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
   if (!unbroken()) return std::nullopt;
   if (!reference_) reference_ = std::make_shared<DenseImage>(first_, excluded_);
   const auto current = std::make_shared<const DenseImage>(frame, excluded);
-  const DensePrior prior{to_reference_.first_from_current.inverse() * predicted, kPredicted_m, kPredicted_rad};
-  const auto step = alignDense(*reference_, *current, prior);
-  broken_ = !step;
-  if (!step) return std::nullopt;
-  last_ = chained(to_reference_, *step);
-  if (step->overlap < kKeepsReference) reference_ = current, to_reference_ = last_;
+  const double step = frame.t - last_t_, since = frame.t - reference_t_;
+  const DensePrior prior{to_reference_.first_from_current.inverse() * predicted,
+                         moving_ ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
+                         moving_ ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step,
+                         kVelocity * since, kTurn * since};
+  last_t_ = frame.t;
+  const auto found = alignDense(*reference_, *current, prior);
+  if (!found) return coast(frame.t, current, predicted);
+  last_ = seen_ = chained(to_reference_, *found);
+  seen_t_ = frame.t;
+  moving_ = true;
+  if (found->overlap < kKeepsReference) reference_ = current, reference_t_ = frame.t, to_reference_ = last_;
+  return last_;
+}
+
+// For a moment the velocity is believed; what comes then is compared with what was seen last on the way.
+std::optional<ChainedMovement> DenseChain::coast(double t, const std::shared_ptr<const DenseImage>& image,
+                                                 const Pose3& predicted) {
+  const double unseen = t - seen_t_;
+  broken_ = unseen > kCoast_s;
+  if (broken_) return std::nullopt;
+  DenseAlignment step{seen_.first_from_current.inverse() * predicted};
+  step.covariance.diagonal() << Eigen::Vector3d::Constant(kBlindVelocity * unseen).cwiseAbs2(),
+      Eigen::Vector3d::Constant(kBlindTurn * unseen).cwiseAbs2();
+  last_ = to_reference_ = chained(seen_, step);
+  last_.seen = false;
+  reference_ = image, reference_t_ = t;
   return last_;
 }
 

@@ -12,6 +12,7 @@ namespace roomgraph::tracking {
 
 /// Movement since the frame that the chain began with.
 struct ChainedMovement {
+  bool seen = false;  ///< or only predicted
   Pose3 first_from_current = Pose3::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< of (translation, rotation) in the first frame's axes
 };
@@ -21,7 +22,8 @@ struct ChainedMovement {
 class DenseChain {
  public:
   /// From now on movements are those since this frame. Its images are shared, not copied.
-  void begin(const Frame& frame, const std::vector<Box2>& excluded);
+  /// `moving`: the velocity is known that predicted movements come from.
+  void begin(const Frame& frame, const std::vector<Box2>& excluded, bool moving);
   /// `predicted`: movement since the beginning, by the velocity before. Nothing when the images do not say how the camera
   /// moved; the chain is broken from then on, until it begins again.
   std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted);
@@ -29,12 +31,17 @@ class DenseChain {
   bool unbroken() const { return begun_ && !broken_; }
   const ChainedMovement& last() const { return last_; }
 
+
  private:
+  std::optional<ChainedMovement> coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted);
+
   bool begun_ = false, broken_ = false;
+  bool moving_ = false;  ///< the velocity is known
   Frame first_;  ///< becomes the reference with the first frame that is aligned with it
   std::vector<Box2> excluded_;
   std::shared_ptr<const DenseImage> reference_;
-  ChainedMovement to_reference_, last_;
+  double reference_t_ = 0, last_t_ = 0, seen_t_ = 0;
+  ChainedMovement to_reference_, seen_, last_;
 };
 
 }  // namespace roomgraph::tracking

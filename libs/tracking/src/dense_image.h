@@ -17,6 +17,7 @@ struct DenseLevel {
   cv::Mat slope_x, slope_y;      ///< CV_32FC1, its derivatives, grey levels per px
   cv::Mat depth;                 ///< CV_32FC1, m; 0: not measured, or left out
   cv::Mat normals;               ///< CV_32FC3, towards the camera; 0: none
+  cv::Mat normal_variance;       ///< CV_32FC1, of a normal's angle, by the depths around it, rad^2
 };
 
 /// What dense alignment needs of a frame; levels from fine to coarse.

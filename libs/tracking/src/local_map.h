@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth_sketch.h"
 #include "feature_extractor.h"
 #include "point_store.h"
 #include "reprojection.h"
@@ -23,6 +24,7 @@ struct Keyframe {
   Features features;                 ///< without grid, which is made when features are searched
   std::vector<std::int64_t> points;  ///< per feature: id of its point, -1: none
   cv::Mat thumbnail;                 ///< see place_recognition.h
+  DepthSketch sketch;
 
   Observation observation(int feature, const TrackingParameters& parameters) const;
 };

@@ -61,7 +61,8 @@ Pose3 Tracker::lastPose() const {
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   // Without other sensors the last velocity is trusted for a moment only.
-  const Pose3 guess = blind_frames_ < kCoastFrames ? velocity_ : Pose3::Identity();
+  const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken());
+  const Pose3 guess = goes_on ? velocity_.value_or(Pose3::Identity()) : Pose3::Identity();
   dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
@@ -72,7 +73,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   TrackingResult result = known && !known->empty() ? recall(frame, *known) : look(frame, prior);
   if (!parameters_.dense_alignment) return result;
   if (result.tracked)
-    dense_.begin(frame, prior.dynamic_regions);
+    dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
   else
     acceptDense(frame, result);
   return result;
@@ -100,6 +101,7 @@ void Tracker::see(View& view, const std::vector<Box2>& excluded) {
 TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   View view;
   view.frame = &frame;
+  view.excluded = &prior.dynamic_regions;
   see(view, prior.dynamic_regions);
   view.points.assign(view.features.size(), -1);
   const int with_depth = countDepth(view.features);
@@ -173,7 +175,8 @@ TrackingResult Tracker::start(View view) {
   addKeyframe(view);
   records_.push_back({view.frame->t, reference_, Pose3::Identity()});
   placed_ = records_.back();
-  velocity_ = dead_reckoned_ = Pose3::Identity();
+  if (!densely_placed_) velocity_.reset();
+  dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   last_covariance_.setZero();
   result.keyframe = true;
@@ -195,9 +198,10 @@ TrackingResult Tracker::lost(const std::string& reason, View* view) {
 }
 
 TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
-  velocity_ = normalized(previous.inverse() * view.odom_from_camera);
+  const Pose3 step = normalized(previous.inverse() * view.odom_from_camera);
+  velocity_ = normalized((previous * dead_reckoned_before_).inverse() * view.odom_from_camera);
   TrackingResult result;
-  result.step_covariance = stepCovariance(velocity_, view.solution);
+  result.step_covariance = stepCovariance(step, view.solution);
   const int segment = map_.keyframe(reference_).segment;
   if (segment != segment_) {
     // Relocalised in an older segment: unrelated to the last frame, so the link to the keyframe is what is
@@ -208,7 +212,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
                                view.solution.covariance));
   }
   // A step over several frames, or between segments, says nothing about the next one.
-  if (lost_frames_ > 0 || segment != segment_) velocity_ = Pose3::Identity();
+  if (blind_frames_ > 0 || segment != segment_) velocity_.reset();
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   segment_ = segment;
@@ -248,7 +252,7 @@ bool Tracker::needsKeyframe(const View& view) const {
 
 void Tracker::addKeyframe(const View& view) {
   Keyframe keyframe{view.frame->t, segment_,    view.frame->camera,      view.odom_from_camera,
-                    view.features, view.points, makeThumbnail(view.gray)};
+                    view.features, view.points, makeThumbnail(view.gray), sketchDepth(*view.frame, *view.excluded)};
   reference_ = insertKeyframe(map_, std::move(keyframe), parameters_);
   reference_inliers_ = 0;
   adjustLocally(map_, reference_, parameters_, results_);
@@ -286,8 +290,9 @@ void Tracker::closeLoops(int index) {
   for (const int candidate : loopCandidates(map_, index, parameters_)) {
     const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
     if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-    closures_.push_back(
-        loopOf(candidate, current.t, found.solution.camera_from_world.inverse(), found.solution.covariance));
+    const Pose3 there = found.solution.camera_from_world.inverse();
+    if (!plausible(candidate, around(index), there)) continue;
+    closures_.push_back(loopOf(candidate, current.t, there, found.solution.covariance));
     last_loop_ = index;
     return;
   }
@@ -312,7 +317,8 @@ std::optional<RelativePose> Tracker::verifyLoop(const RelativePose& proposed) co
       if (a == b) continue;
       const auto found = recognize(map_, a, view.features, view.camera, parameters_);
       if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-      return loopOf(a, view.t, found.solution.camera_from_world.inverse(), found.solution.covariance);
+      const Pose3 there = found.solution.camera_from_world.inverse();
+      if (plausible(a, around(b), there)) return loopOf(a, view.t, there, found.solution.covariance);
     }
   }
   return std::nullopt;

@@ -37,6 +37,7 @@ class Tracker {
   /// The frame being tracked.
   struct View {
     const Frame* frame = nullptr;
+    const std::vector<Box2>* excluded = nullptr;
     cv::Mat gray;
     Features features;
     std::vector<std::int64_t> points;  ///< per feature, -1: none
@@ -79,6 +80,9 @@ class Tracker {
   void requireKnown(const LocatedView& kept) const;
   /// Keeps a located view for recall(); of a frame for which all has to be done again null.
   void keep(const View* view);
+  /// Whether views may be where they seem to be by a keyframe: elsewhere walls look alike, too.
+  bool plausible(int keyframe, const std::vector<PlacedSketch>& here, const Pose3& keyframe_from_here) const;
+  std::vector<PlacedSketch> around(int keyframe) const;
   /// Notes in the map which points were seen, and which might have been.
   void count(const View& view);
 
@@ -88,7 +92,7 @@ class Tracker {
   /// Where the frame is by dense alignment with the frames since the last one that features placed, when no other sensor
   /// saw the movement: from then on that is dead reckoning. Whether it is known.
   bool alignDensely(const Frame& frame, const TrackingPrior& prior);
-  /// Fills in what a frame that only dense alignment placed reports.
+  /// Fills in what a frame that only dense alignment or the velocity placed reports.
   void acceptDense(const Frame& frame, TrackingResult& result);
   /// A segment begins at this time: its link to the last one, if dense alignment knows it.
   void linkSegments(double t);
@@ -112,7 +116,7 @@ class Tracker {
   Record placed_{};  ///< the last one that features placed
   std::vector<RelativePose> closures_;
   std::vector<std::int64_t> last_points_;    ///< inliers of the last tracked frame
-  Pose3 velocity_ = Pose3::Identity();       ///< previous_from_current of the last step
+  std::optional<Pose3> velocity_;            ///< previous_from_current of the last step
   /// Movement since the last frame that features placed, as far as is known: now, and one frame before.
   Pose3 dead_reckoned_ = Pose3::Identity(), dead_reckoned_before_ = Pose3::Identity();
   DenseChain dense_;                         ///< since that frame

@@ -4,6 +4,9 @@
 #include "tracker.h"
 
 namespace roomgraph::tracking {
+namespace {
+constexpr double kGoesOn = 0.8;  // share of a velocity that the next step is taken to have
+}
 
 bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
   // Where another sensor sees the movement it is known better: tried on flats, docs/results.md.
@@ -17,10 +20,14 @@ bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
 void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
   if (!densely_placed_) return;
   records_.push_back({frame.t, placed_.keyframe, placed_.keyframe_from_camera * dead_reckoned_});
-  velocity_ = normalized(dead_reckoned_before_.inverse() * dead_reckoned_);
-  blind_frames_ = 0;
-  result.tracked = true;
-  result.reason = "by depth and brightness: " + result.reason;
+  result.tracked = dense_.last().seen;
+  result.predicted = !result.tracked;
+  if (result.tracked) {
+    result.reason = "by depth and brightness: " + result.reason;
+    blind_frames_ = 0;
+    // Where nothing is seen of a movement, it ends rather than goes on.
+    velocity_ = interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), kGoesOn);
+  }
   result.segment = map_.keyframe(placed_.keyframe).segment;
   result.odom_from_camera = lastPose() * dead_reckoned_;
   // The movement is told in the first frame's axes, an error of a match in the camera's.
@@ -34,7 +41,8 @@ void Tracker::linkSegments(double t) {
                        .t_b = t,
                        .a_from_b = dead_reckoned_,
                        .covariance = dense_.last().covariance,
-                       .source = kDenseAlignment});
+                       .source = "dense alignment",
+                       .link = true});
 }
 
 }  // namespace roomgraph::tracking

@@ -9,6 +9,9 @@
 namespace roomgraph::tracking {
 namespace {
 
+constexpr int kBeside = 5;               // keyframes before and after that show the place
+constexpr double kLeastAgreement = 0.9;  // of two views of one place
+
 void assign(std::vector<std::int64_t>& points, const std::vector<PointMatch>& matches) {
   for (const auto& match : matches) points[static_cast<std::size_t>(match.feature)] = match.point;
 }
@@ -58,9 +61,27 @@ bool Tracker::trackKeyframe(View& view, int keyframe, int min_inliers) const {
 bool Tracker::relocalise(View& view) {
   const auto candidates = mostSimilar(map_, makeThumbnail(view.gray), static_cast<int>(map_.keyframes.size()),
                                       parameters_.relocalisation_candidates);
+  const DepthSketch sketch = sketchDepth(*view.frame, *view.excluded);
   return std::any_of(candidates.begin(), candidates.end(), [&](int candidate) {
-    return trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers) && trackLocalMap(view);
+    return trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers) &&
+           plausible(candidate, {{&sketch}}, map_.keyframe(candidate).odom_from_camera.inverse() * view.odom_from_camera) &&
+           trackLocalMap(view);
   });
+}
+
+// Views of one segment that came shortly before and after a keyframe's, in its frame.
+std::vector<PlacedSketch> Tracker::around(int keyframe) const {
+  const Keyframe& middle = map_.keyframe(keyframe);
+  const int end = std::min(static_cast<int>(map_.keyframes.size()), keyframe + kBeside + 1);
+  std::vector<PlacedSketch> out;
+  for (int i = std::max(0, keyframe - kBeside); i < end; ++i)
+    if (const Keyframe& beside = map_.keyframe(i); beside.segment == middle.segment)
+      out.push_back({&beside.sketch, middle.odom_from_camera.inverse() * beside.odom_from_camera});
+  return out;
+}
+
+bool Tracker::plausible(int keyframe, const std::vector<PlacedSketch>& here, const Pose3& keyframe_from_here) const {
+  return agreement(around(keyframe), here, keyframe_from_here) > kLeastAgreement;
 }
 
 bool Tracker::trackNear(View& view) {

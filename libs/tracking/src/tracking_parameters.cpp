@@ -81,7 +81,7 @@ void declareRecovery(ParameterVisitor& v, TrackingParameters& p) {
         {.doc = "Least inliers for a pose found again in an old keyframe.", .min = 6, .max = 1000});
   v.add("dense_alignment", p.dense_alignment,
         {.doc = "Whether frames that features do not place, and whose movement no other sensor saw, are aligned by depth "
-                "and brightness. It keeps nearly every frame, but is no better on all flats (docs/results.md)."});
+                "and brightness."});
   v.add("loop_candidates", p.loop_candidates,
         {.doc = "Old keyframes tried for a loop closure per keyframe; 0: none.", .min = 0, .max = 50});
   v.add("loop_min_gap", p.loop_min_gap,

@@ -39,7 +39,7 @@ struct TrackingParameters : Configurable {
   int relocalisation_frames = 5;
   int relocalisation_candidates = 8;
   int relocalisation_min_inliers = 30;
-  bool dense_alignment = false;
+  bool dense_alignment = true;
   // loop closing
   int loop_candidates = 2;
   int loop_min_gap = 15;

@@ -23,11 +23,18 @@ class Drift {
 
   /// Takes in the key poses that are new since the last call.
   void extend(const KeyPoses& poses);
+  /// The movement up to the latest key pose over a time that no source covers.
+  void link(const KeyPoses& poses, const RelativePose& movement);
   /// A loop closure between two times up to the latest key pose.
   void close(const KeyPoses& poses, const RelativePose& closure);
+  /// Whether a loop closure that ends at about the latest key pose is out of the question: farther from the estimate than
+  /// the drift since its beginning may have led, by several standard deviations. Places look alike.
+  bool contradicts(const KeyPoses& poses, const RelativePose& closure) const;
   /// Variance (m^2, each of x and y) of where a place (world, m) that was last seen at time t is from the
   /// latest key pose.
   double variance(const KeyPoses& poses, double t, const Eigen::Vector2d& place) const;
+  /// Variance (rad^2) of the latest key pose's yaw relative to that at time t.
+  double turned(const KeyPoses& poses, double t) const;
 
  private:
   struct Variance {

@@ -25,6 +25,7 @@ struct Measurements {
   std::vector<GroundFactor> grounds;   ///< handheld camera only
   bool planar = true;                  ///< a robot on the floor
   std::vector<MapFix> fixes;           ///< with any, world is held by them and not by the first key pose
+  std::vector<RelativePose> pulls;     ///< closures that hold without a robust loss, too
 };
 
 /// Whether any source of motion covers the time from one key pose to the other.

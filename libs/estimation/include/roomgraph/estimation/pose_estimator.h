@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "roomgraph/estimation/closure_gate.h"
 #include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/geometry/ground.h"
@@ -50,7 +51,7 @@ class PoseEstimator {
   bool advance(double t);
   /// A closure over a gap that no source of motion covers also moves the poses after the gap; objects first seen there
   /// are to be moved likewise.
-  std::vector<PathShift> addClosures(const std::vector<RelativePose>& closures);
+  std::vector<PathShift> addClosures(const std::vector<RelativePose>& offered);
   /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw: world stays in
   /// the frame of an earlier map. Returns how it was moved. Floors measured before are forgotten.
   Pose3 level(const Plane& floor_in_world);
@@ -79,6 +80,7 @@ class PoseEstimator {
   void slideWindow();
   void restartWindow();
   double surpriseOf(const RelativePose& closure) const;
+  void pullSurprises();
   void settleSurprises();
   std::optional<PathShift> reconnect(const RelativePose& closure);
 
@@ -86,6 +88,7 @@ class PoseEstimator {
   const Motion& motion_;
   KeyPoses poses_;
   Drift drift_;
+  ClosureGate gate_;
   Measurements measurements_;
   FactorGraph graph_;
   bool graph_is_near_ = false;  ///< optimised to the end, and no poses were moved since: the next solution begins with it
@@ -97,6 +100,7 @@ class PoseEstimator {
   struct Surprise {
     RelativePose closure;
     double size;
+    bool pulled = false;
   };
   std::vector<Surprise> surprises_;  ///< while there are any: optimise soon
   bool levelled_ = false;

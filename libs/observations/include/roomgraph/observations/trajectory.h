@@ -17,6 +17,7 @@ struct RelativePose {
   Matrix6d covariance = Matrix6d::Identity();  ///< of (translation, rotation) in frame a: m, rad
   bool planar = false;                         ///< only x, y, yaw were measured
   std::string source;                          ///< "tracking", "lidar", …
+  bool link = false;  ///< goes on from one segment to the next, as a movement does: closes no loop
 };
 
 /// Poses of one source in its own frame, ordered by time; interpolates between them on SE(3).

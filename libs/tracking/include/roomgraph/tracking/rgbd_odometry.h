@@ -22,12 +22,10 @@ struct TrackingPrior {
   std::vector<Box2> dynamic_regions;
 };
 
-/// Source of the closures that link a segment to the one before it: they belong to the odometry, and close no loop.
-inline constexpr const char* kDenseAlignment = "dense alignment";
-
 /// Outcome for one frame.
 struct TrackingResult {
   bool tracked = false;
+  bool predicted = false;  ///< not tracked, but for a moment the velocity before says where, with its covariance
   /// Why not: "too few features", "too few inliers", "no depth", …; of a tracked frame, how, if not in the usual way.
   std::string reason;
   Pose3 odom_from_camera = Pose3::Identity();  ///< pose in the tracker's own, drifting frame
