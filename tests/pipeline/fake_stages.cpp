@@ -108,6 +108,7 @@ TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prio
   if (world().while_tracking) world().while_tracking();
   world().masked.push_back(prior.dynamic_regions);
   world().expected.push_back(prior.previous_from_current);
+  world().by_scans.push_back(prior.by_scans);
   TrackingResult result;
   result.tracked = true;
   // A frame of its own, as a real tracker has.

@@ -35,6 +35,7 @@ struct World {
   /// calls.
   std::vector<std::vector<roomgraph::Box2>> masked = {};
   std::vector<std::optional<roomgraph::Pose3>> expected = {};
+  std::vector<bool> by_scans = {};  ///< whether those movements were
   int detector_calls = 0;
   /// Called by the odometry and by the proposal generator. May be empty.
   std::function<void()> while_tracking = {}, while_proposing = {};

@@ -49,6 +49,19 @@ TEST_F(FrontEndsTest, WheelsPredictForTheCamera) {
     return toPose3(drive.odometry(t).odom_from_robot) * Drive::robotFromCamera();
   };
   EXPECT_TRUE(fakes::world().expected[1]->isApprox(camera(0).inverse() * camera(0.1), 1e-9));
+  EXPECT_EQ(fakes::world().by_scans, (std::vector<bool>{false, false}));
+}
+
+TEST_F(FrontEndsTest, TheCameraIsToldWhenScansSawTheMovement) {
+  setup_ = setupWith("[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n");
+  front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  Drive drive;
+  for (const double t : {0.0, 0.1, 0.2}) {
+    ASSERT_TRUE(front_->match(drive.scan(t)).matched) << t;
+    front_->track(Drive::frame(t), {});
+  }
+  EXPECT_EQ(fakes::world().by_scans, (std::vector<bool>{false, true, true}));
+  EXPECT_TRUE(fakes::world().expected[2]);
 }
 
 // A camera that is unsure along its optical axis means a robot that is unsure ahead.

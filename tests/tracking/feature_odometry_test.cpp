@@ -196,6 +196,17 @@ TEST(FeatureOdometry, FollowsDepthWhereThereAreNoFeatures) {
   EXPECT_LT(distance(inCorner(static_cast<int>(links[0].t_a)).inverse() * inCorner(first), links[0].a_from_b), 0.04);
 }
 
+TEST(FeatureOdometry, WhereScansSawTheMovementFeaturesAloneCount) {
+  tracking::Tracker odometry({});
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(odometry.track(room().render(i, inCorner(i)), {}).tracked);
+  TrackingPrior prior{.previous_from_current = inCorner(2).inverse() * inCorner(3)};
+  EXPECT_TRUE(odometry.track(withoutFeatures(3), prior).tracked) << "wheels";
+  prior = {.previous_from_current = inCorner(3).inverse() * inCorner(4), .by_scans = true};
+  const auto result = odometry.track(withoutFeatures(4), prior);
+  EXPECT_FALSE(result.tracked);
+  EXPECT_EQ(result.reason, "too few features");
+}
+
 // For a moment a velocity goes on; its variance grows until something is seen again.
 TEST(FeatureOdometry, PredictsWhileNothingIsSeen) {
   tracking::Tracker odometry({});

@@ -39,10 +39,11 @@ bool FrontEnds::add(const OdometryReading& reading) {
 
 TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {
   robot_from_camera_ = frame.robot_from_camera;
-  TrackingPrior prior{std::nullopt, people};
+  TrackingPrior prior{.dynamic_regions = people};
   if (last_frame_t_)
     if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&motion_.odometry, &motion_.lidar}))
       prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
+  prior.by_scans = last_frame_t_ && predictedMovement(*last_frame_t_, frame.t, {&motion_.lidar});
   last_frame_t_ = frame.t;
   TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
   if (result.tracked || result.predicted)

@@ -89,7 +89,7 @@ class Tracker {
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
   TrackingResult accept(const View& view, const Pose3& previous);
-  /// Where the frame is by dense alignment with the frames since the last one that features placed, when no other sensor
+  /// Where the frame is by dense alignment with the frames since the last one that features placed, when no scans
   /// saw the movement: from then on that is dead reckoning. Whether it is known.
   bool alignDensely(const Frame& frame, const TrackingPrior& prior);
   /// Fills in what a frame that only dense alignment or the velocity placed reports.

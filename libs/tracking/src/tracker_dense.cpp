@@ -9,8 +9,8 @@ constexpr double kGoesOn = 0.8;  // share of a velocity that the next step is ta
 }
 
 bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
-  // Where another sensor sees the movement it is known better: tried on flats, docs/results.md.
-  if (!parameters_.dense_alignment || prior.previous_from_current) return false;
+  // Tried beside scans, too: no better in three flats, worse in one (docs/results.md).
+  if (!parameters_.dense_alignment || prior.by_scans) return false;
   const auto moved = dense_.follow(frame, prior.dynamic_regions, dead_reckoned_);
   densely_placed_ = moved.has_value();
   if (moved) dead_reckoned_ = moved->first_from_current;

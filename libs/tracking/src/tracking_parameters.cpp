@@ -80,7 +80,7 @@ void declareRecovery(ParameterVisitor& v, TrackingParameters& p) {
   v.add("relocalisation_min_inliers", p.relocalisation_min_inliers,
         {.doc = "Least inliers for a pose found again in an old keyframe.", .min = 6, .max = 1000});
   v.add("dense_alignment", p.dense_alignment,
-        {.doc = "Whether frames that features do not place, and whose movement no other sensor saw, are aligned by depth "
+        {.doc = "Whether frames that features do not place, and whose movement no scans saw, are aligned by depth "
                 "and brightness."});
   v.add("loop_candidates", p.loop_candidates,
         {.doc = "Old keyframes tried for a loop closure per keyframe; 0: none.", .min = 0, .max = 50});

@@ -18,6 +18,8 @@ namespace roomgraph {
 struct TrackingPrior {
   /// Movement of the camera since the last frame as other sensors saw it; nothing when there are none.
   std::optional<Pose3> previous_from_current;
+  /// That movement is one of scans, which see it better than images without features do.
+  bool by_scans = false;
   /// Image regions of people and the like, px: their features are not used.
   std::vector<Box2> dynamic_regions;
 };
