@@ -243,6 +243,30 @@ TEST(FeatureOdometry, PredictsWhileNothingIsSeen) {
   }
 }
 
+// What was seen long ago is no reference, nor its velocity a guess.
+TEST(FeatureOdometry, AChainEndsWithItsImages) {
+  tracking::Tracker odometry({});
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(odometry.track(room().render(0.1 * i, inCorner(i)), {}).tracked);
+  const Pose3 last = odometry.trajectory().poses().back().pose;
+  Pose3 before = last;
+  for (int i = 3; i < 40; ++i) {
+    Frame nothing = withoutFeatures(i);
+    nothing.t = 0.1 * i;
+    nothing.depth = cv::Mat();
+    const auto result = odometry.track(nothing, {});
+    EXPECT_EQ(result.reason, "no depth");
+    if (i > 20) {
+      EXPECT_LT(distance(before, result.odom_from_camera), 1e-9) << "it no longer goes on";
+    }
+    before = result.odom_from_camera;
+  }
+  Frame late = withoutFeatures(3);
+  late.t = 4;
+  const auto result = odometry.track(late, {});
+  EXPECT_FALSE(result.tracked);
+  EXPECT_FALSE(result.predicted);
+}
+
 TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
   tracking::Tracker odometry(featuresAlone());
   for (int i = 0; i < 3; ++i) odometry.track(room().render(i, poseAt(i)), {});

@@ -42,6 +42,8 @@ SlamResult SemanticSlam::collect() {
   result.counts = counts_;
   result.counts.key_poses = static_cast<int>(poses.nodes().size());
   result.counts.loop_closures = static_cast<int>(estimator_.closures().size());
+  if (const int refused = estimator_.refusedClosures(); refused > 0)
+    result.counts.reasons["loop closing: images against the movement since"] = refused;
   result.map.planar = estimator_.planar();
   if (poses.empty()) return result;
   const ExistenceOptions& existence = setup_->options.existence;

@@ -43,9 +43,14 @@ void DenseChain::begin(const Frame& frame, const std::vector<Box2>& excluded, bo
   to_reference_ = seen_ = last_ = {};
 }
 
+bool DenseChain::unbroken(double t) const {
+  return begun_ && !broken_ && t - seen_t_ <= kCoast_s;
+}
+
 std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std::vector<Box2>& excluded,
                                                   const Pose3& predicted) {
-  if (!unbroken()) return std::nullopt;
+  broken_ = !unbroken(frame.t);
+  if (broken_) return std::nullopt;
   if (!reference_) reference_ = std::make_shared<DenseImage>(first_, excluded_);
   const auto current = std::make_shared<const DenseImage>(frame, excluded);
   const double step = frame.t - last_t_, since = frame.t - reference_t_;
@@ -64,11 +69,9 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
 }
 
 // For a moment the velocity is believed; what comes then is compared with what was seen last on the way.
-std::optional<ChainedMovement> DenseChain::coast(double t, const std::shared_ptr<const DenseImage>& image,
-                                                 const Pose3& predicted) {
+ChainedMovement DenseChain::coast(double t, const std::shared_ptr<const DenseImage>& image,
+                                  const Pose3& predicted) {
   const double unseen = t - seen_t_;
-  broken_ = unseen > kCoast_s;
-  if (broken_) return std::nullopt;
   DenseAlignment step{seen_.first_from_current.inverse() * predicted};
   step.covariance.diagonal() << Eigen::Vector3d::Constant(kBlindVelocity * unseen).cwiseAbs2(),
       Eigen::Vector3d::Constant(kBlindTurn * unseen).cwiseAbs2();

@@ -27,13 +27,13 @@ class DenseChain {
   /// `predicted`: movement since the beginning, by the velocity before. Nothing when the images do not say how the camera
   /// moved; the chain is broken from then on, until it begins again.
   std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted);
-  /// Whether all since the beginning is known.
-  bool unbroken() const { return begun_ && !broken_; }
+  /// Whether all since the beginning is known, or was seen a moment before time t (s).
+  bool unbroken(double t) const;
   const ChainedMovement& last() const { return last_; }
 
 
  private:
-  std::optional<ChainedMovement> coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted);
+  ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted);
 
   bool begun_ = false, broken_ = false;
   bool moving_ = false;  ///< the velocity is known

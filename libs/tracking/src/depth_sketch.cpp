@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kWidth = 80;
 constexpr double kFarthest_m = 5;
-constexpr int kLeastShared = 500;
+constexpr int kStride = 2;
+constexpr int kLeastShared = 125;
 constexpr double kTolerance_m = 0.06, kTolerancePerM = 0.04;
 
 struct Votes {
@@ -40,8 +41,8 @@ std::optional<DepthRange> depthsAbout(const DepthSketch& sketch, int u, int v) {
 // sees.
 void compare(const DepthSketch& through, const DepthSketch& seen, const Pose3& through_from_seen,
              Votes& votes) {
-  for (int v = 0; v < seen.depth_mm.rows; ++v)
-    for (int u = 0; u < seen.depth_mm.cols; ++u) {
+  for (int v = 0; v < seen.depth_mm.rows; v += kStride)
+    for (int u = 0; u < seen.depth_mm.cols; u += kStride) {
       const int z = seen.depth_mm.at<std::uint16_t>(v, u);
       if (z == 0) continue;
       const Eigen::Vector3d point = through_from_seen * seen.camera.backProject(u, v, 1e-3 * z);

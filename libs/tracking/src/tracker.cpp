@@ -61,7 +61,7 @@ Pose3 Tracker::lastPose() const {
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   // Without other sensors the last velocity is trusted for a moment only.
-  const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken());
+  const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
   const Pose3 guess = goes_on ? velocity_.value_or(Pose3::Identity()) : Pose3::Identity();
   dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));

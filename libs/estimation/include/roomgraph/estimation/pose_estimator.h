@@ -45,6 +45,8 @@ class PoseEstimator {
   bool levelled() const { return levelled_; }
   /// Between robots at two times.
   const std::vector<RelativePose>& closures() const { return measurements_.closures; }
+  /// Closures by images that the drift since cannot have led to.
+  int refusedClosures() const { return gate_.refused(); }
 
   void setPlanar() { measurements_.planar = true; }
   /// Adds a key pose when the robot moved far enough since the last one; returns whether it did.
