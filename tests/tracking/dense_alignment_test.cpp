@@ -112,6 +112,23 @@ TEST(DenseImage, NormalsArePlanesOfTheirNeighbours) {
   EXPECT_NEAR(said / scatter, 8, 2);
 }
 
+// Normals scatter about the wall's, which must not look as if it held along the wall.
+TEST(DenseAlignment, NoiseOfDepthsHoldsNothingAlongAWall) {
+  cv::RNG random(5);
+  const auto noisy = [&random](Frame frame) {
+    for (int v = 0; v < frame.depth.rows; ++v)
+      for (int u = 0; u < frame.depth.cols; ++u) frame.depth.at<float>(v, u) += static_cast<float>(random.gaussian(0.004));
+    return frame;
+  };
+  const DenseImage reference(noisy(bareWall(0, Pose3::Identity())), {});
+  const DenseImage current(noisy(bareWall(1, poseFromYpr(0.04, 0, 0, 0, 0, 0))), {});
+  const auto found = alignDense(reference, current, {poseFromYpr(0.05, 0.01, 0, 0, 0, 0), 0.05, 0.05, 0.1, 0.2});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
+  EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.2, 0.04);
+  EXPECT_LT(std::sqrt(found->covariance(2, 2)), 0.01);
+}
+
 TEST(DenseAlignment, WhatIsLeftOutDoesNotCount) {
   const TexturedRoom room;
   Frame first = room.render(0, Pose3::Identity()), second = room.render(1, poseFromYpr(0.04, 0, 0, 0, 0, 0));
