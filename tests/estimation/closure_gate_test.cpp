@@ -35,7 +35,7 @@ class Gate : public ::testing::Test {
   }
 
   static constexpr double kStep_m2 = 1e-3, kStep_rad2 = 1e-6;
-  static constexpr MotionNoise kNone{0, 0, 0, 0, 0, 1};
+  static constexpr MotionNoise kNone{1e-4, 0, 1e-4, 0, 0, 1};
   Motion motion_{MotionSource(kNone, true), MotionSource(kNone, false), MotionSource(kNone, true)};
   KeyPoses poses_{motion_};
   Drift drift_{motion_, true};
