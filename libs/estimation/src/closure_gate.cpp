@@ -10,15 +10,14 @@ namespace {
 
 constexpr double kNear_m = 0.3, kNear_rad = 0.15;  // moves the estimate so little that it needs no witness
 constexpr double kSame_m = 0.2, kSame_rad = 0.1;   // of two closures that say the same
-constexpr double kComparable_m = 0.5,
-                 kComparable_rad = 0.3;  // more drift between two closures says nothing of them
+// More drift between two closures says nothing of them.
+constexpr double kComparable_m = 0.5, kComparable_rad = 0.3;
 constexpr double kOtherView_s = 0.5;
 constexpr double kWidth = 3;  // standard deviations of the drift between the two
 constexpr std::size_t kWaiting = 50;
 
 bool isNear(const RelativePose& closure, const KeyPoses& poses) {
-  const Pose3 difference =
-      closure.a_from_b.inverse() * (poses.at(closure.t_a).inverse() * poses.at(closure.t_b));
+  const Pose3 difference = poses.differenceFrom(closure);
   return difference.translation().norm() < kNear_m && rotationAngle(difference) < kNear_rad;
 }
 

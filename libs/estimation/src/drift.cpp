@@ -17,6 +17,10 @@ double horizontalVariance(const Matrix6d& covariance) {
   return covariance.topLeftCorner<2, 2>().trace() / 2;
 }
 
+std::size_t indexAt(const KeyPoses& poses, double t) {
+  return static_cast<std::size_t>(poses.nearest(t).id.value);
+}
+
 }  // namespace
 
 // Of the source that knows the place best.
@@ -50,7 +54,7 @@ void Drift::extend(const KeyPoses& poses) {
 }
 
 void Drift::link(const KeyPoses& poses, const RelativePose& movement) {
-  const std::size_t from = static_cast<std::size_t>(poses.nearest(movement.t_a).id.value), last = walked_.size() - 1;
+  const std::size_t from = indexAt(poses, movement.t_a), last = walked_.size() - 1;
   const auto instead = [&](double walked, double linked, double Variance::*part) {
     const double less = walked - linked;
     if (less <= 0) return;
@@ -63,8 +67,7 @@ void Drift::link(const KeyPoses& poses, const RelativePose& movement) {
 }
 
 void Drift::close(const KeyPoses& poses, const RelativePose& closure) {
-  const auto index = [&poses](double t) { return static_cast<std::size_t>(poses.nearest(t).id.value); };
-  std::size_t near = index(closure.t_a), far = index(closure.t_b);
+  std::size_t near = indexAt(poses, closure.t_a), far = indexAt(poses, closure.t_b);
   if (since_.at(far).position_m2 < since_.at(near).position_m2) std::swap(near, far);
   const Variance there{since_[near].position_m2 + horizontalVariance(closure.covariance),
                        since_[near].yaw_rad2 + closure.covariance(5, 5)};
@@ -76,14 +79,13 @@ void Drift::close(const KeyPoses& poses, const RelativePose& closure) {
 }
 
 double Drift::turned(const KeyPoses& poses, double t) const {
-  return since_.empty() ? 0 : since_.at(static_cast<std::size_t>(poses.nearest(t).id.value)).yaw_rad2;
+  return since_.empty() ? 0 : since_.at(indexAt(poses, t)).yaw_rad2;
 }
 
 bool Drift::contradicts(const KeyPoses& poses, const RelativePose& closure) const {
-  const Pose3 a = poses.at(closure.t_a), b = poses.at(closure.t_b);
-  const Pose3 difference = closure.a_from_b.inverse() * (a.inverse() * b);
-  const double then = std::min(closure.t_a, closure.t_b);
-  const Eigen::Vector2d place = (closure.t_a < closure.t_b ? b : a).translation().head<2>();
+  const Pose3 difference = poses.differenceFrom(closure);
+  const auto [then, now] = std::minmax({closure.t_a, closure.t_b});
+  const Eigen::Vector2d place = poses.at(now).translation().head<2>();
   const double drifted_m2 = variance(poses, then, place) + horizontalVariance(closure.covariance);
   const double turned_rad2 = turned(poses, then) + closure.covariance(5, 5);
   return difference.translation().norm() > kContradicts * std::sqrt(drifted_m2) ||

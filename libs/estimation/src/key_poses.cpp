@@ -48,6 +48,10 @@ Pose3 KeyPoses::at(double t) const {
   return interpolate(from_a, from_b, (t - a.t) / (b.t - a.t));
 }
 
+Pose3 KeyPoses::differenceFrom(const RelativePose& closure) const {
+  return closure.a_from_b.inverse() * (at(closure.t_a).inverse() * at(closure.t_b));
+}
+
 Trajectory KeyPoses::trajectory() const {
   Trajectory out;
   for (const auto& node : nodes_) out.add(node.t, node.world_from_robot);

@@ -46,8 +46,7 @@ bool PoseEstimator::advance(double t) {
 
 // How far a closure is from the estimate: 1 where it begins to be urgent.
 double PoseEstimator::surpriseOf(const RelativePose& closure) const {
-  const Pose3 expected = poses_.at(closure.t_a).inverse() * poses_.at(closure.t_b);
-  const Pose3 difference = closure.a_from_b.inverse() * expected;
+  const Pose3 difference = poses_.differenceFrom(closure);
   return std::max(difference.translation().norm() / options_.urgent_closure_m,
                   rotationAngle(difference) / options_.urgent_closure_rad);
 }
@@ -166,6 +165,7 @@ void PoseEstimator::optimizeWindow() {
 // Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
 std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGraph& objects) {
   graph_is_near_ = false;
+  pullSurprises();
   return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance}, nullptr);
 }
 
@@ -174,6 +174,9 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   if (effort == Effort::kNear) {
     until.max_iterations = std::min(options_.max_iterations, kNearIterations);
     until.function_tolerance = options_.live_tolerance;
+    pullSurprises();
+  } else {
+    measurements_.pulls.clear();  // the map is the optimum of what was measured, each once
   }
   const auto estimates = optimize(objects, until, graph_is_near_ ? &graph_ : nullptr);
   graph_is_near_ = estimates.has_value();
@@ -203,7 +206,6 @@ std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& o
                                                          const FactorGraph* former) {
   if (poses_.empty()) return LandmarkEstimates{};
   nodes_since_optimization_ = 0;
-  pullSurprises();
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, former);
   const SolveReport report = solveWhole(until);
   if (report.usable)

@@ -25,8 +25,8 @@ struct DenseAlignment {
 
 /// Iteratively reweighted least squares of point-to-plane distances and differences of brightness (Kerl et al.,
 /// "Dense visual SLAM for RGB-D cameras", IROS 2013, with the geometric term of Chen and Medioni 1992), from coarse to
-/// fine. Directions that neither measures, as along a bare wall, stay as the prior has them, with its variance. Nothing
-/// when too few pixels meet.
+/// fine. Directions that neither measures, as along a bare wall, stay as the prior has them, with the variance of what is
+/// unseen. Nothing when too few pixels meet, the two do not look alike, or the step is out of the question.
 std::optional<DenseAlignment> alignDense(const DenseImage& reference, const DenseImage& current,
                                          const DensePrior& prior);
 

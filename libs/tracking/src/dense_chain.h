@@ -24,13 +24,12 @@ class DenseChain {
   /// From now on movements are those since this frame. Its images are shared, not copied.
   /// `moving`: the velocity is known that predicted movements come from.
   void begin(const Frame& frame, const std::vector<Box2>& excluded, bool moving);
-  /// `predicted`: movement since the beginning, by the velocity before. Nothing when the images do not say how the camera
-  /// moved; the chain is broken from then on, until it begins again.
+  /// `predicted`: movement since the beginning, by the velocity before, which is the answer for a moment where the images do
+  /// not say how the camera moved. Nothing after that: the chain is broken until it begins again.
   std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted);
   /// Whether all since the beginning is known, or was seen a moment before time t (s).
   bool unbroken(double t) const;
   const ChainedMovement& last() const { return last_; }
-
 
  private:
   ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted);

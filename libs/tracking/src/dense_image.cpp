@@ -31,21 +31,6 @@ cv::Mat brightnessOf(const Frame& frame, const cv::Size& size) {
   return out - slow;
 }
 
-// Depth is not averaged: between an object and what is behind it there is nothing.
-cv::Mat depthOf(const Frame& frame, const std::vector<Box2>& excluded, const PinholeCamera& camera) {
-  cv::Mat out(camera.height, camera.width, CV_32FC1);
-  const double scale = static_cast<double>(frame.camera.width) / camera.width;
-  for (int v = 0; v < out.rows; ++v)
-    for (int u = 0; u < out.cols; ++u) {
-      const double x = (u + 0.5) * scale - 0.5, y = (v + 0.5) * scale - 0.5;
-      const bool left_out =
-          std::any_of(excluded.begin(), excluded.end(), [&](const Box2& box) { return box.contains(x, y); });
-      const float z = left_out ? 0.f : frame.depthAt(x, y);
-      out.at<float>(v, u) = z < kMaxDepth_m ? z : 0.f;
-    }
-  return out;
-}
-
 // The plane around each pixel: inverse depth is linear in the pixel on it.
 void fitNormals(DenseLevel& level) {
   const cv::Mat& depth = level.depth;
@@ -88,12 +73,26 @@ DenseLevel levelOf(const Frame& frame, const std::vector<Box2>& excluded, double
   level.brightness = brightnessOf(frame, {level.camera.width, level.camera.height});
   cv::Sobel(level.brightness, level.slope_x, CV_32F, 1, 0, 3, 1.0 / 8);
   cv::Sobel(level.brightness, level.slope_y, CV_32F, 0, 1, 3, 1.0 / 8);
-  level.depth = depthOf(frame, excluded, level.camera);
+  level.depth = coarseDepth(frame, excluded, level.camera, kMaxDepth_m);
   fitNormals(level);
   return level;
 }
 
 }  // namespace
+
+cv::Mat coarseDepth(const Frame& frame, const std::vector<Box2>& excluded, const PinholeCamera& camera, float farthest_m) {
+  cv::Mat out(camera.height, camera.width, CV_32FC1);
+  const double scale = static_cast<double>(frame.camera.width) / camera.width;
+  for (int v = 0; v < out.rows; ++v)
+    for (int u = 0; u < out.cols; ++u) {
+      const double x = (u + 0.5) * scale - 0.5, y = (v + 0.5) * scale - 0.5;
+      const bool left_out =
+          std::any_of(excluded.begin(), excluded.end(), [&](const Box2& box) { return box.contains(x, y); });
+      const float z = left_out ? 0.f : frame.depthAt(x, y);
+      out.at<float>(v, u) = z < farthest_m ? z : 0.f;
+    }
+  return out;
+}
 
 DenseImage::DenseImage(const Frame& frame, const std::vector<Box2>& excluded) {
   double factor = static_cast<double>(kFinestWidth) / frame.camera.width;

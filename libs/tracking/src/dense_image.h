@@ -10,6 +10,10 @@
 
 namespace roomgraph::tracking {
 
+/// Depth image of a camera that sees the same with fewer pixels (CV_32FC1, m). 0: not measured, farther, or left out. It is
+/// not averaged: between an object and what is behind it there is nothing.
+cv::Mat coarseDepth(const Frame& frame, const std::vector<Box2>& excluded, const PinholeCamera& camera, float farthest_m);
+
 /// One resolution of a DenseImage.
 struct DenseLevel {
   PinholeCamera camera;

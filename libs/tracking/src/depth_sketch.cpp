@@ -7,11 +7,13 @@
 #include <limits>
 #include <optional>
 
+#include "dense_image.h"
+
 namespace roomgraph::tracking {
 namespace {
 
 constexpr int kWidth = 80;
-constexpr double kFarthest_m = 5;
+constexpr float kFarthest_m = 5;
 constexpr int kStride = 2;
 constexpr int kLeastShared = 125;
 constexpr double kTolerance_m = 0.06, kTolerancePerM = 0.04;
@@ -63,18 +65,8 @@ void compare(const DepthSketch& through, const DepthSketch& seen, const Pose3& t
 }  // namespace
 
 DepthSketch sketchDepth(const Frame& frame, const std::vector<Box2>& excluded) {
-  const double factor = static_cast<double>(kWidth) / frame.camera.width;
-  DepthSketch out{frame.camera.scaled(factor), {}};
-  out.depth_mm = cv::Mat::zeros(out.camera.height, out.camera.width, CV_16UC1);
-  for (int v = 0; v < out.depth_mm.rows; ++v)
-    for (int u = 0; u < out.depth_mm.cols; ++u) {
-      const double x = (u + 0.5) / factor - 0.5, y = (v + 0.5) / factor - 0.5;
-      const float z = frame.depthAt(x, y);
-      const bool left_out =
-          !(z > 0 && z < kFarthest_m) ||
-          std::any_of(excluded.begin(), excluded.end(), [&](const Box2& box) { return box.contains(x, y); });
-      if (!left_out) out.depth_mm.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::lround(1000 * z));
-    }
+  DepthSketch out{frame.camera.scaled(static_cast<double>(kWidth) / frame.camera.width), {}};
+  coarseDepth(frame, excluded, out.camera, kFarthest_m).convertTo(out.depth_mm, CV_16U, 1000);
   return out;
 }
 

@@ -39,6 +39,8 @@ class KeyPoses {
   Pose3 at(double t) const;
   /// Movement from a key pose to a time near it; none when no source of motion covers it.
   Pose3 offset(const KeyPose& node, double t) const;
+  /// What the estimate says of a closure's two times beyond the closure itself: identity where they agree.
+  Pose3 differenceFrom(const RelativePose& closure) const;
   Trajectory trajectory() const;
 
  private:
