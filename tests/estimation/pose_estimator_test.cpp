@@ -179,6 +179,31 @@ TEST(PoseEstimator, AClosureIsUrgentUntilItIsMetOrOutvoted) {
   EXPECT_TRUE(run.estimator.due()) << "as often as without it";
 }
 
+// Segments that links tie to each other: the drift over both gaps is theirs, not that of an unknown movement.
+TEST(PoseEstimator, DriftOverGapsIsThatOfTheirLinks) {
+  BackendOptions options;
+  const MotionSource none{MotionNoise{}, true};
+  Motion motion{none, MotionSource{MotionNoise{0.001, 0, 0.001, 0, 0, 1}, false}, none};
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  const auto at = [](double t) { return poseFromYpr(0.5 * t, 0, 0, 0, 0, 0); };
+  for (int segment = 0; segment < 3; ++segment)
+    for (int i = 0; i <= 20; ++i) {
+      const double t = 6 * segment + 0.2 * i;
+      motion.visual.add(t, at(t), segment, 1e-8 * Matrix6d::Identity());
+      if (i % 5 == 0) {
+        ASSERT_TRUE(estimator.advance(t)) << t;
+      }
+      if (i > 0 || segment == 0) continue;
+      RelativePose link{t - 2, t, at(2)};
+      link.covariance = 1e-4 * Matrix6d::Identity();
+      link.link = true;
+      estimator.addClosures({link});
+    }
+  EXPECT_LT(std::sqrt(estimator.drift().variance(estimator.poses(), 0, at(16).translation().head<2>())), 0.3);
+  EXPECT_LT(distance(estimator.poses().at(16), at(16)), 1e-6) << "without a loss that lets a link go";
+}
+
 // Far off, a robust loss lets closures of images go; two that agree pull the path to them first.
 TEST(PoseEstimator, TwoClosuresThatAgreePullAPathThatIsFarOff) {
   BackendOptions options;

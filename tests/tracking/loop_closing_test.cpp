@@ -67,5 +67,34 @@ TEST(LoopClosing, AProposedClosureIsConfirmedByTheImagesOrNot) {
   EXPECT_FALSE(odometry.verifyLoop(proposed));
 }
 
+// A full turn. In some frames the image's lower part is blank, and what stands there as near as .6 m if `solid`.
+bool closesAfterATurn(int first_blank, int last_blank, bool solid) {
+  const test::TexturedRoom room;
+  FeatureOdometry odometry;
+  for (int i = 0; i < 49; ++i) {
+    Frame frame = room.render(i, looking(0.13 * i));
+    if (i >= first_blank && i <= last_blank) {
+      const int top = frame.gray.rows * 55 / 100;
+      const cv::Rect lower(0, top, frame.gray.cols, frame.gray.rows - top);
+      frame.gray(lower).setTo(128);
+      if (solid) frame.depth(lower).setTo(0.6);
+    }
+    EXPECT_TRUE(odometry.track(frame, {}).tracked) << i;
+  }
+  return odometry.verifyLoop({0, 48}).has_value();
+}
+
+// The same features, but what is there now would have hidden what was seen: another place.
+TEST(LoopClosing, AViewWhoseWallsStandInFreeSpaceClosesNoLoop) {
+  EXPECT_TRUE(closesAfterATurn(42, 48, false));
+  EXPECT_FALSE(closesAfterATurn(42, 48, true));
+}
+
+// Nor does one that came shortly after such a view.
+TEST(LoopClosing, ViewsAroundItHaveAVote) {
+  EXPECT_TRUE(closesAfterATurn(43, 45, false));
+  EXPECT_FALSE(closesAfterATurn(43, 45, true));
+}
+
 }  // namespace
 }  // namespace roomgraph
