@@ -112,6 +112,18 @@ TEST(DenseImage, NormalsArePlanesOfTheirNeighbours) {
   EXPECT_NEAR(said / scatter, 8, 2);
 }
 
+// A picture that has left the view says nothing of where it went.
+TEST(DenseAlignment, AnEdgeThatOneImageShowsHoldsNothing) {
+  Frame first = bareWall(0, Pose3::Identity());
+  first.gray(cv::Rect(first.gray.cols - 24, 60, 20, 120)) = 20;
+  const DenseImage reference(first, {}), current(bareWall(1, poseFromYpr(-0.03, 0, 0, 0, 0, 0)), {});
+  const auto found = alignDense(reference, current, {poseFromYpr(-0.03, 0, 0, 0, 0, 0), 0.05, 0.05, 0.1, 0.2});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
+  EXPECT_NEAR(std::sqrt(found->covariance(1, 1)), 0.1, 0.02);
+  EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.2, 0.02);
+}
+
 // Normals scatter about the wall's, which must not look as if it held along the wall.
 TEST(DenseAlignment, NoiseOfDepthsHoldsNothingAlongAWall) {
   cv::RNG random(5);
