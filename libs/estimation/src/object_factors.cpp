@@ -7,6 +7,7 @@
 #include <complex>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "measurement_in_world.h"
 #include "object_weights.h"
@@ -44,8 +45,10 @@ constexpr std::size_t kMinViews = 3;  // key poses from which a point must be se
 
 // A point on a landmark, seen from one key pose.
 struct PointView {
-  CameraPointFactor factor;
-  Eigen::Vector3d in_world;
+  PointId point;
+  NodeId node;
+  const ObjectFrame* frame;
+  const FeatureTrack* feature;
 };
 
 // A proposal that measures the size, if its yaw is the landmark's; else width and depth may have changed
@@ -61,7 +64,7 @@ struct Gathered {
   std::map<NodeId, std::vector<LandmarkFactor>> sightings;
   std::map<NodeId, std::vector<SizeSeen>> sizes;
   std::map<NodeId, LandmarkBoxFactor> boxes;  // the best of each key pose
-  std::map<PointId, std::map<NodeId, PointView>> points;
+  std::vector<PointView> points;  // in the order of frames
 };
 
 constexpr double kPixelSigma = 2;        // of a box's side, px, however small the object
@@ -101,23 +104,11 @@ void gather(const ObjectFrame& frame, const ObjectDecision& decision, const Land
              .sigma_px = boxSigma(measurement.detection.box, options.box_sigma),
              .weight = sighting.weight},
             out);
-  for (const auto& feature : frame.features) {
-    const auto& own = measurement.features;
-    if (std::find(own.begin(), own.end(), feature.point) == own.end()) continue;
-    const Eigen::Vector3d in_camera =
-        frame.camera.backProject(feature.pixel.x(), feature.pixel.y(), feature.depth_m);
-    out.points[PointId{feature.point}].try_emplace(
-        node.id, PointView{{.node = node.id,
-                            .point = PointId{feature.point},
-                            .camera = frame.camera,
-                            .robot_from_camera = node_from_camera,
-                            .pixel = feature.pixel,
-                            .sigma_px = options.point_sigma_px,
-                            .depth_m = feature.depth_m,
-                            .sigma_depth_m =
-                                options.point_sigma_px * (0.005 + 0.002 * feature.depth_m * feature.depth_m)},
-                           node.world_from_robot * node_from_camera * in_camera});
-  }
+  std::vector<std::int64_t> own = measurement.features;
+  std::sort(own.begin(), own.end());
+  for (const auto& feature : frame.features)
+    if (std::binary_search(own.begin(), own.end(), feature.point))
+      out.points.push_back({PointId{feature.point}, node.id, &frame, &feature});
 }
 
 // Landmarks of the graph that stand for views; the map's own never get that far.
@@ -281,23 +272,56 @@ void addBoxes(const Gathered& seen, const Landmark& landmark, const KeyPoses& po
   }
 }
 
-void addPoints(const Gathered& seen, const Landmark& landmark, const BackendOptions& options,
+CameraPointFactor pointFactor(const PointView& view, const Pose3& node_from_camera, double sigma_px) {
+  const double depth_m = view.feature->depth_m;
+  return {.node = view.node,
+          .point = view.point,
+          .camera = view.frame->camera,
+          .robot_from_camera = node_from_camera,
+          .pixel = view.feature->pixel,
+          .sigma_px = sigma_px,
+          .depth_m = depth_m,
+          .sigma_depth_m = sigma_px * (0.005 + 0.002 * depth_m * depth_m)};
+}
+
+// The first view of each point from each key pose, by points; within a point by key poses.
+std::vector<PointView> firstViews(std::vector<PointView> views) {
+  const auto key = [](const PointView& view) { return std::pair(view.point, view.node); };
+  std::stable_sort(views.begin(), views.end(), [key](const auto& a, const auto& b) { return key(a) < key(b); });
+  views.erase(std::unique(views.begin(), views.end(), [key](const auto& a, const auto& b) { return key(a) == key(b); }), views.end());
+  return views;
+}
+
+// Views of one point, and behind them those of the next.
+using PointViews = std::vector<PointView>::const_iterator;
+PointViews endOfPoint(PointViews first, PointViews end) {
+  return std::find_if(first, end, [first](const PointView& view) { return view.point != first->point; });
+}
+
+void addPoints(const Gathered& seen, const Landmark& landmark, const KeyPoses& poses, const BackendOptions& options,
                ObjectFactors& out) {
-  std::vector<PointId> used;
-  for (const auto& [id, views] : seen.points)
-    if (views.size() >= kMinViews && !out.points.contains(id) &&
+  const std::vector<PointView> views = firstViews(seen.points);
+  std::vector<std::pair<PointViews, PointViews>> used;
+  for (auto first = views.begin(); first != views.end();) {
+    const auto end = endOfPoint(first, views.end());
+    if (static_cast<std::size_t>(end - first) >= kMinViews && !out.points.contains(first->point) &&
         used.size() < static_cast<std::size_t>(options.points_per_landmark))
-      used.push_back(id);
-  for (const PointId id : used) {
-    const auto& views = seen.points.at(id);
+      used.emplace_back(first, end);
+    first = end;
+  }
+  for (const auto& [first, end] : used) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& [node, view] : views) {
-      middle += view.in_world / static_cast<double>(views.size());
-      out.point_views.push_back(view.factor);
+    for (auto view = first; view != end; ++view) {
+      const KeyPose& node = poses.node(view->node);
+      const Pose3 node_from_camera = poses.offset(node, view->frame->t) * view->frame->robot_from_camera;
+      const FeatureTrack& feature = *view->feature;
+      const Eigen::Vector3d in_camera = view->frame->camera.backProject(feature.pixel.x(), feature.pixel.y(), feature.depth_m);
+      middle += node.world_from_robot * node_from_camera * in_camera / static_cast<double>(end - first);
+      out.point_views.push_back(pointFactor(*view, node_from_camera, options.point_sigma_px));
     }
-    out.points[id] = middle;
+    out.points[first->point] = middle;
     if (!options.points_inside) continue;
-    out.insides.push_back({.point = id,
+    out.insides.push_back({.point = first->point,
                            .landmark = landmark.id,
                            .weight = weightAmong(used.size(), options.landmark_repeating_share)});
   }
@@ -329,7 +353,7 @@ ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPos
     const ObjectModel* usual = database.find(landmark.class_name);
     if (!addViews(seen, landmark, usual, poses, options, out)) continue;
     if (options.object_boxes) addBoxes(seen, landmark, poses, options, out);
-    addPoints(seen, landmark, options, out);
+    addPoints(seen, landmark, poses, options, out);
   }
   return out;
 }

@@ -274,14 +274,36 @@ void ObjectMapper::move(const PathShift& shift) {
     if (span.first >= shift.since_t) landmarks_.move(id, shift.new_from_old);
 }
 
-ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const BackendOptions& options) const {
-  const AssociationModel* model = associator_->model();
-  const auto& landmarks = landmarks_.landmarks();
-  ObjectsInGraph out{landmarks, objectFactors(frames_, poses_, landmarks, database, options,
+namespace {
+
+ObjectsInGraph factorsOf(const std::vector<Landmark>& landmarks, const std::vector<ObjectFrame>& frames,
+                         const std::vector<Scan>& scans, const AssociationModel* model, const KeyPoses& poses,
+                         const ObjectDatabase& database, const BackendOptions& options) {
+  ObjectsInGraph out{landmarks, objectFactors(frames, poses, landmarks, database, options,
                                               model ? &model->measurement : nullptr)};
-  if (options.object_sides)
-    out.factors.sides = scanSides(space_->scans(), poses_, landmarks, database, options);
+  if (options.object_sides) out.factors.sides = scanSides(scans, poses, landmarks, database, options);
   return out;
+}
+
+}  // namespace
+
+ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const BackendOptions& options) const {
+  return factorsOf(landmarks_.landmarks(), frames_, space_->scans(), associator_->model(), poses_, database, options);
+}
+
+ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const BackendOptions& options) const {
+  struct Copies {
+    std::vector<Landmark> landmarks;
+    std::vector<ObjectFrame> frames;
+    std::vector<Scan> scans;
+    std::optional<AssociationModel> model;
+  };
+  auto copies = std::make_shared<Copies>(Copies{landmarks_.landmarks(), frames_, space_->scans(), {}});
+  if (const AssociationModel* model = associator_->model()) copies->model = *model;
+  return [copies, &database, &options](const KeyPoses& poses) {
+    return factorsOf(copies->landmarks, copies->frames, copies->scans, copies->model ? &*copies->model : nullptr, poses,
+                     database, options);
+  };
 }
 
 void ObjectMapper::apply(const LandmarkEstimates& estimates) {

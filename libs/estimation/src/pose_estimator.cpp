@@ -3,15 +3,18 @@
 #include "roomgraph/estimation/pose_estimator.h"
 
 #include <algorithm>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
-#include <utility>
 
+#include "live_solve.h"
 #include "roomgraph/core/result_store.h"
 
 namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
 constexpr int kNearIterations = 10;
+// Key poses from the beginning of an optimisation to its end: as many as take a robot longer to drive.
+constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100;
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 }
 
@@ -22,6 +25,8 @@ PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion
       drift_(motion, options.local_map_nodes > 0) {
   measurements_.planar = false;
 }
+
+PoseEstimator::~PoseEstimator() = default;
 
 bool PoseEstimator::advance(double t) {
   if (poses_.empty()) {
@@ -62,6 +67,7 @@ void PoseEstimator::pullSurprises() {
 // where they were are outvoted.
 void PoseEstimator::settleSurprises() {
   std::erase_if(surprises_, [&](Surprise& surprise) {
+    if (!std::exchange(surprise.in_graph, false)) return false;
     const double before = std::exchange(surprise.size, surpriseOf(surprise.closure));
     return surprise.size <= 1 || !(surprise.size < kStillNearing * before);
   });
@@ -77,8 +83,7 @@ std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
     const Pose3 move = closure.t_a < closure.t_b ? a_now * closure.a_from_b * b_now.inverse()
                                                  : b_now * closure.a_from_b.inverse() * a_now.inverse();
     poses_.moveFrom(nodes[i].id, move);
-    graph_is_near_ = false;
-    restartWindow();
+    movedFromOutside();
     return PathShift{nodes[i].t, move};
   }
   return std::nullopt;
@@ -127,6 +132,7 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
 
 // The pause grows with the graph, so that the work per key pose stays bounded on long runs.
 bool PoseEstimator::due() const {
+  if (live_) return false;
   const int nodes = static_cast<int>(poses_.nodes().size());
   const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 2, nodes / 100)
                                           : std::max(options_.optimize_every_nodes, nodes / 20);
@@ -145,11 +151,17 @@ void PoseEstimator::slideWindow() {
   ++first_;
 }
 
-// Poses were moved from outside: they are taken as they are, and the window begins again with the last of them.
-void PoseEstimator::restartWindow() {
-  first_ = poses_.nodes().size() - 1;
+// Poses up to `first` are taken as they are, and the window begins again with it.
+void PoseEstimator::restartWindow(std::size_t first) {
+  first_ = first;
   prior_.reset();
   window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+}
+
+void PoseEstimator::movedFromOutside() {
+  graph_is_near_ = false;
+  if (live_) live_->outdated = true;
+  restartWindow(poses_.nodes().size() - 1);
 }
 
 void PoseEstimator::optimizeWindow() {
@@ -163,10 +175,36 @@ void PoseEstimator::optimizeWindow() {
 }
 
 // Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
-std::optional<LandmarkEstimates> PoseEstimator::optimizeLive(const ObjectsInGraph& objects) {
+void PoseEstimator::beginLive(ObjectsAtPoses objects) {
+  nodes_since_optimization_ = 0;
   graph_is_near_ = false;
   pullSurprises();
-  return optimize(objects, {std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance}, nullptr);
+  for (Surprise& surprise : surprises_) surprise.in_graph = true;
+  live_ = std::make_unique<LiveSolve>(
+      poses_, motion_, measurements_, std::move(objects), options_,
+      SolveOptions{std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
+  // A result that will be recalled is not computed.
+  if (cv::getNumThreads() > 1 && !(results_ && results_->recalling())) live_->goBeside();
+}
+
+bool PoseEstimator::takesOver() const {
+  return live_ && poses_.nodes().size() >= live_->nodes() + std::max(kLeastLag, live_->nodes() / kNodesPerLag);
+}
+
+std::optional<GraphSolution> PoseEstimator::takeOver() {
+  const std::unique_ptr<LiveSolve> live = std::move(live_);
+  if (live->outdated) return std::nullopt;
+  const SolveReport report =
+      solution([&] { return live->solve(); }, [&]() -> FactorGraph& { return live->graph(); });
+  work_ = live->work();
+  graph_ = std::move(live->graph());
+  GraphSolution out;
+  if (report.usable) out.later = adopt(graph_, live->nodes());
+  settleSurprises();
+  restartWindow(live->nodes() - 1);
+  if (!report.usable) return std::nullopt;
+  for (const LandmarkId id : live->landmarks()) out.landmarks.emplace(id, graph_.landmark(id));
+  return out;
 }
 
 std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects, Effort effort) {
@@ -178,16 +216,27 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   } else {
     measurements_.pulls.clear();  // the map is the optimum of what was measured, each once
   }
-  const auto estimates = optimize(objects, until, graph_is_near_ ? &graph_ : nullptr);
-  graph_is_near_ = estimates.has_value();
+  if (poses_.empty()) return LandmarkEstimates{};
+  nodes_since_optimization_ = 0;
+  for (Surprise& surprise : surprises_) surprise.in_graph = true;
+  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr);
+  const SolveReport report =
+      solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
+  graph_is_near_ = report.usable;
+  if (report.usable) adopt(graph_, poses_.nodes().size());
+  settleSurprises();
+  restartWindow(poses_.nodes().size() - 1);
+  if (!report.usable) return std::nullopt;
+  LandmarkEstimates estimates;
+  for (const Landmark& landmark : objects.landmarks)
+    if (graph_.hasLandmark(landmark.id)) estimates.emplace(landmark.id, graph_.landmark(landmark.id));
   return estimates;
 }
 
-// The graph is the same when a run is repeated: its solution need not be sought again.
-SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
-  const auto solve = [&] { return graph_.optimize(until); };
+SolveReport PoseEstimator::solution(const std::function<SolveReport()>& solve,
+                                    const std::function<FactorGraph&()>& graph) {
   const auto encode = [&](const SolveReport& report) {
-    std::vector<double> numbers = graph_.values();
+    std::vector<double> numbers = graph().values();
     numbers.insert(numbers.end(), {report.usable ? 1.0 : 0.0, static_cast<double>(report.iterations)});
     return bytesOfNumbers(numbers);
   };
@@ -196,34 +245,26 @@ SolveReport PoseEstimator::solveWhole(const SolveOptions& until) {
     if (numbers.size() < 2) throw std::invalid_argument("too short");
     SolveReport report{.usable = numbers.end()[-2] != 0, .iterations = static_cast<int>(numbers.back())};
     numbers.resize(numbers.size() - 2);
-    graph_.setValues(numbers);
+    graph().setValues(numbers);
     return report;
   };
   return recalled(results_, "whole graph", poses_.nodes().back().t, solve, encode, decode);
 }
 
-std::optional<LandmarkEstimates> PoseEstimator::optimize(const ObjectsInGraph& objects, const SolveOptions& until,
-                                                         const FactorGraph* former) {
-  if (poses_.empty()) return LandmarkEstimates{};
-  nodes_since_optimization_ = 0;
-  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, former);
-  const SolveReport report = solveWhole(until);
-  if (report.usable)
-    for (const auto& node : poses_.nodes()) poses_.set(node.id, graph_.pose(node.id));
-  settleSurprises();
-  restartWindow();
-  if (!report.usable) return std::nullopt;
-  LandmarkEstimates estimates;
-  for (const Landmark& landmark : objects.landmarks)
-    if (graph_.hasLandmark(landmark.id)) estimates.emplace(landmark.id, graph_.landmark(landmark.id));
-  return estimates;
+// Key poses of the graph are where it says, later ones go with the last of these.
+PathShift PoseEstimator::adopt(const FactorGraph& solved, std::size_t count) {
+  const auto& nodes = poses_.nodes();
+  const KeyPose last = nodes[count - 1];
+  const PathShift later{last.t, solved.pose(last.id) * last.world_from_robot.inverse()};
+  for (std::size_t i = 0; i < count; ++i) poses_.set(nodes[i].id, solved.pose(nodes[i].id));
+  if (count < nodes.size()) poses_.moveFrom(nodes[count].id, later.new_from_old);
+  return later;
 }
 
 void PoseEstimator::transform(const Pose3& new_from_old) {
   if (poses_.empty()) return;
   poses_.moveFrom(poses_.nodes().front().id, new_from_old);
-  graph_is_near_ = false;
-  restartWindow();
+  movedFromOutside();
 }
 
 }  // namespace roomgraph

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "object_weights.h"
 
@@ -106,26 +107,43 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   return out;
 }
 
-// One scan, placed.
-struct PosedScan {
-  NodeId node;
-  Eigen::Vector2d lidar;  // world
-  double height_m;
-  std::vector<Eigen::Vector3d> in_node, in_world;
-};
+// One scan, placed. Its points are computed when a landmark is in reach.
+class PosedScan {
+ public:
+  PosedScan(const Scan& scan, const KeyPoses& poses)
+      : scan_(scan),
+        node_(poses.nearest(scan.t)),
+        node_from_robot_(poses.offset(node_, scan.t)),
+        world_from_lidar_(node_.world_from_robot * node_from_robot_ * scan.robot_from_lidar) {}
 
-PosedScan placed(const Scan& scan, const KeyPoses& poses) {
-  const KeyPose& node = poses.nearest(scan.t);
-  const Pose3 node_from_robot = poses.offset(node, scan.t);
-  const Pose3 world_from_lidar = node.world_from_robot * node_from_robot * scan.robot_from_lidar;
-  PosedScan out{
-      node.id, world_from_lidar.translation().head<2>(), world_from_lidar.translation().z(), {}, {}};
-  for (const Eigen::Vector3d& point : scan.pointsInRobot()) {
-    out.in_node.push_back(node_from_robot * point);
-    out.in_world.push_back(node.world_from_robot * out.in_node.back());
+  NodeId node() const { return node_.id; }
+  Eigen::Vector2d lidar() const { return world_from_lidar_.translation().head<2>(); }
+  double height_m() const { return world_from_lidar_.translation().z(); }
+  const std::vector<Eigen::Vector3d>& inNode() { return points().in_node; }
+  const std::vector<Eigen::Vector2d>& inWorld() { return points().in_world; }
+
+ private:
+  struct Points {
+    std::vector<Eigen::Vector3d> in_node;
+    std::vector<Eigen::Vector2d> in_world;
+  };
+  const Points& points() {
+    if (points_) return *points_;
+    points_.emplace();
+    points_->in_node = scan_.pointsInRobot();
+    points_->in_world.reserve(points_->in_node.size());
+    for (Eigen::Vector3d& point : points_->in_node) {
+      point = node_from_robot_ * point;
+      points_->in_world.push_back((node_.world_from_robot * point).head<2>());
+    }
+    return *points_;
   }
-  return out;
-}
+
+  const Scan& scan_;
+  const KeyPose& node_;
+  Pose3 node_from_robot_, world_from_lidar_;
+  std::optional<Points> points_;
+};
 
 class SideFinder {
  public:
@@ -137,9 +155,9 @@ class SideFinder {
         reach_m_(landmark.shape.horizontalExtent() / 2 + kWallBeside_m),
         landmark_from_world_(planarPart(landmark.worldFromObject()).inverse()) {}
 
-  void add(const PosedScan& scan) {
-    const Eigen::Vector2d lidar = landmark_from_world_ * scan.lidar;
-    if (scan.height_m < 0 || scan.height_m > solid_m_ || lidar.norm() > kReach_m) return;
+  void add(PosedScan& scan) {
+    const Eigen::Vector2d lidar = landmark_from_world_ * scan.lidar();
+    if (scan.height_m() < 0 || scan.height_m() > solid_m_ || lidar.norm() > kReach_m) return;
     const std::vector<Return> near = around(scan);
     if (landmark_.shape.kind == ShapeKind::kCylinder) return addInside(scan, near);
     for (const Side& side : sidesOf(landmark_.shape)) {
@@ -165,12 +183,16 @@ class SideFinder {
   }
 
  private:
-  std::vector<Return> around(const PosedScan& scan) const {
+  std::vector<Return> around(PosedScan& scan) const {
     std::vector<Return> out;
-    for (std::size_t i = 0; i < scan.in_world.size(); ++i) {
-      const Eigen::Vector2d place = scan.in_world[i].head<2>();
-      if ((place - landmark_.position.head<2>()).norm() > reach_m_) continue;
-      out.push_back({landmark_from_world_ * place, scan.in_node[i]});
+    const auto& places = scan.inWorld();
+    const Pose2& to = landmark_from_world_;
+    Eigen::Matrix2d turn;
+    turn << std::cos(to.yaw), -std::sin(to.yaw), std::sin(to.yaw), std::cos(to.yaw);
+    const Eigen::Vector2d shift(to.x, to.y);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if ((places[i] - landmark_.position.head<2>()).squaredNorm() > reach_m_ * reach_m_) continue;
+      out.push_back({shift + turn * places[i], scan.inNode()[i]});
     }
     return out;
   }
@@ -197,10 +219,10 @@ class SideFinder {
   }
 
   void keep(const PosedScan& scan, const Return& r, const Eigen::Vector2d& outward) {
-    const Eigen::Vector2d ray = landmark_.position.head<2>() - scan.lidar;
+    const Eigen::Vector2d ray = landmark_.position.head<2>() - scan.lidar();
     const int direction =
         static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / options_.landmark_view_rad));
-    by_direction_[direction].push_back({.node = scan.node,
+    by_direction_[direction].push_back({.node = scan.node(),
                                         .landmark = landmark_.id,
                                         .point_in_robot = r.in_robot,
                                         .outward = outward,
@@ -227,7 +249,7 @@ std::vector<LandmarkSideFactor> scanSides(const std::vector<Scan>& scans, const 
       finders.emplace_back(landmark, *model, options);
   if (finders.empty() || poses.empty()) return {};
   for (const Scan& scan : scans) {
-    const PosedScan posed = placed(scan, poses);
+    PosedScan posed(scan, poses);
     for (SideFinder& finder : finders) finder.add(posed);
   }
   std::vector<LandmarkSideFactor> out;

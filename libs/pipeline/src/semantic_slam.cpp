@@ -227,15 +227,29 @@ void SemanticSlam::localize(double t) {
     const auto verify = [this](const RelativePose& proposed) { return front_ends_.verify(proposed); };
     if (const auto closure = object_loops_.search(objects_, estimator_.poses(), verify)) addClosures({*closure});
   }
+  if (estimator_.takesOver()) takeOver();
   if (estimator_.due()) {
     const auto timing = times_.measure("whole graph");
     objects_.tidy();
-    if (const auto landmarks = estimator_.optimizeLive(inGraph())) objects_.apply(sound(*landmarks));
-  } else {
+    estimator_.beginLive(objects_.inGraphLater(setup_->database, setup_->options.backend));
+  }
+  {
     const auto timing = times_.measure("window of poses");
     estimator_.optimizeWindow();
   }
   anchor();
+}
+
+// What was found beside the run.
+void SemanticSlam::takeOver() {
+  {
+    const auto timing = times_.measure("whole graph");
+    if (const auto solution = estimator_.takeOver()) {
+      objects_.move(solution->later);
+      objects_.apply(sound(solution->landmarks));
+    }
+  }
+  if (const auto work = estimator_.takeWork()) times_.add("whole graph beside the run", *work);
 }
 
 // Returns whether there were new ones.
@@ -298,6 +312,7 @@ SlamResult SemanticSlam::finish() {
 // With all data: poses, landmarks, and who is who. Whatever changes something is followed by an optimisation.
 void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
+  if (estimator_.solving()) takeOver();
   front_ends_.refine();
   const auto near = [this] { optimizeAll(PoseEstimator::Effort::kNear); };
   near();

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 
 namespace roomgraph {
@@ -20,12 +19,6 @@ double residentMemory_mb() {
 }
 
 }  // namespace
-
-double threadTime_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 void StageTimes::add(const char* stage, const Work& work) {
   calls_.push_back({t_, stage, work.ms, work.cpu_ms, memory_mb_});

@@ -21,6 +21,8 @@ struct KeyPose {
 class KeyPoses {
  public:
   explicit KeyPoses(const Motion& motion) : motion_(motion) {}
+  /// The same key poses, with motion of their own.
+  KeyPoses(const KeyPoses& others, const Motion& motion) : motion_(motion), nodes_(others.nodes_) {}
 
   bool empty() const { return nodes_.empty(); }
   const std::vector<KeyPose>& nodes() const { return nodes_; }

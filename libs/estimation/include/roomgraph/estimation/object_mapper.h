@@ -82,6 +82,8 @@ class ObjectMapper {
 
   /// Factors for the graph, with the weights and options of the back end.
   ObjectsInGraph inGraph(const ObjectDatabase& database, const BackendOptions& options) const;
+  /// The same from a copy of what the mapper knows now, for poses that are given. What is referred to outlives it.
+  ObjectsAtPoses inGraphLater(const ObjectDatabase& database, const BackendOptions& options) const;
   /// Sets the landmarks to the result of an optimisation of the graph.
   void apply(const LandmarkEstimates& estimates);
 

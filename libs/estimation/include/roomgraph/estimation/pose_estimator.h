@@ -2,10 +2,14 @@
 // Estimation of robot poses: key poses, sliding window, full optimisation, loop closures.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "roomgraph/core/meter.h"
 #include "roomgraph/estimation/closure_gate.h"
 #include "roomgraph/estimation/drift.h"
 #include "roomgraph/estimation/graph_builder.h"
@@ -24,12 +28,25 @@ struct PathShift {
 /// Landmarks estimated by an optimisation of the graph.
 using LandmarkEstimates = std::map<LandmarkId, LandmarkEstimate>;
 
+/// Landmarks and their factors with key poses as they are given. It may be called from another thread, while the run
+/// goes on.
+using ObjectsAtPoses = std::function<ObjectsInGraph(const KeyPoses&)>;
+
+class LiveSolve;
+
+/// What an optimisation of the graph found.
+struct GraphSolution {
+  LandmarkEstimates landmarks;  ///< those that it held
+  PathShift later;              ///< of everything first seen after what it held
+};
+
 /// The robot's poses in world: key poses, what was measured between them, and the optimisations (method.md
 /// sec. 4, M-step). Independent of how objects are stored: it is given their factors and returns their estimates.
 class PoseEstimator {
  public:
   /// Both outlive the estimator.
   PoseEstimator(const BackendOptions& options, const Motion& motion);
+  ~PoseEstimator();
 
   /// Solutions of the whole graph are kept there, and recalled. The store outlives the estimator's work.
   void setResultStore(ResultStore& store) { results_ = &store; }
@@ -65,8 +82,18 @@ class PoseEstimator {
   bool due() const;
   /// Optimises the latest key poses.
   void optimizeWindow();
-  /// Optimises everything, within the time that a run can spare; nothing when the solver found no usable solution.
-  std::optional<LandmarkEstimates> optimizeLive(const ObjectsInGraph& objects);
+  /// Begins to optimise everything measured so far, within the time that a run can spare: beside the run where the
+  /// program has threads, else in takeOver(). There must be a key pose, and nothing else being optimised.
+  void beginLive(ObjectsAtPoses objects);
+  /// Whether a solution is on its way, and whether its turn has come: at a key pose that only the number of key poses
+  /// decides, so that a run can be repeated.
+  bool solving() const { return live_ != nullptr; }
+  bool takesOver() const;
+  /// Sets the key poses to what beginLive() found, when that is there; later ones move with the last of them. Nothing
+  /// when the solver found no usable solution, or the poses were moved meanwhile.
+  std::optional<GraphSolution> takeOver();
+  /// What the optimisations beside the run took, of those taken over since the last call.
+  std::optional<Work> takeWork() { return std::exchange(work_, std::nullopt); }
   enum class Effort { kNear, kToTheEnd };  ///< near the optimum will do where what is sought changes yet
   /// Optimises everything, from the former solution if there is one; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects, Effort effort = Effort::kToTheEnd);
@@ -76,11 +103,12 @@ class PoseEstimator {
   void transform(const Pose3& new_from_old);
 
  private:
-  std::optional<LandmarkEstimates> optimize(const ObjectsInGraph& objects, const SolveOptions& until,
-                                            const FactorGraph* former);
-  SolveReport solveWhole(const SolveOptions& until);
+  /// The graph is the same when a run is repeated: its solution need not be sought again. `graph` is asked for to set that.
+  SolveReport solution(const std::function<SolveReport()>& solve, const std::function<FactorGraph&()>& graph);
+  PathShift adopt(const FactorGraph& solved, std::size_t count);
   void slideWindow();
-  void restartWindow();
+  void restartWindow(std::size_t first);
+  void movedFromOutside();
   double surpriseOf(const RelativePose& closure) const;
   void pullSurprises();
   void settleSurprises();
@@ -102,11 +130,14 @@ class PoseEstimator {
   struct Surprise {
     RelativePose closure;
     double size;
+    bool in_graph = false;  ///< in the one that is being optimised
     bool pulled = false;
   };
   std::vector<Surprise> surprises_;  ///< while there are any: optimise soon
   bool levelled_ = false;
   ResultStore* results_ = nullptr;
+  std::optional<Work> work_;
+  std::unique_ptr<LiveSolve> live_;
 };
 
 }  // namespace roomgraph

@@ -122,6 +122,7 @@ class SemanticSlam {
   ScanMatch match(const Scan& scan);
 
   void localize(double t);
+  void takeOver();
   bool closeLoopsOfScans();
   void addClosures(const std::vector<RelativePose>& closures);
   ObjectsInGraph inGraph() const;

@@ -2,37 +2,13 @@
 // Wall-clock and processor time of every call of a stage, and the memory after it.
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "roomgraph/core/meter.h"
+
 namespace roomgraph {
-
-/// Processor time of the calling thread so far, ms.
-double threadTime_ms();
-
-/// Time on the wall, and on the processor of a thread.
-struct Work {
-  double ms = 0, cpu_ms = 0;
-  void add(const Work& more) {
-    ms += more.ms;
-    cpu_ms += more.cpu_ms;
-  }
-};
-
-/// Measures the work of a thread from now on.
-class Meter {
- public:
-  Work soFar() const {
-    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started_).count(),
-            threadTime_ms() - cpu_ms_};
-  }
-
- private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  double cpu_ms_ = threadTime_ms();
-};
 
 /// How long the stages of a run take, call by call: MRPT's time logger keeps sums only, and those do not tell
 /// whether a stage gets slower as the run goes on. Nothing computed depends on it.
