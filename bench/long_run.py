@@ -6,7 +6,8 @@
 
 The world's path (worlds/lab.json) is driven again and again: up to where it comes back to its start, as often as the minutes
 need. The simulated sequence is kept in OUT/sequences and used again. Times are processor time of all threads, which other
-programs on the machine disturb little. `back end`: optimisation per key pose, of the window or of the whole graph.
+programs on the machine disturb little. `back end`: optimisation per key pose, of the window, and what the run itself does for
+the whole graph, which a thread beside it optimises.
 """
 import argparse
 import collections
@@ -68,7 +69,7 @@ def describe(values):
 
 
 def table(file, last_minute):
-    stages = {"back end": BACK_END, "selection and association": FRAMES, **{name: (name,) for name in (*BACK_END, "object loop closing",
+    stages = {"back end": BACK_END, "selection and association": FRAMES, **{name: (name,) for name in (*BACK_END, "whole graph beside the run", "object loop closing",
               "scan loop closing", "scan matching", "RGB-D odometry", "proposals")}}
     minutes = {name: calls_by_minute(file, of, last_minute) for name, of in stages.items()}
     lines = ["Processor ms per call: mean / 95 % / largest.", "",

@@ -9,6 +9,7 @@
 #include "roomgraph/association/register_classes.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
+#include "shipped_objects.h"
 #include "still_camera.h"
 
 namespace roomgraph::test {
@@ -33,6 +34,29 @@ std::shared_ptr<Associator> generousAssociator() {
   std::shared_ptr<Associator> out = createStage<Associator>("NearestNeighborAssociator", "test");
   Config::fromText("[association]\nmax_distance_ratio = 5\n", "test").read("association", *out);
   return out;
+}
+
+// For another thread: what comes afterwards is not in it.
+TEST(ObjectMapper, FactorsOfACopyAreThoseOfTheTimeWhenItWasMade) {
+  KeyPoses poses(standing());
+  poses.add(0, Pose3::Identity());
+  ObjectMapper mapper(generousAssociator(), {}, 0.03, poses);
+  const ObjectDatabase& database = shippedObjects();
+  const BackendOptions options;
+  const auto see = [&](int i) { mapper.associate({chairAt(frameAt(i, 0.5 * i), 3, 0.1 * i)}, frameAt(i, 0.5 * i), {}, noDrift()); };
+  for (int i = 0; i < 3; ++i) see(i);
+  const ObjectsAtPoses later = mapper.inGraphLater(database, options);
+  const ObjectsInGraph now = mapper.inGraph(database, options);
+  ASSERT_EQ(now.landmarks.size(), 1u);
+  ASSERT_FALSE(now.factors.sightings.empty());
+  for (int i = 3; i < 9; ++i) see(i);
+  const ObjectsInGraph copied = later(poses);
+  ASSERT_EQ(copied.landmarks.size(), 1u);
+  EXPECT_EQ(copied.landmarks[0].position, now.landmarks[0].position);
+  ASSERT_EQ(copied.factors.sightings.size(), now.factors.sightings.size());
+  EXPECT_EQ(copied.factors.sightings[0].position_in_robot, now.factors.sightings[0].position_in_robot);
+  EXPECT_EQ(copied.factors.sightings[0].weight, now.factors.sightings[0].weight);
+  EXPECT_NE(mapper.inGraph(database, options).factors.sightings[0].position_in_robot, now.factors.sightings[0].position_in_robot);
 }
 
 // Two chairs .8 m apart, in view one at a time; the associator takes them for one.
