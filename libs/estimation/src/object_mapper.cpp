@@ -292,6 +292,7 @@ ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const Backe
 }
 
 ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const BackendOptions& options) const {
+  if (landmarks_.landmarks().empty()) return [](const KeyPoses&) { return ObjectsInGraph{}; };
   struct Copies {
     std::vector<Landmark> landmarks;
     std::vector<ObjectFrame> frames;
