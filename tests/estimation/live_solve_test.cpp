@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core/utility.hpp>
+#include <thread>
 
 #include "circle_drive.h"
+#include "results_in_memory.h"
 #include "roomgraph/estimation/pose_estimator.h"
 
 namespace roomgraph::test {
@@ -39,6 +41,7 @@ struct Drive {
   void begin() {
     estimator.beginLive([this](const KeyPoses& poses) {
       seen = poses.nodes().size();
+      asked_by = std::this_thread::get_id();
       return ObjectsInGraph{};
     });
   }
@@ -48,12 +51,13 @@ struct Drive {
     return out;
   }
 
+  std::size_t seen = 0;    // key poses for which factors of objects were asked
+  std::thread::id asked_by;
   MotionSource none{MotionNoise{}, true};
   Motion motion{drifting(1.03, 1.04, kWheelNoise), none, none};
   BackendOptions options;
   PoseEstimator estimator{options, motion};
   int t = 0;
-  std::size_t seen = 0;  // key poses for which factors of objects were asked
 };
 
 double distance(const Pose3& a, const Pose3& b) { return (a.translation() - b.translation()).norm(); }
@@ -75,6 +79,7 @@ TEST(LiveSolve, IsTakenOverThreeKeyPosesLaterWithAnyNumberOfThreads) {
     ASSERT_TRUE(drive.estimator.takesOver());
     ASSERT_TRUE(drive.estimator.takeOver());
     EXPECT_FALSE(drive.estimator.solving());
+    EXPECT_EQ(drive.asked_by != std::this_thread::get_id(), threads > 1);
     EXPECT_EQ(drive.seen, 20u) << "what came meanwhile is not in it";
     EXPECT_LT(distance(drive.estimator.poses().at(19), truthAt(19)), 0.05);
     drive.on(4);
@@ -125,11 +130,13 @@ TEST(LiveSolve, IsVoidWhenPosesWereMovedMeanwhile) {
   ASSERT_TRUE(drive.estimator.takesOver());
   EXPECT_FALSE(drive.estimator.takeOver());
   EXPECT_FALSE(drive.estimator.solving());
+  EXPECT_TRUE(drive.estimator.due()) << "without another pause";
   for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_EQ(drive.path()[i].matrix(), moved[i].matrix()) << i;
 }
 
-// Not in the graph that was being solved: that this did not bring it nearer says nothing.
-TEST(LiveSolve, LeavesClosuresThatCameMeanwhileToTheNextOne) {
+// Not in the graph that was being solved: that this did not bring it nearer says nothing, but the poses are back where
+// they were without it.
+TEST(LiveSolve, IsFollowedAtOnceByOneThatKnowsOfClosuresThatCameMeanwhile) {
   Drive drive;
   drive.on(20);
   drive.begin();
@@ -137,16 +144,91 @@ TEST(LiveSolve, LeavesClosuresThatCameMeanwhileToTheNextOne) {
   drive.estimator.addClosures({closure(0, 21)});
   drive.on(1);
   ASSERT_TRUE(drive.estimator.takeOver());
-  drive.on(2);
-  ASSERT_FALSE(drive.estimator.due());
-  drive.on(1);
-  EXPECT_TRUE(drive.estimator.due()) << "after half the usual pause, counted from the beginning";
+  ASSERT_TRUE(drive.estimator.due());
   drive.begin();
   ASSERT_TRUE(drive.estimator.takeOver());
   EXPECT_LT(distance(drive.estimator.poses().at(21), truthAt(21)), 0.05);
+  EXPECT_FALSE(drive.estimator.due());
 }
 
-TEST(LiveSolve, TellsWhatItTookOnce) {
+// It came meanwhile, but agrees with what was found.
+TEST(LiveSolve, MeetsClosuresThatCameMeanwhile) {
+  Drive drive;
+  drive.on(20);
+  drive.estimator.addClosures({closure(0, 12)});
+  drive.begin();
+  drive.on(2);
+  RelativePose met = closure(0, 12);
+  met.t_b = 12.5;
+  met.a_from_b = truthAt(0).inverse() * truthAt(12.5);
+  drive.estimator.addClosures({met});
+  drive.on(1);
+  ASSERT_TRUE(drive.estimator.takeOver());
+  EXPECT_FALSE(drive.estimator.due());
+}
+
+// The window that begins at the take-over may be shorter than what came meanwhile; what its last pose measured counts once.
+TEST(LiveSolve, LeavesTheWindowWithEachMeasurementOnce) {
+  for (const int nodes : {2, 3, 100}) {
+    Drive drive;
+    drive.options.window_nodes = nodes;
+    drive.on(20);
+    drive.begin();
+    for (; drive.t < kNodes; ++drive.t) {
+      ASSERT_TRUE(drive.estimator.advance(drive.t));
+      if (drive.t == 22) {
+        RelativePose vague = closure(0, drive.t);
+        vague.covariance = 0.01 * Matrix6d::Identity();
+        drive.estimator.addClosures({vague});
+      }
+      if (drive.estimator.takesOver()) {
+        ASSERT_TRUE(drive.estimator.takeOver());
+      }
+      drive.estimator.optimizeWindow();
+    }
+    // Everything at once, with what the window began with held.
+    const int held = std::max(19, 23 - nodes);
+    FactorGraph graph;
+    const auto& poses = drive.estimator.poses();
+    for (const KeyPose& node : poses.nodes()) graph.addPose(node.id, node.world_from_robot, node.id.value <= held);
+    for (auto i = static_cast<std::size_t>(held); i + 1 < poses.nodes().size(); ++i) {
+      const auto step = drive.motion.odometry.between(poses.nodes()[i].t, poses.nodes()[i + 1].t, 1);
+      graph.add(BetweenFactor{poses.nodes()[i].id, poses.nodes()[i + 1].id, step->a_from_b, step->covariance, 3});
+      graph.add(PlanarFactor{poses.nodes()[i + 1].id, drive.options.planar_sigma_z_m, drive.options.planar_sigma_tilt_rad});
+    }
+    for (const RelativePose& seen : drive.estimator.closures())
+      graph.add(*closureFactor(seen, poses, drive.options.closure_robust_width));
+    ASSERT_TRUE(graph.optimize(200).usable);
+    EXPECT_LT(distance(poses.nodes().back().world_from_robot, graph.pose(poses.nodes().back().id)), 0.01) << "window of " << nodes;
+  }
+}
+
+// A run of ten minutes that is taken up again: the graph is far larger than its numbers.
+TEST(LiveSolve, OfALongRunIsRecalled) {
+  MotionSource wheels(kWheelNoise, true);
+  for (int t = 0; t <= 800; ++t) wheels.add(t, poseFromYpr(0.5 * t, 0, 0, 0, 0, 0), 0, Matrix6d::Zero());
+  const MotionSource none{MotionNoise{}, true};
+  const Motion motion{wheels, none, none};
+  const BackendOptions options;
+  const auto endOf = [&](ResultsInMemory& store) {
+    PoseEstimator estimator(options, motion);
+    estimator.setPlanar();
+    estimator.setResultStore(store);
+    for (int t = 0; t <= 800; ++t) EXPECT_TRUE(estimator.advance(t));
+    estimator.beginLive([](const KeyPoses&) { return ObjectsInGraph{}; });
+    EXPECT_TRUE(estimator.takeOver());
+    return estimator.poses().nodes().back().world_from_robot.matrix().eval();
+  };
+  ResultsInMemory first;
+  const Eigen::Matrix4d end = endOf(first);
+  ASSERT_EQ(first.kept, 1u);
+  ResultsInMemory again = first.beginning(1);
+  EXPECT_EQ(endOf(again), end);
+  EXPECT_EQ(again.kept, 0u);
+}
+
+TEST(LiveSolve, TellsWhatItsThreadTookOnce) {
+  const Threads limit(2);
   Drive drive;
   drive.on(20);
   EXPECT_FALSE(drive.estimator.takeWork());
@@ -157,6 +239,23 @@ TEST(LiveSolve, TellsWhatItTookOnce) {
   ASSERT_TRUE(work);
   EXPECT_GT(work->ms, 0);
   EXPECT_FALSE(drive.estimator.takeWork());
+}
+
+TEST(LiveSolve, HasNoThreadToTellOfWithoutThreads) {
+  const Threads limit(1);
+  Drive drive;
+  drive.on(20);
+  drive.begin();
+  ASSERT_TRUE(drive.estimator.takeOver());
+  EXPECT_FALSE(drive.estimator.takeWork());
+}
+
+TEST(LiveSolve, PassesOnWhatGoesWrongInItsThread) {
+  const Threads limit(2);
+  Drive drive;
+  drive.on(20);
+  drive.estimator.beginLive([](const KeyPoses&) -> ObjectsInGraph { throw std::runtime_error("no factors"); });
+  EXPECT_THROW(drive.estimator.takeOver(), std::runtime_error);
 }
 
 // An estimator that ends first waits for what it began.

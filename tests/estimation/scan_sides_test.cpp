@@ -50,7 +50,7 @@ class ScanSides : public ::testing::Test {
       scan.ranges_m.push_back(static_cast<float>(range));
       scan.valid.push_back(range > 0);
     }
-    scans_.push_back(scan);
+    scans_.push_back(std::make_shared<Scan>(scan));
   }
   void addOutline(const Landmark& object) {
     const auto corners = footprintAt(planarPart(object.worldFromObject()), object.shape);
@@ -90,7 +90,7 @@ class ScanSides : public ::testing::Test {
   KeyPoses poses_{standing()};
   BackendOptions options_;
   std::vector<Segment> segments_;
-  std::vector<Scan> scans_;
+  KeptScans scans_;
 };
 
 TEST_F(ScanSides, MoveASofaToItsSides) {

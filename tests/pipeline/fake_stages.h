@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <vector>
+#include <utility>
 
 #include "roomgraph/association/association_model.h"
 #include "roomgraph/association/associator.h"
@@ -30,6 +31,7 @@ struct World {
   double detector_fails_from = 1e300;  ///< from then on the detector does not run
   /// Above the floor, of the level plane that the depth camera sees, by time.
   std::function<double(double)> plane_height = [](double) { return 0.0; };
+  std::vector<roomgraph::RelativePose> closures = {};  ///< between cameras; the odometry gives them once
   roomgraph::Matrix6d step_covariance = 1e-8 * roomgraph::Matrix6d::Identity();  ///< that the odometry says
   /// What came of the run: what the tracker was told to leave out and to expect, frame by frame; detector's
   /// calls.
@@ -89,6 +91,7 @@ class FakeOdometry : public roomgraph::RgbdOdometry {
   roomgraph::TrackingResult track(const roomgraph::Frame& frame,
                                   const roomgraph::TrackingPrior& prior) override;
   roomgraph::Trajectory trajectory() const override { return trajectory_; }
+  std::vector<roomgraph::RelativePose> takeLoopClosures() override { return std::exchange(world().closures, {}); }
   /// Confirms what is proposed with an error of less than 1 m, and gives the exact closure.
   std::optional<roomgraph::RelativePose> verifyLoop(const roomgraph::RelativePose& proposed) override;
 

@@ -6,6 +6,7 @@
 
 #include "drive.h"
 #include "fake_stages.h"
+#include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph::test {
 namespace {
@@ -86,6 +87,25 @@ TEST_F(FrontEndsTest, ImagesConfirmClosuresBetweenRobots) {
   const auto closure = front_->verify(proposed);
   ASSERT_TRUE(closure);
   EXPECT_TRUE(closure->a_from_b.isApprox(truth, 1e-6));
+}
+
+// Links between segments are movements.
+TEST_F(FrontEndsTest, LinksAreNotCountedAmongLoopClosures) {
+  const auto seen = [](double t_a, double t_b) {
+    const auto& camera = fakes::world().world_from_camera;
+    RelativePose out{t_a, t_b, camera(t_a).inverse() * camera(t_b), 1e-6 * Matrix6d::Identity()};
+    out.source = "tracking";
+    return out;
+  };
+  SemanticSlam slam(std::move(setup_));
+  for (double t = 0; t < 5.05; t += 0.1) slam.process(Drive::frame(t));
+  RelativePose link = seen(3, 4);
+  link.link = true;
+  fakes::world().closures = {seen(1, 4.5), link};
+  for (double t = 5.1; t < 8.05; t += 0.1) slam.process(Drive::frame(t));
+  const SlamResult result = slam.finish();
+  EXPECT_EQ(result.counts.loop_closures, 1);
+  EXPECT_EQ(result.counts.links, 1);
 }
 
 }  // namespace

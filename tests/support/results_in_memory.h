@@ -30,6 +30,7 @@ class ResultsInMemory : public ResultStore {
     all.push_back({std::string(name), t, std::string(bytes)});
     ++kept;
   }
+  bool recalling() const override { return next < recallable; }
   /// For a repetition that has the first `count` of them.
   ResultsInMemory beginning(std::size_t count) const {
     ResultsInMemory out;

@@ -2,6 +2,7 @@
 // Building and solving of a graph from copies, in another thread or this one.
 #include "live_solve.h"
 
+#include <system_error>
 #include <utility>
 
 namespace roomgraph {
@@ -16,25 +17,34 @@ LiveSolve::LiveSolve(const KeyPoses& poses, const Motion& motion, const Measurem
       until_(until) {}
 
 void LiveSolve::goBeside() {
-  beside_ = std::async(std::launch::async, [this] { return buildAndSolve(); });
+  const auto work = [this] {
+    const Meter meter;
+    build();
+    SolveReport report = graph_->optimize(until_);
+    work_ = meter.soFar();
+    return report;
+  };
+  try {
+    beside_ = std::async(std::launch::async, work);
+  } catch (const std::system_error&) {
+    // The system has no more threads: solve() does it.
+  }
 }
 
-SolveReport LiveSolve::solve() { return beside_.valid() ? beside_.get() : buildAndSolve(); }
+SolveReport LiveSolve::solve() { return beside_.valid() ? beside_.get() : graph().optimize(until_); }
 
 FactorGraph& LiveSolve::graph() {
-  if (graph_) return *graph_;
-  const ObjectsInGraph objects = objects_(poses_);
-  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
-  for (const Landmark& landmark : objects.landmarks)
-    if (graph_->hasLandmark(landmark.id)) landmarks_.push_back(landmark.id);
+  if (beside_.valid()) beside_.wait();
+  if (!graph_) build();
   return *graph_;
 }
 
-SolveReport LiveSolve::buildAndSolve() {
-  const Meter meter;
-  SolveReport report = graph().optimize(until_);
-  work_ = meter.soFar();
-  return report;
+void LiveSolve::build() {
+  const ObjectsInGraph objects = objects_(poses_);
+  objects_ = nullptr;  // its copies are large
+  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
+  for (const Landmark& landmark : objects.landmarks)
+    if (graph_->hasLandmark(landmark.id)) landmarks_.push_back(landmark.id);
 }
 
 }  // namespace roomgraph

@@ -4,6 +4,7 @@
 
 #include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "roomgraph/core/meter.h"
@@ -18,24 +19,29 @@ class LiveSolve {
   LiveSolve(const KeyPoses& poses, const Motion& motion, const Measurements& measurements, ObjectsAtPoses objects,
             const BackendOptions& options, const SolveOptions& until);
 
-  /// Begins in a thread of its own; otherwise solve() does the work. Once, and before the other calls.
+  LiveSolve(const LiveSolve&) = delete;
+  LiveSolve& operator=(const LiveSolve&) = delete;
+
+  /// Begins in a thread of its own, where there is one to be had; otherwise solve() does the work.
   void goBeside();
   /// Optimises, or waits for the thread. Once.
   SolveReport solve();
-  /// Begins with everything where it was, if solve() was not called. Not after goBeside().
+  /// With everything where it was, if neither solve() nor a thread has changed that; waits for the thread.
   FactorGraph& graph();
 
   /// Key poses in the graph: the first ones of the run.
   std::size_t nodes() const { return poses_.nodes().size(); }
   /// In the graph, which there must be.
   const std::vector<LandmarkId>& landmarks() const { return landmarks_; }
-  /// Of solve(), wherever it was done.
-  const Work& work() const { return work_; }
+  /// Of the thread, after solve(); nothing when there was none.
+  const std::optional<Work>& workBeside() const { return work_; }
 
-  bool outdated = false;  ///< the run's poses were moved since, otherwise than by takeOver(): nothing fits any more
+  /// The run's poses were moved since: its solution is that of another path.
+  void outdate() { outdated_ = true; }
+  bool outdated() const { return outdated_; }
 
  private:
-  SolveReport buildAndSolve();
+  void build();
 
   Motion motion_;
   KeyPoses poses_;
@@ -45,7 +51,8 @@ class LiveSolve {
   SolveOptions until_;
   std::unique_ptr<FactorGraph> graph_;
   std::vector<LandmarkId> landmarks_;
-  Work work_;
+  std::optional<Work> work_;
+  bool outdated_ = false;
   std::future<SolveReport> beside_;  // last: ends before what it uses
 };
 

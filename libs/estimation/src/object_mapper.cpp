@@ -277,7 +277,7 @@ void ObjectMapper::move(const PathShift& shift) {
 namespace {
 
 ObjectsInGraph factorsOf(const std::vector<Landmark>& landmarks, const std::vector<ObjectFrame>& frames,
-                         const std::vector<Scan>& scans, const AssociationModel* model, const KeyPoses& poses,
+                         const KeptScans& scans, const AssociationModel* model, const KeyPoses& poses,
                          const ObjectDatabase& database, const BackendOptions& options) {
   ObjectsInGraph out{landmarks, objectFactors(frames, poses, landmarks, database, options,
                                               model ? &model->measurement : nullptr)};
@@ -296,7 +296,7 @@ ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const 
   struct Copies {
     std::vector<Landmark> landmarks;
     std::vector<ObjectFrame> frames;
-    std::vector<Scan> scans;
+    KeptScans scans;
     std::optional<AssociationModel> model;
   };
   auto copies = std::make_shared<Copies>(Copies{landmarks_.landmarks(), frames_, space_->scans(), {}});
@@ -309,7 +309,8 @@ ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const 
 
 void ObjectMapper::apply(const LandmarkEstimates& estimates) {
   for (const Landmark& landmark : std::vector<Landmark>(landmarks_.landmarks()))
-    if (const auto found = estimates.find(landmark.id); found != estimates.end())
+    if (const auto found = estimates.find(landmark.id);
+        found != estimates.end() && found->second.shape.kind == landmark.shape.kind)  // else its class has changed since
       landmarks_.correct(landmark.id, found->second.position, found->second.yaw, found->second.shape,
                          landmark.covariance);
 }

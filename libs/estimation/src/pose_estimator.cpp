@@ -11,7 +11,7 @@
 
 namespace roomgraph {
 namespace {
-constexpr int kLiveIterations = 10;  // bounds the pause of a run; the next optimisation continues
+constexpr int kLiveIterations = 10;  // bounds the work beside a run; the next optimisation begins where this one ended
 constexpr int kNearIterations = 10;
 // Key poses from the beginning of an optimisation to its end: as many as take a robot longer to drive.
 constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100;
@@ -66,10 +66,13 @@ void PoseEstimator::pullSurprises() {
 // After an optimisation: those that it brought nearer without satisfying them ask for another one; those that it left
 // where they were are outvoted.
 void PoseEstimator::settleSurprises() {
+  again_ = false;
   std::erase_if(surprises_, [&](Surprise& surprise) {
-    if (!std::exchange(surprise.in_graph, false)) return false;
     const double before = std::exchange(surprise.size, surpriseOf(surprise.closure));
-    return surprise.size <= 1 || !(surprise.size < kStillNearing * before);
+    if (surprise.size <= 1) return true;
+    if (std::exchange(surprise.in_graph, false)) return !(surprise.size < kStillNearing * before);
+    again_ = true;  // it came meanwhile, and what was taken over has undone what the window had made of it
+    return false;
   });
 }
 
@@ -132,7 +135,7 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
 
 // The pause grows with the graph, so that the work per key pose stays bounded on long runs.
 bool PoseEstimator::due() const {
-  if (live_) return false;
+  if (live_ || again_) return !live_;
   const int nodes = static_cast<int>(poses_.nodes().size());
   const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 2, nodes / 100)
                                           : std::max(options_.optimize_every_nodes, nodes / 20);
@@ -160,7 +163,7 @@ void PoseEstimator::restartWindow(std::size_t first) {
 
 void PoseEstimator::movedFromOutside() {
   graph_is_near_ = false;
-  if (live_) live_->outdated = true;
+  if (live_) live_->outdate();
   restartWindow(poses_.nodes().size() - 1);
 }
 
@@ -177,7 +180,7 @@ void PoseEstimator::optimizeWindow() {
 // Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
 void PoseEstimator::beginLive(ObjectsAtPoses objects) {
   nodes_since_optimization_ = 0;
-  graph_is_near_ = false;
+  again_ = graph_is_near_ = false;
   pullSurprises();
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
   live_ = std::make_unique<LiveSolve>(
@@ -187,21 +190,34 @@ void PoseEstimator::beginLive(ObjectsAtPoses objects) {
   if (cv::getNumThreads() > 1 && !(results_ && results_->recalling())) live_->goBeside();
 }
 
+// What was asked of a solution that is void is asked of the next one, at once.
+void PoseEstimator::repeatSurprises() {
+  again_ = true;
+  for (Surprise& surprise : surprises_)
+    if (std::exchange(surprise.in_graph, false)) surprise.pulled = false;
+}
+
 bool PoseEstimator::takesOver() const {
   return live_ && poses_.nodes().size() >= live_->nodes() + std::max(kLeastLag, live_->nodes() / kNodesPerLag);
 }
 
 std::optional<GraphSolution> PoseEstimator::takeOver() {
   const std::unique_ptr<LiveSolve> live = std::move(live_);
-  if (live->outdated) return std::nullopt;
+  if (!live) return std::nullopt;
+  if (live->outdated()) {
+    repeatSurprises();
+    return std::nullopt;
+  }
+  if (results_ && results_->recalling()) live->graph();  // before numbers are read, which bounds the memory that is used
   const SolveReport report =
       solution([&] { return live->solve(); }, [&]() -> FactorGraph& { return live->graph(); });
-  work_ = live->work();
+  work_ = live->workBeside();
   graph_ = std::move(live->graph());
   GraphSolution out;
   if (report.usable) out.later = adopt(graph_, live->nodes());
   settleSurprises();
-  restartWindow(live->nodes() - 1);
+  const std::size_t size = poses_.nodes().size(), most = static_cast<std::size_t>(options_.window_nodes);
+  restartWindow(std::max(live->nodes() - 1, size - std::min(size, most)));
   if (!report.usable) return std::nullopt;
   for (const LandmarkId id : live->landmarks()) out.landmarks.emplace(id, graph_.landmark(id));
   return out;
@@ -217,6 +233,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
     measurements_.pulls.clear();  // the map is the optimum of what was measured, each once
   }
   if (poses_.empty()) return LandmarkEstimates{};
+  live_.reset();
   nodes_since_optimization_ = 0;
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr);
@@ -233,6 +250,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   return estimates;
 }
 
+// The graph is the same when a run is repeated: its solution need not be sought again, only set in `graph`.
 SolveReport PoseEstimator::solution(const std::function<SolveReport()>& solve,
                                     const std::function<FactorGraph&()>& graph) {
   const auto encode = [&](const SolveReport& report) {

@@ -187,12 +187,11 @@ class SideFinder {
     std::vector<Return> out;
     const auto& places = scan.inWorld();
     const Pose2& to = landmark_from_world_;
-    Eigen::Matrix2d turn;
-    turn << std::cos(to.yaw), -std::sin(to.yaw), std::sin(to.yaw), std::cos(to.yaw);
-    const Eigen::Vector2d shift(to.x, to.y);
+    const double c = std::cos(to.yaw), s = std::sin(to.yaw);
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if ((places[i] - landmark_.position.head<2>()).squaredNorm() > reach_m_ * reach_m_) continue;
-      out.push_back({shift + turn * places[i], scan.inNode()[i]});
+      if ((places[i] - landmark_.position.head<2>()).norm() > reach_m_) continue;
+      const double x = places[i].x(), y = places[i].y();
+      out.push_back({{to.x + c * x - s * y, to.y + s * x + c * y}, scan.inNode()[i]});
     }
     return out;
   }
@@ -240,7 +239,7 @@ class SideFinder {
 
 }  // namespace
 
-std::vector<LandmarkSideFactor> scanSides(const std::vector<Scan>& scans, const KeyPoses& poses,
+std::vector<LandmarkSideFactor> scanSides(const KeptScans& scans, const KeyPoses& poses,
                                           const std::vector<Landmark>& landmarks,
                                           const ObjectDatabase& database, const BackendOptions& options) {
   std::vector<SideFinder> finders;
@@ -248,8 +247,8 @@ std::vector<LandmarkSideFactor> scanSides(const std::vector<Scan>& scans, const 
     if (const ObjectModel* model = database.find(landmark.model))
       finders.emplace_back(landmark, *model, options);
   if (finders.empty() || poses.empty()) return {};
-  for (const Scan& scan : scans) {
-    PosedScan posed(scan, poses);
+  for (const auto& scan : scans) {
+    PosedScan posed(*scan, poses);
     for (SideFinder& finder : finders) finder.add(posed);
   }
   std::vector<LandmarkSideFactor> out;

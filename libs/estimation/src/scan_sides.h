@@ -9,7 +9,7 @@
 #include "roomgraph/estimation/options.h"
 #include "roomgraph/observations/landmark.h"
 #include "roomgraph/observations/object_database.h"
-#include "roomgraph/observations/scan.h"
+#include "space_memory.h"
 
 namespace roomgraph {
 
@@ -19,7 +19,7 @@ namespace roomgraph {
 /// stand inside, what goes on beyond it is a wall or a desk. A side of which a scan shows less than a few
 /// returns, or returns that do not lie on a line, gives nothing. Returns from one direction repeat their
 /// errors, as sightings do, and weigh as much as their mean.
-std::vector<LandmarkSideFactor> scanSides(const std::vector<Scan>& scans, const KeyPoses& poses,
+std::vector<LandmarkSideFactor> scanSides(const KeptScans& scans, const KeyPoses& poses,
                                           const std::vector<Landmark>& landmarks,
                                           const ObjectDatabase& database, const BackendOptions& options);
 

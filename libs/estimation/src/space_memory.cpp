@@ -61,7 +61,7 @@ void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot) {
 void SpaceMemory::add(const Scan& scan, const Pose3& world_from_robot) {
   if (!scans_.empty() && sameView(last_scan_from_, world_from_robot)) return;
   last_scan_from_ = world_from_robot;
-  scans_.push_back(scan);
+  scans_.push_back(std::make_shared<Scan>(scan));
 }
 
 PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
@@ -71,8 +71,8 @@ PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
     out.images_.push_back(
         {image.t, (poses.at(image.t) * image.robot_from_camera).inverse(), &image.camera, &image.depth_mm});
   for (const auto& scan : scans_) {
-    const Pose3 world_from_lidar = poses.at(scan.t) * scan.robot_from_lidar;
-    out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), &scan});
+    const Pose3 world_from_lidar = poses.at(scan->t) * scan->robot_from_lidar;
+    out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), scan.get()});
   }
   return out;
 }

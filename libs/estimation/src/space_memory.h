@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
+
+/// Scans that never change: a copy of these for another thread costs little.
+using KeptScans = std::vector<std::shared_ptr<const Scan>>;
 
 /// Views of one point: rays that went on beyond it, ended at it, or ended before it.
 struct RayCounts {
@@ -55,7 +59,7 @@ class SpaceMemory {
   /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken.
   void add(const Frame& frame, const Pose3& world_from_robot);
   void add(const Scan& scan, const Pose3& world_from_robot);
-  const std::vector<Scan>& scans() const { return scans_; }
+  const KeptScans& scans() const { return scans_; }
   /// Valid until the next add().
   PosedViews posed(const KeyPoses& poses) const;
 
@@ -67,7 +71,7 @@ class SpaceMemory {
     cv::Mat depth_mm;  ///< CV_16UC1, 0: none
   };
   std::vector<Image> images_;
-  std::vector<Scan> scans_;
+  KeptScans scans_;
   Pose3 last_image_from_ = Pose3::Identity(), last_scan_from_ = Pose3::Identity();
 };
 

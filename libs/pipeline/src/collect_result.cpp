@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The map and the trajectories at the end of a run.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -41,7 +42,10 @@ SlamResult SemanticSlam::collect() {
   SlamResult result;
   result.counts = counts_;
   result.counts.key_poses = static_cast<int>(poses.nodes().size());
-  result.counts.loop_closures = static_cast<int>(estimator_.closures().size());
+  const auto& closures = estimator_.closures();
+  const auto links = std::count_if(closures.begin(), closures.end(), [](const auto& closure) { return closure.link; });
+  result.counts.links = static_cast<int>(links);
+  result.counts.loop_closures = static_cast<int>(closures.size()) - result.counts.links;
   if (const int refused = estimator_.refusedClosures(); refused > 0)
     result.counts.reasons["loop closing: images against the movement since"] = refused;
   result.map.planar = estimator_.planar();

@@ -16,6 +16,7 @@ void appendClosureKinds(const SemanticSlam& slam, const std::filesystem::path& f
   std::ofstream out(file, std::ios::app);
   const KeyPoses& poses = slam.keyPoses();
   for (const auto& closure : slam.loopClosures()) {
+    if (closure.link) continue;
     const NodeId a = poses.nearest(closure.t_a).id, b = poses.nearest(closure.t_b).id;
     if (a != b) out << "# CLOSURE " << a << ' ' << b << ' ' << closure.source << '\n';
   }

@@ -105,6 +105,7 @@ ordered_json countsJson(const SlamResult& result) {
           {"recorded_detections", counts.detections},
           {"key_poses", counts.key_poses},
           {"loop_closures", counts.loop_closures},
+          {"links", counts.links},
           {"landmarks", result.map.landmarks.size()}};
 }
 

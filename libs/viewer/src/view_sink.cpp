@@ -3,6 +3,7 @@
 #include "view_sink.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace roomgraph {
 namespace {
@@ -111,9 +112,10 @@ void ViewSink::copyPath() {
     auto poses = std::make_shared<ShownPath>();
     for (const auto& node : nodes) poses->push_back(toShown({node.t, node.world_from_robot}));
     last_.key_poses = last_.path = poses;
-    if (last_.closures->size() != slam_.loopClosures().size()) {
+    if (std::exchange(closures_, slam_.loopClosures().size()) != slam_.loopClosures().size()) {
       auto closures = std::make_shared<std::vector<ShownClosure>>();
-      for (const auto& closure : slam_.loopClosures()) closures->push_back({closure.t_a, closure.t_b});
+      for (const auto& closure : slam_.loopClosures())
+        if (!closure.link) closures->push_back({closure.t_a, closure.t_b});
       last_.closures = closures;
     }
   }

@@ -35,6 +35,7 @@ class ViewSink : public Sink {
   StateMailbox& mailbox_;
   LiveGrid grid_;
   ViewState last_;
+  std::size_t closures_ = 0;  ///< of the run, links too, when last looked at
 };
 
 }  // namespace roomgraph

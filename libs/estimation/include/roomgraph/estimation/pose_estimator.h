@@ -89,10 +89,10 @@ class PoseEstimator {
   /// decides, so that a run can be repeated.
   bool solving() const { return live_ != nullptr; }
   bool takesOver() const;
-  /// Sets the key poses to what beginLive() found, when that is there; later ones move with the last of them. Nothing
-  /// when the solver found no usable solution, or the poses were moved meanwhile.
+  /// Waits for what beginLive() began, and sets the key poses to that; later ones move with the last of them. Nothing
+  /// when nothing was begun, the solver found no usable solution, or the poses were moved meanwhile.
   std::optional<GraphSolution> takeOver();
-  /// What the optimisations beside the run took, of those taken over since the last call.
+  /// What the thread of the last solution took, once; nothing when there was none.
   std::optional<Work> takeWork() { return std::exchange(work_, std::nullopt); }
   enum class Effort { kNear, kToTheEnd };  ///< near the optimum will do where what is sought changes yet
   /// Optimises everything, from the former solution if there is one; nothing when the solver found no usable solution.
@@ -103,8 +103,8 @@ class PoseEstimator {
   void transform(const Pose3& new_from_old);
 
  private:
-  /// The graph is the same when a run is repeated: its solution need not be sought again. `graph` is asked for to set that.
   SolveReport solution(const std::function<SolveReport()>& solve, const std::function<FactorGraph&()>& graph);
+  void repeatSurprises();
   PathShift adopt(const FactorGraph& solved, std::size_t count);
   void slideWindow();
   void restartWindow(std::size_t first);
@@ -126,6 +126,7 @@ class PoseEstimator {
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
   int nodes_since_optimization_ = 0;
+  bool again_ = false;  ///< what was taken over last did not know of a surprise, or was void
   /// A closure that disagreed with the estimate, and by how much (surpriseOf()) when that was last optimised.
   struct Surprise {
     RelativePose closure;
