@@ -142,10 +142,18 @@ TEST_F(Doubts, AMissFollowsBayesRuleForTheLandmarkThatWasMissed) {
 // The graph may put a landmark elsewhere; what it does not speak of stays.
 TEST_F(Doubts, EstimatesOfTheGraphAreTakenOver) {
   const auto decisions = see({chairStandingAt(2.5, 0.7), chairStandingAt(2.5, -0.7)});
-  mapper_.apply({{decisions[0].landmark, {.position = {2.6, 0.9, 0.01}, .yaw = 0.3}}});
+  const ObjectShape shape = mapper_.landmarks().find(decisions[0].landmark)->shape;
+  mapper_.apply({{decisions[0].landmark, {.position = {2.6, 0.9, 0.01}, .yaw = 0.3, .shape = shape}}});
   EXPECT_EQ(mapper_.landmarks().find(decisions[0].landmark)->position, Eigen::Vector3d(2.6, 0.9, 0.01));
   EXPECT_EQ(mapper_.landmarks().find(decisions[0].landmark)->yaw, 0.3);
   EXPECT_LT((mapper_.landmarks().find(decisions[1].landmark)->position - Eigen::Vector3d(2.5, -0.7, 0)).norm(), 1e-9);
+}
+
+// Its sightings have made it another class since the graph was built.
+TEST_F(Doubts, EstimatesOfAnotherShapeAreNot) {
+  const auto decisions = see({chairStandingAt(2.5, 0.7)});
+  mapper_.apply({{decisions[0].landmark, {.position = {2.6, 0.9, 0.01}, .yaw = 0.3, .shape = {ShapeKind::kCuboid, 1.8, 0.9, 0.8}}}});
+  EXPECT_LT((mapper_.landmarks().find(decisions[0].landmark)->position - Eigen::Vector3d(2.5, 0.7, 0)).norm(), 1e-9);
 }
 
 // All beams between -10 and 10 degrees end at 6 m, far behind the sofa.
