@@ -29,7 +29,7 @@ class DrivingDrift : public ::testing::Test {
 
   double of(double t) const { return drift_.variance(poses_, t, poses_.at(t).translation().head<2>()); }
 
-  static constexpr MotionNoise kNone{0, 0, 0, 0, 0, kShare};
+  static constexpr MotionNoise kNone{0, 0, 0, 0, 0, kShare, kShare};
   Motion motion_{MotionSource(kNone, true), MotionSource(kNone, false), MotionSource(kNone, true)};
   KeyPoses poses_{motion_};
   Drift drift_{motion_, true};

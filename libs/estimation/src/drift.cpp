@@ -27,10 +27,11 @@ std::size_t indexAt(const KeyPoses& poses, double t) {
 Drift::Variance Drift::ofStep(const KeyPose& a, const KeyPose& b) const {
   std::optional<Variance> least;
   for (const auto* source : {&motion_.lidar, &motion_.visual, &motion_.odometry}) {
-    const double share = local_maps_ && source != &motion_.odometry ? source->driftShare() : 1;
     const auto seen = source->between(a.t, b.t, kSourceGap_s);
     if (!seen) continue;
-    const Variance own{share * horizontalVariance(seen->covariance), share * seen->covariance(5, 5)};
+    const bool matched = local_maps_ && source != &motion_.odometry;
+    const Matrix6d adds_up = matched ? source->addsUp(seen->covariance) : seen->covariance;
+    const Variance own{horizontalVariance(adds_up), adds_up(5, 5)};
     if (!least || own.position_m2 < least->position_m2) least = own;
   }
   if (least) return *least;

@@ -103,24 +103,33 @@ Matrix6d MotionSource::stepAt(double t) const {
   return step == summed_.begin() ? step->second : Matrix6d(step->second - std::prev(step)->second);
 }
 
+// A match is told in the frame of the robot, the movement in that of its beginning.
 std::optional<Movement> MotionSource::inLocalMap(double t_a, double t_b, double horizon_s) const {
-  return matched(t_a, t_b, horizon_s, 0);
-}
-
-std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, double horizon_s) const {
-  return matched(t_a, t_b, horizon_s, noise_.drift_share);
-}
-
-std::optional<Movement> MotionSource::matched(double t_a, double t_b, double horizon_s, double drift_share) const {
   if (poses_.empty()) return std::nullopt;
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;
-  // A match is told in the frame of the robot, the movement in that of its beginning.
-  const Matrix6d match =
-      modelCovariance(noise_, Pose3::Identity(), planar_) +
-      rotateCovariance(Matrix6d(stepAt(t_b) + extrapolation(t_b)), movement->linear());
-  const Matrix6d steps = modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b);
-  return Movement{*movement, match + drift_share * steps};
+  return Movement{*movement,
+                  modelCovariance(noise_, Pose3::Identity(), planar_) +
+                      rotateCovariance(Matrix6d(stepAt(t_b) + extrapolation(t_b)), movement->linear())};
+}
+
+Matrix6d MotionSource::addsUp(const Matrix6d& covariance) const {
+  Vector6d share;
+  share << Eigen::Vector3d::Constant(std::sqrt(noise_.drift_share)),
+      Eigen::Vector3d::Constant(std::sqrt(noise_.drift_share_rotation));
+  return share.asDiagonal() * covariance * share.asDiagonal();
+}
+
+// Both ends of the movement are poses of the source itself: what the matches there err by is in the key poses that
+// are seen from them, not in how one map lies to the next.
+std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, double horizon_s) const {
+  if (poses_.empty()) return std::nullopt;
+  const auto movement = poses_.between(t_a, t_b, horizon_s);
+  if (!movement) return std::nullopt;
+  Matrix6d drift = addsUp(modelCovariance(noise_, *movement, false) + stepSum(t_a, t_b));
+  if (planar_)
+    for (const int unmeasured : {2, 3, 4}) drift(unmeasured, unmeasured) += kUnmeasuredSigma * kUnmeasuredSigma;
+  return Movement{*movement, drift};
 }
 
 // Weighted mean of the movements' differences from the first source's. A source that contradicts the first one weighs less.

@@ -29,10 +29,12 @@ void MotionNoise::declare(ParameterVisitor& v) {
 
 void MotionNoise::declareDrift(ParameterVisitor& v) {
   v.add("drift_share", drift_share,
-        {.doc = "Share of the variance of single movements that adds up from one local map ([backend] local_map_nodes) "
-                "to the next.",
-         .min = 0,
+        {.doc = "Share of the variance of single movements' translation that adds up from one local map ([backend] "
+                "local_map_nodes) to the next.",
+         .min = 1e-6,
          .max = 1});
+  v.add("drift_share_rotation", drift_share_rotation,
+        {.doc = "The same share of the variance of their rotation.", .min = 1e-6, .max = 1});
 }
 
 namespace {

@@ -37,12 +37,12 @@ class MotionSource {
   /// As seen in a local map that begins at `t_a`: the covariance is that of the match at `t_b`, and does not
   /// grow with the movement. A segment's first pose is matched to nothing: it has the noise model's alone.
   std::optional<Movement> inLocalMap(double t_a, double t_b, double horizon_s) const;
-  /// Between the beginnings of two local maps: that, and MotionNoise::drift_share of the covariance of `between`.
+  /// Between the beginnings of two local maps: what adds up of `between`.
   std::optional<Movement> betweenLocalMaps(double t_a, double t_b, double horizon_s) const;
-  double driftShare() const { return noise_.drift_share; }
+  /// What of the covariance of single movements adds up from one local map to the next (MotionNoise::drift_share).
+  Matrix6d addsUp(const Matrix6d& covariance) const;
 
  private:
-  std::optional<Movement> matched(double t_a, double t_b, double horizon_s, double drift_share) const;
   Matrix6d stepSum(double t_a, double t_b) const;
   Matrix6d stepAt(double t) const;
   /// What a pose after the last one is more unsure than that.

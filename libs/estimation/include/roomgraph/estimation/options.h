@@ -12,9 +12,9 @@ struct MotionNoise {
   double floor_m = 0.01, per_m = 0.02;       ///< translation
   double floor_rad = 0.003, per_rad = 0.02;  ///< rotation
   double rad_per_m = 0.01;                   ///< rotation, by distance driven
-  /// Of a source that is matched against local maps: share of the variance of single movements that adds up from one
-  /// local map to the next.
-  double drift_share = 1;
+  /// Of a source that is matched against local maps: shares of the variance of single movements, of their translation
+  /// and of their rotation, that add up from one local map to the next.
+  double drift_share = 1, drift_share_rotation = 1;
   void declare(ParameterVisitor& v);
   void declareDrift(ParameterVisitor& v);
 };

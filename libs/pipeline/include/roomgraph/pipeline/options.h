@@ -33,7 +33,7 @@ struct RgbdOptions : Configurable {
 struct TrackingOptions : Configurable {
   bool enabled = true, loop_closing = true;
   std::string stage = "FeatureOdometry";
-  MotionNoise noise{0.001, 0.02, 0.0005, 0.02, 0.004, 0.05};
+  MotionNoise noise{0.001, 0.02, 0.0005, 0.02, 0.004, 0.01, 0.01};
   void declareParameters(ParameterVisitor& v) override;
 };
 
@@ -41,7 +41,7 @@ struct TrackingOptions : Configurable {
 struct LidarOptions : Configurable {
   bool enabled = true, loop_closing = true;
   std::string stage = "SubmapScanMatcher", label;
-  MotionNoise noise{0.001, 0.01, 0.0005, 0.01, 0.003, 0.01};
+  MotionNoise noise{0.001, 0.01, 0.0005, 0.01, 0.003, 0.01, 0.003};
   void declareParameters(ParameterVisitor& v) override;
 };
 
