@@ -11,7 +11,7 @@ inline constexpr int kNodes = 40;
 
 // As shipped for wheels and for scans.
 inline constexpr MotionNoise kWheelNoise{0.01, 0.10, 0.01, 0.15, 0.10},
-    kScanNoise{0.001, 0.01, 0.0005, 0.01, 0.003, 0.05};
+    kScanNoise{0.001, 0.01, 0.0005, 0.01, 0.003, 0.01, 0.003};
 
 // Once round a circle of 1.5 m radius in kNodes seconds.
 inline Pose3 truthAt(double t) {

@@ -20,7 +20,7 @@ constexpr double kMatch_m = 0.01, kMatch_rad = 0.004;
 // first, which is held.
 MotionSource matched(unsigned seed) {
   Random random(seed);
-  MotionSource source({1e-4, 0.01, 1e-4, 0.01, 0.003, 0.05}, true);
+  MotionSource source({1e-4, 0.01, 1e-4, 0.01, 0.003, 0.05, 0.05}, true);
   const auto noise = [&](double t, double sigma) {
     return t > 0 ? random.uniform(-1, 1) * std::sqrt(3.0) * sigma : 0;
   };
@@ -114,19 +114,25 @@ TEST(LocalMaps, OfScansStayLevelWhereImagesDisagree) {
 // The same sums by hand: in a map one match, turned into the frame of the beginning; from map to map a share of all
 // steps, as both ends are the source's own poses.
 TEST(LocalMaps, ErrorsOfMatchesDoNotAddUp) {
-  MotionSource source({0.001, 0, 0.002, 0, 0, 0.1, 0.1}, false);
+  const MotionNoise noise{0.001, 0, 0.002, 0, 0, 0.1, 0.2};
+  MotionSource source(noise, false), planar(noise, true);
   Vector6d along;
   along << 0.04, 0.0001, 0.0001, 1e-4, 1e-4, 1e-4;
   for (int i = 0; i <= 4; ++i)
-    source.add(i, poseFromYpr(i, 0, 0, i * M_PI / 8, 0, 0), 0, Matrix6d(along.asDiagonal()));
+    for (MotionSource* each : {&source, &planar})
+      each->add(i, poseFromYpr(i, 0, 0, i * M_PI / 8, 0, 0), 0, Matrix6d(along.asDiagonal()));
   const Matrix6d in_map = source.inLocalMap(0, 4, 0)->covariance;
   EXPECT_NEAR(in_map(0, 0), 1e-6 + 0.0001, 1e-9) << "at the end the robot looks along y";
   EXPECT_NEAR(in_map(1, 1), 1e-6 + 0.04, 1e-9);
   EXPECT_NEAR(in_map(5, 5), 4e-6 + 1e-4, 1e-9);
   EXPECT_NEAR(source.inLocalMap(0, 2, 0)->covariance.trace(), in_map.trace(), 1e-9)
       << "as after half the way";
-  const Matrix6d drift = source.betweenLocalMaps(0, 4, 0)->covariance;
-  EXPECT_LT((drift - 0.1 * source.between(0, 4, 0)->covariance).norm(), 1e-12);
+  const Matrix6d drift = source.betweenLocalMaps(0, 4, 0)->covariance, steps = source.between(0, 4, 0)->covariance;
+  EXPECT_LT((drift.topLeftCorner<3, 3>() - 0.1 * steps.topLeftCorner<3, 3>()).norm(), 1e-12);
+  EXPECT_LT((drift.bottomRightCorner<3, 3>() - 0.2 * steps.bottomRightCorner<3, 3>()).norm(), 1e-12);
+  Matrix6d unmeasured = Matrix6d::Zero();
+  for (int i : {2, 3, 4}) unmeasured(i, i) = 0.25;
+  EXPECT_LT((planar.betweenLocalMaps(0, 4, 0)->covariance - drift - unmeasured).norm(), 1e-12);
   EXPECT_FALSE(source.inLocalMap(0, 5, 0.25));
 }
 
