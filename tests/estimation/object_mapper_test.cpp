@@ -139,6 +139,19 @@ TEST(ObjectMapper, RemembersFeaturesThatLieOnObjects) {
   EXPECT_EQ(mapper.frames()[0].features[0].point, 5);
 }
 
+// What a thread was given stays what it was.
+TEST(ObjectFrames, CopiesShareWhatIsNotChanged) {
+  ObjectFrames frames(std::vector<ObjectFrame>(2)), copy = frames;
+  EXPECT_EQ(&copy[0], &frames[0]);
+  frames.change(1).t = 5;
+  EXPECT_EQ(frames[1].t, 5);
+  EXPECT_EQ(copy[1].t, 0);
+  EXPECT_EQ(&copy[0], &frames[0]);
+  const ObjectFrame* own = &frames[1];
+  frames.change(1).t = 6;
+  EXPECT_EQ(&frames[1], own) << "nobody else has it";
+}
+
 }  // namespace
 
 // Makes two landmarks of the first two measurements and is of two minds about the third.

@@ -137,7 +137,7 @@ void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& s
 using GoodViews = std::map<LandmarkId, std::vector<double>>;  // times, sorted, s
 
 std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
-                                                   const std::vector<ObjectFrame>& frames,
+                                                   const ObjectFrames& frames,
                                                    const KeyPoses& poses, const GoodViews& good_views) {
   std::map<LandmarkId, const Landmark*> known;
   for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
@@ -167,7 +167,7 @@ std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& 
 }
 
 // What this detector calls sure: scores of one are probabilities, those of another hardly exceed .7.
-double sureScore(const std::vector<ObjectFrame>& frames) {
+double sureScore(const ObjectFrames& frames) {
   constexpr double kUpperQuartile = 0.75;
   std::vector<double> scores;
   for (const auto& frame : frames)
@@ -206,7 +206,7 @@ double detectionLogOdds(const std::set<double>& sighting_times, const std::vecto
 }  // namespace
 
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
-                                                 const std::vector<ObjectFrame>& frames,
+                                                 const ObjectFrames& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
                                                  const ObjectDatabase& database) {
   GoodViews good_views;

@@ -4,7 +4,7 @@
 
 #include "roomgraph/estimation/existence.h"
 #include "roomgraph/estimation/landmark_continuation.h"
-#include "roomgraph/estimation/object_decision.h"
+#include "roomgraph/estimation/object_frames.h"
 #include "roomgraph/observations/object_database.h"
 #include "space_memory.h"
 
@@ -13,7 +13,7 @@ namespace roomgraph {
 /// One for each landmark, in order. `views`: of the same run, with the poses that the landmarks were
 /// estimated with.
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
-                                                 const std::vector<ObjectFrame>& frames,
+                                                 const ObjectFrames& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
                                                  const ObjectDatabase& database);
 

@@ -172,6 +172,13 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
   return graph;
 }
 
+std::vector<LandmarkId> landmarksIn(const FactorGraph& graph, const ObjectsInGraph& objects) {
+  std::vector<LandmarkId> out;
+  for (const Landmark& landmark : objects.landmarks)
+    if (graph.hasLandmark(landmark.id)) out.push_back(landmark.id);
+  return out;
+}
+
 Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                    const BackendOptions& options, std::size_t first,
                    const std::optional<MarginalPrior>& prior) {

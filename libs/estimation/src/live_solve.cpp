@@ -43,8 +43,7 @@ void LiveSolve::build() {
   const ObjectsInGraph objects = objects_(poses_);
   objects_ = nullptr;  // its copies are large
   graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
-  for (const Landmark& landmark : objects.landmarks)
-    if (graph_->hasLandmark(landmark.id)) landmarks_.push_back(landmark.id);
+  landmarks_ = landmarksIn(*graph_, objects);
 }
 
 }  // namespace roomgraph

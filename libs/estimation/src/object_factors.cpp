@@ -329,7 +329,7 @@ void addPoints(const Gathered& seen, const Landmark& landmark, const KeyPoses& p
 
 }  // namespace
 
-ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
+ObjectFactors objectFactors(const ObjectFrames& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model) {
   std::map<LandmarkId, Gathered> gathered;

@@ -84,8 +84,8 @@ std::vector<ObjectDecision> ObjectMapper::associate(const std::vector<ObjectMeas
     decisions.push_back(std::move(decision));
   }
   if (decisions.empty()) return decisions;
-  frames_.push_back({frame.id, frame.t, frame.camera, frame.robot_from_camera, decisions,
-                     featuresOnObjects(decisions, features)});
+  frames_.add({frame.id, frame.t, frame.camera, frame.robot_from_camera, decisions,
+               featuresOnObjects(decisions, features)});
   span(frames_.back());
   return decisions;
 }
@@ -189,8 +189,8 @@ void ObjectMapper::tidy() {
 // After merges and splits.
 void ObjectMapper::renameSightings() {
   const LandmarkIdentity& identity = landmarks_.identity();
-  for (auto& frame : frames_)
-    for (auto& decision : frame.decisions)
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    for (auto& decision : frames_.change(i).decisions)
       rename(decision, [&identity](LandmarkId id) { return identity.today(id); });
   associator_->identitiesChanged(identity);
   respan();
@@ -200,7 +200,8 @@ void ObjectMapper::renameSightings() {
 void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
   const Eigen::Vector3d first_place = landmarks_.find(first)->position;
   const Eigen::Vector3d second_place = landmarks_.find(second)->position;
-  for (auto& frame : frames_) {
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    ObjectFrame& frame = frames_.change(i);
     const Pose3 world_from_camera =
         poses_.at(frame.t) * frame.robot_from_camera;  // the poses have changed since
     for (auto& decision : frame.decisions) {
@@ -246,12 +247,14 @@ bool ObjectMapper::reassociate() {
                                      frameByFrame(*associator_, by_frame), {}, landmarks_.rules());
   landmarks_.adopt(by_frame, result);
   std::map<LandmarkId, int> kept;  // more sightings that stayed than came
-  for (std::size_t f = 0; f < frames_.size(); ++f)
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    auto& decisions = frames_.change(f).decisions;
     for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
       const BatchDecision& now = result.decisions[f][k];
-      kept[now.landmark] += frames_[f].decisions[k].landmark == now.landmark ? 1 : -1;
-      frames_[f].decisions[k] = {by_frame[f][k], now.association, now.landmark};
+      kept[now.landmark] += decisions[k].landmark == now.landmark ? 1 : -1;
+      decisions[k] = {by_frame[f][k], now.association, now.landmark};
     }
+  }
   std::erase_if(kept, [](const auto& entry) { return entry.second <= 0; });
   respan();
   tidy();
@@ -276,7 +279,7 @@ void ObjectMapper::move(const PathShift& shift) {
 
 namespace {
 
-ObjectsInGraph factorsOf(const std::vector<Landmark>& landmarks, const std::vector<ObjectFrame>& frames,
+ObjectsInGraph factorsOf(const std::vector<Landmark>& landmarks, const ObjectFrames& frames,
                          const KeptScans& scans, const AssociationModel* model, const KeyPoses& poses,
                          const ObjectDatabase& database, const BackendOptions& options) {
   ObjectsInGraph out{landmarks, objectFactors(frames, poses, landmarks, database, options,
@@ -295,7 +298,7 @@ ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const 
   if (landmarks_.landmarks().empty()) return [](const KeyPoses&) { return ObjectsInGraph{}; };
   struct Copies {
     std::vector<Landmark> landmarks;
-    std::vector<ObjectFrame> frames;
+    ObjectFrames frames;
     KeptScans scans;
     std::optional<AssociationModel> model;
   };

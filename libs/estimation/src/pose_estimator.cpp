@@ -213,13 +213,20 @@ std::optional<GraphSolution> PoseEstimator::takeOver() {
       solution([&] { return live->solve(); }, [&]() -> FactorGraph& { return live->graph(); });
   work_ = live->workBeside();
   graph_ = std::move(live->graph());
+  return accept(report, live->nodes(), live->landmarks());
+}
+
+// The graph of the first `count` key poses was optimised: poses are where it says. The window goes on from its last one,
+// or from the oldest that it may hold.
+std::optional<GraphSolution> PoseEstimator::accept(const SolveReport& report, std::size_t count,
+                                                   const std::vector<LandmarkId>& landmarks) {
   GraphSolution out;
-  if (report.usable) out.later = adopt(graph_, live->nodes());
+  if (report.usable) out.later = adopt(graph_, count);
   settleSurprises();
   const std::size_t size = poses_.nodes().size(), most = static_cast<std::size_t>(options_.window_nodes);
-  restartWindow(std::max(live->nodes() - 1, size - std::min(size, most)));
+  restartWindow(std::max(count - 1, size - std::min(size, most)));
   if (!report.usable) return std::nullopt;
-  for (const LandmarkId id : live->landmarks()) out.landmarks.emplace(id, graph_.landmark(id));
+  for (const LandmarkId id : landmarks) out.landmarks.emplace(id, graph_.landmark(id));
   return out;
 }
 
@@ -240,14 +247,8 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   const SolveReport report =
       solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
   graph_is_near_ = report.usable;
-  if (report.usable) adopt(graph_, poses_.nodes().size());
-  settleSurprises();
-  restartWindow(poses_.nodes().size() - 1);
-  if (!report.usable) return std::nullopt;
-  LandmarkEstimates estimates;
-  for (const Landmark& landmark : objects.landmarks)
-    if (graph_.hasLandmark(landmark.id)) estimates.emplace(landmark.id, graph_.landmark(landmark.id));
-  return estimates;
+  const auto accepted = accept(report, poses_.nodes().size(), landmarksIn(graph_, objects));
+  return accepted ? std::optional(accepted->landmarks) : std::nullopt;
 }
 
 // The graph is the same when a run is repeated: its solution need not be sought again, only set in `graph`.

@@ -63,7 +63,7 @@ void BestViews::onStep(const StepReport& report) {
   }
 }
 
-std::string BestViews::text(const std::vector<ObjectFrame>& frames) const {
+std::string BestViews::text(const ObjectFrames& frames) const {
   std::multimap<FrameId, const View*> taken;
   for (const auto& [id, view] : best_)
     if (!view.jpeg.empty()) taken.emplace(view.frame, &view);

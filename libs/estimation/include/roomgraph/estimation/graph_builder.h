@@ -49,6 +49,8 @@ struct LocalMap {
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options,
                        const FactorGraph* former = nullptr);
+/// Those of the landmarks that the graph holds.
+std::vector<LandmarkId> landmarksIn(const FactorGraph& graph, const ObjectsInGraph& objects);
 
 /// Graph of the latest key poses and of the older ones that closures connect them with.
 struct Window {

@@ -8,7 +8,7 @@
 #include "roomgraph/association/measurement_model.h"
 #include "roomgraph/backend/factors.h"
 #include "roomgraph/estimation/key_poses.h"
-#include "roomgraph/estimation/object_decision.h"
+#include "roomgraph/estimation/object_frames.h"
 #include "roomgraph/estimation/options.h"
 #include "roomgraph/observations/landmark.h"
 #include "roomgraph/observations/object_database.h"
@@ -55,7 +55,7 @@ struct ObjectsInGraph {
 /// Weights are association probability x selection confidence x initialisation score. A measurement of
 /// another class than its landmark's gives no factor. `model` (may be null) lowers the weight of measurements
 /// that fit the viewing ray but not the depth, because their depth failed.
-ObjectFactors objectFactors(const std::vector<ObjectFrame>& frames, const KeyPoses& poses,
+ObjectFactors objectFactors(const ObjectFrames& frames, const KeyPoses& poses,
                             const std::vector<Landmark>& landmarks, const ObjectDatabase& database,
                             const BackendOptions& options, const MeasurementModel* model = nullptr);
 

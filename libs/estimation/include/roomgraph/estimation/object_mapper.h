@@ -87,7 +87,7 @@ class ObjectMapper {
   /// Sets the landmarks to the result of an optimisation of the graph.
   void apply(const LandmarkEstimates& estimates);
 
-  const std::vector<ObjectFrame>& frames() const { return frames_; }
+  const ObjectFrames& frames() const { return frames_; }
   const LandmarkMap& landmarks() const { return landmarks_; }
   const SeenSpans& seenSpans() const { return spans_; }
 
@@ -105,7 +105,7 @@ class ObjectMapper {
   double pose_sigma_m_;
   bool hindsight_;
   const KeyPoses& poses_;
-  std::vector<ObjectFrame> frames_;
+  ObjectFrames frames_;
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
   std::optional<Scan> latest_scan_;  ///< without returns on people

@@ -105,6 +105,8 @@ class PoseEstimator {
  private:
   SolveReport solution(const std::function<SolveReport()>& solve, const std::function<FactorGraph&()>& graph);
   void repeatSurprises();
+  std::optional<GraphSolution> accept(const SolveReport& report, std::size_t count,
+                                      const std::vector<LandmarkId>& landmarks);
   PathShift adopt(const FactorGraph& solved, std::size_t count);
   void slideWindow();
   void restartWindow(std::size_t first);

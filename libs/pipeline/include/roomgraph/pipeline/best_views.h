@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/estimation/object_decision.h"
+#include "roomgraph/estimation/object_frames.h"
 #include "roomgraph/pipeline/step_report.h"
 
 namespace roomgraph {
@@ -18,7 +18,7 @@ class BestViews : public Sink {
   void onStep(const StepReport& report) override;
   /// views.jsonl: per landmark `{"id", "timestamp", "bbox", "jpeg"}` with the picture in Base64. `frames`:
   /// what was decided with hindsight; a picture goes to the landmark that its box belongs to in the end.
-  std::string text(const std::vector<ObjectFrame>& frames) const;
+  std::string text(const ObjectFrames& frames) const;
 
  private:
   struct View {

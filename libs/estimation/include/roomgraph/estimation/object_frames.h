@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The frames of a run in which objects were measured; copies share them until one of them changes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "roomgraph/estimation/object_decision.h"
+
+namespace roomgraph {
+
+/// In order of time. A copy for another thread costs little; what is changed since is changed in one's own only.
+class ObjectFrames {
+ public:
+  class Iterator {
+   public:
+    explicit Iterator(std::vector<std::shared_ptr<ObjectFrame>>::const_iterator at) : at_(at) {}
+    const ObjectFrame& operator*() const { return **at_; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    bool operator==(const Iterator&) const = default;
+
+   private:
+    std::vector<std::shared_ptr<ObjectFrame>>::const_iterator at_;
+  };
+
+  ObjectFrames() = default;
+  ObjectFrames(const std::vector<ObjectFrame>& frames) {  // NOLINT: they are the same
+    for (const ObjectFrame& frame : frames) add(frame);
+  }
+
+  void add(ObjectFrame frame) { frames_.push_back(std::make_shared<ObjectFrame>(std::move(frame))); }
+  /// To be changed. Threads that were given copies are done with them, or joined.
+  ObjectFrame& change(std::size_t i) {
+    if (frames_.at(i).use_count() > 1) frames_[i] = std::make_shared<ObjectFrame>(*frames_[i]);
+    return *frames_[i];
+  }
+
+  const ObjectFrame& operator[](std::size_t i) const { return *frames_[i]; }
+  const ObjectFrame& back() const { return *frames_.back(); }
+  std::size_t size() const { return frames_.size(); }
+  bool empty() const { return frames_.empty(); }
+  Iterator begin() const { return Iterator(frames_.begin()); }
+  Iterator end() const { return Iterator(frames_.end()); }
+
+ private:
+  std::vector<std::shared_ptr<ObjectFrame>> frames_;
+};
+
+}  // namespace roomgraph
