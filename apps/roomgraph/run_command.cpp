@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph run`: replay of a rawlog through SemanticSlam, with progress, map, snapshot and debug output.
+#include <malloc.h>
+
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -192,6 +194,14 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
   return checkpoint;
 }
 
+// A run is large, and a renderer needs memory, too: pages between those still in use are given back as well.
+void release(std::unique_ptr<SemanticSlam>& slam) {
+  slam.reset();
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 void run(const RunOptions& options) {
   const ThreadLimit limit(options.threads);
   Configuration configuration = readConfiguration(options.config, options.overrides);
@@ -212,34 +222,36 @@ void run(const RunOptions& options) {
   const auto checkpoint = openCheckpoint(options, *setup, output->files());
   RunPlaces places(options.input, output->files());
   const ExtraSinks extra = addSinks(options, *setup);
-  SemanticSlam slam(std::move(setup));
-  if (checkpoint) slam.setResultStore(checkpoint->results());
-  if (earlier) slam.setMap(std::move(*earlier));
-  slam.addSink(output);
-  extra.addTo(slam);
+  auto slam = std::make_unique<SemanticSlam>(std::move(setup));
+  if (checkpoint) slam->setResultStore(checkpoint->results());
+  if (earlier) slam->setMap(std::move(*earlier));
+  slam->addSink(output);
+  extra.addTo(*slam);
 
   const Stopwatch watch;
-  const ReplayState replayed = replayWithProgress(options, reader, slam, places);
+  const ReplayState replayed = replayWithProgress(options, reader, *slam, places);
   // The whole run goes another way from here.
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();
-  SlamResult result = slam.finish();
+  SlamResult result = slam->finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
-  requireRecords(options, slam.setup().options, replayed, result, checkpoint.get());
+  requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
-  if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam.setup().options);
-  output->writeResult(slam, result, reader.statistics(), replayed, origin);
-  const bool drawn = !options.no_snapshot &&
-                     drawSnapshot(result.map, slam.setup().database, output->files().pending("snapshot.png"));
+  if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam->setup().options);
+  output->writeResult(*slam, result, reader.statistics(), replayed, origin);
+  const ObjectDatabase database = slam->setup().database;
+  const auto& detector = slam->setup().stages.detector;
+  const std::string of_detector = detector ? detector->warning() : "";
+  if (extra.recording) extra.recording->finish();
+  if (extra.detections && !replayed.interrupted) extra.detections->finish();
+  release(slam);
+  const bool drawn =
+      !options.no_snapshot && drawSnapshot(result.map, database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish(checkpoint && replayed.interrupted);
-  if (extra.recording) extra.recording->finish();
-  if (extra.detections && !replayed.interrupted) extra.detections->finish();
-
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  const auto& detector = slam.setup().stages.detector;
-  printWarnings(reader.statistics(), detector ? detector->warning() : "");
+  printWarnings(reader.statistics(), of_detector);
   std::cout << "results in " << options.output;
   if (reported || drawn)
     std::cout << "; look at "
