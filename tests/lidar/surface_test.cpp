@@ -117,6 +117,27 @@ class Refinement : public ::testing::Test {
   LocalSurfaces surfaces{0.05};
 };
 
+TEST_F(Refinement, FinishedSurfacesAreTheSameToTheLastBit) {
+  map(test::asymmetricRoom(), 0.02);
+  const LocalSurfaces before = surfaces;
+  surfaces.finish();
+  std::uniform_real_distribution<double> along(-6, 6), facing_rad(-M_PI, M_PI);
+  int lines = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector2d point(along(random), along(random));
+    const double direction = facing_rad(random);
+    const auto line = surfaces.around(point, direction), same = before.around(point, direction);
+    ASSERT_EQ(line.has_value(), same.has_value()) << point.transpose();
+    if (!line) continue;
+    ++lines;
+    ASSERT_EQ(line->mean, same->mean);
+    ASSERT_EQ(line->normal, same->normal);
+    ASSERT_EQ(line->variance_m2, same->variance_m2);
+  }
+  EXPECT_GT(lines, 300);
+  EXPECT_THROW(surfaces.insert(facing({{1, 1}}, 0)), std::logic_error);
+}
+
 TEST_F(Refinement, ErrorsAreAsLargeAsTheirCovarianceSaysAndSmallerThanThoseOfTheGrid) {
   const double sigma_m = 0.02;
   map(test::asymmetricRoom(), sigma_m);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <stdexcept>
 
 #include "roomgraph/geometry/pose.h"
 
@@ -54,6 +55,27 @@ int SurfaceCells::sectorOf(double facing_rad) {
   return static_cast<int>(turns * kSectors) % kSectors;
 }
 
+void SurfaceCells::finish() {
+  if (finished_) return;
+  finished_ = true;
+  for (const auto& [cell, first] : first_of_cell_) cells_.push_back(cell);
+  cells_.shrink_to_fit();
+  std::sort(cells_.begin(), cells_.end());
+  firsts_.reserve(cells_.size());
+  for (const std::uint64_t cell : cells_) firsts_.push_back(first_of_cell_.at(cell));
+  std::unordered_map<std::uint64_t, std::int32_t>().swap(first_of_cell_);
+  facings_.shrink_to_fit();
+}
+
+std::int32_t SurfaceCells::firstOf(std::uint64_t cell) const {
+  if (!finished_) {
+    const auto found = first_of_cell_.find(cell);
+    return found == first_of_cell_.end() ? kNone : found->second;
+  }
+  const auto found = std::lower_bound(cells_.begin(), cells_.end(), cell);
+  return found == cells_.end() || *found != cell ? kNone : firsts_[static_cast<std::size_t>(found - cells_.begin())];
+}
+
 SurfaceCells::Sums& SurfaceCells::sumsOf(std::uint64_t cell, int sector) {
   const auto [at, is_new] = first_of_cell_.emplace(cell, kNone);
   for (std::int32_t i = at->second; i != kNone; i = facings_[static_cast<std::size_t>(i)].next)
@@ -64,6 +86,7 @@ SurfaceCells::Sums& SurfaceCells::sumsOf(std::uint64_t cell, int sector) {
 }
 
 void SurfaceCells::insert(const FacedScan& scan) {
+  if (finished_) throw std::logic_error("finished surfaces take no scans");
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
     if (!isReachable(p)) continue;
@@ -84,10 +107,8 @@ std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, do
   Scatter sum;  // from the corner of the cell in the middle
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      const auto found = first_of_cell_.find(key(cx + dx, cy + dy));
-      if (found == first_of_cell_.end()) continue;
       const Eigen::Vector2d shift = cell_m_ * Eigen::Vector2d(dx, dy);
-      for (std::int32_t i = found->second; i != kNone; i = facings_[static_cast<std::size_t>(i)].next) {
+      for (std::int32_t i = firstOf(key(cx + dx, cy + dy)); i != kNone; i = facings_[static_cast<std::size_t>(i)].next) {
         const Facing& facing = facings_[static_cast<std::size_t>(i)];
         const int apart = std::abs(facing.sector - sector);
         if (std::min(apart, kSectors - apart) > 1) continue;
