@@ -31,7 +31,7 @@ struct RunCounts {
   int returns_on_people = 0;      ///< left out, as images show somebody there
   int returns_in_free_space = 0;  ///< left out, as the scans before show that nothing was there
   int key_poses = 0, loop_closures = 0;
-  int links = 0;                          ///< between segments of tracking: movements, which close no loop
+  int links = 0;                  ///< between segments of tracking: movements, which close no loop
   std::map<std::string, int> reasons;  ///< expected failures by reason
 };
 
