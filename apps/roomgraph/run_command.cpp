@@ -197,9 +197,7 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
 // A run is large, and a renderer needs memory, too: pages between those still in use are given back as well.
 void release(std::unique_ptr<SemanticSlam>& slam) {
   slam.reset();
-#ifdef __GLIBC__
   malloc_trim(0);
-#endif
 }
 
 void run(const RunOptions& options) {
@@ -239,19 +237,19 @@ void run(const RunOptions& options) {
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam->setup().options);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;
-  const auto& detector = slam->setup().stages.detector;
-  const std::string of_detector = detector ? detector->warning() : "";
-  if (extra.recording) extra.recording->finish();
-  if (extra.detections && !replayed.interrupted) extra.detections->finish();
+  const auto detector = slam->setup().stages.detector;  // the recordings know it
   release(slam);
   const bool drawn =
       !options.no_snapshot && drawSnapshot(result.map, database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish(checkpoint && replayed.interrupted);
+  if (extra.recording) extra.recording->finish();
+  if (extra.detections && !replayed.interrupted) extra.detections->finish();
+
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  printWarnings(reader.statistics(), of_detector);
+  printWarnings(reader.statistics(), detector ? detector->warning() : "");
   std::cout << "results in " << options.output;
   if (reported || drawn)
     std::cout << "; look at "

@@ -41,7 +41,6 @@ FactorGraph& LiveSolve::graph() {
 
 void LiveSolve::build() {
   const ObjectsInGraph objects = objects_(poses_);
-  objects_ = nullptr;  // its copies are large
   graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
   landmarks_ = landmarksIn(*graph_, objects);
 }

@@ -247,8 +247,8 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   const SolveReport report =
       solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
   graph_is_near_ = report.usable;
-  const auto accepted = accept(report, poses_.nodes().size(), landmarksIn(graph_, objects));
-  return accepted ? std::optional(accepted->landmarks) : std::nullopt;
+  auto accepted = accept(report, poses_.nodes().size(), landmarksIn(graph_, objects));
+  return accepted ? std::optional(std::move(accepted->landmarks)) : std::nullopt;
 }
 
 // The graph is the same when a run is repeated: its solution need not be sought again, only set in `graph`.

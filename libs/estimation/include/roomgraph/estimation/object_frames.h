@@ -34,7 +34,7 @@ class ObjectFrames {
   }
 
   void add(ObjectFrame frame) { frames_.push_back(std::make_shared<ObjectFrame>(std::move(frame))); }
-  /// To be changed. Threads that were given copies are done with them, or joined.
+  /// To be changed; other copies keep what it was. A thread keeps its copy until it is joined.
   ObjectFrame& change(std::size_t i) {
     if (frames_.at(i).use_count() > 1) frames_[i] = std::make_shared<ObjectFrame>(*frames_[i]);
     return *frames_[i];
