@@ -212,7 +212,8 @@ def page(rows):
               "| `fr079` | Cartographer .0452 / .538 (published), .0306 tuned for this log (measured); icp-slam .119 / 2.15, rbpf-slam .059 / 1.39 (measured) |",
               "| `7scenes_redkitchen_10hz`, ATE m | ORB-SLAM2 without loop closing .0535, OpenCV RgbdICP .096 (measured) |",
               "| `fr3_office_10hz`, ATE m | ORB-SLAM2 .0388 (measured, same rendered depth) |",
-              "| `lab_a`, ATE m | ORB-SLAM2 .038 without, .027 with loop closing; Cartographer .033, tuned .018 (measured) |", ""]
+              "| `lab_a`, ATE m | ORB-SLAM2 .038 without, .027 with loop closing; Cartographer .033, tuned .018 (measured) |", "",
+              "Cartographer: 2D lidar and wheels, loops closed, published or shipped settings, or tuned for the one log; ORB-SLAM2, RgbdICP: RGB-D.", ""]
     notes = ROOT / "docs" / "results_notes.md"
     if notes.exists():
         lines.append(notes.read_text())

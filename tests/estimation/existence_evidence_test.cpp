@@ -316,5 +316,26 @@ TEST_F(Evidence, BeamsThroughWhatIsSolid) {
       << "over the solid part, which is .4 m high";
 }
 
+// A sofa, 1.8 x .8 m, ends beams at its sides, whichever of them the scan sees: one that a beam reaches the inside of is not there.
+TEST_F(Evidence, AWallThroughWhatIsSolid) {
+  Scan scan;
+  scan.ranges_m.assign(181, 3.F);
+  scan.valid.assign(181, 1);
+  scan.angle_min_rad = -M_PI / 2;
+  scan.angle_step_rad = M_PI / 180;
+  scan.max_range_m = 10;
+  scan.robot_from_lidar.translation().z() = 0.3;
+  memory_.add(scan, Pose3::Identity());
+  EXPECT_GT(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0.7) << "through its middle";
+  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3.4, 0)}).beams_crossed, 0, 1e-12) << "they end at its front";
+  Landmark along = landmarkOf(1, "sofa", 3.9, 0);
+  along.has_yaw = true;
+  along.yaw = M_PI / 2;  // its length runs from the robot on
+  EXPECT_NEAR(of({along}).beams_crossed, 0, 1e-12) << "they end at its narrow side";
+  along.position.x() = 3.4;
+  EXPECT_GT(of({along}).beams_crossed, 0.3);
+  EXPECT_NEAR(of({landmarkOf(1, "chair", 3, 0)}).beams_crossed, 0, 1e-12) << "what stands between its legs";
+}
+
 }  // namespace
 }  // namespace roomgraph::test

@@ -49,6 +49,14 @@ TEST_F(OneWall, PixelsWithoutDepthSayNothing) {
   EXPECT_EQ(at({2, -0.5, 1}), "1 crossed, 0 filled, 0 hidden");
 }
 
+// The box covers the right half and goes on beyond the image.
+TEST_F(OneWall, PeopleNeitherFillNorFree) {
+  memory_.add(frameOfDepth(0, 0, 3), Pose3::Identity(), {Box2{160, -20, 400, 300}});
+  EXPECT_EQ(at({2, -0.5, 1}), "0 crossed, 0 filled, 0 hidden");
+  EXPECT_EQ(at({3, -0.5, 1}), "0 crossed, 0 filled, 0 hidden");
+  EXPECT_EQ(at({2, 0.5, 1}), "1 crossed, 0 filled, 0 hidden") << "beside the box";
+}
+
 TEST_F(OneWall, AViewCountsOnceAndOneFromElsewhereAgain) {
   for (int i = 0; i < 5; ++i) memory_.add(frameOfDepth(i, 0.1 * i, 3), poseFromYpr(0.01 * i, 0, 0, 0, 0, 0));
   EXPECT_EQ(at({2, 0, 1}), "1 crossed, 0 filled, 0 hidden");

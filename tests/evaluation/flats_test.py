@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """bench/flats.py with a program of known answers in place of roomgraph, and its statistics against closed forms."""
 import argparse
+import configparser
 import contextlib
 import io
 import json
@@ -102,6 +103,21 @@ class Flats(unittest.TestCase):
         self.assertTrue(flats.comparison([2, 8, 0], [1, 2, 5], "ratio", ".1f").startswith("2: x 2.828 ["))
         self.assertEqual(flats.comparison([1, None], [1, 2], "difference", ".1f"), "-")
         self.assertEqual(flats.middle_and_worst([1, 2, None], ".1f", 1), "2: 1.5 (1.0)")
+
+
+class CuboidsOnly(unittest.TestCase):
+    """bench/cuboids_only.ini is an arm that differs in one thing."""
+
+    def test_differs_from_the_shipped_classes_in_the_shape_of_chairs_alone(self):
+        def read(path):
+            parser = configparser.ConfigParser()
+            parser.read(ROOT / path)
+            return {(section, key): value for section in parser.sections() for key, value in parser[section].items()}
+
+        shipped, arm = read("objects.ini"), read("bench/cuboids_only.ini")
+        self.assertEqual(shipped.keys(), arm.keys())
+        differ = {key: (shipped[key], arm[key]) for key in shipped if shipped[key] != arm[key]}
+        self.assertEqual(differ, {("swivel_chair", "shape"): ("cylinder", "cuboid"), ("swivel_chair", "symmetry"): ("0", "4")})
 
 
 if __name__ == "__main__":

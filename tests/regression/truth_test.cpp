@@ -12,6 +12,7 @@
 #include "program.h"
 #include "roomgraph/core/order_statistics.h"
 #include "roomgraph/estimation/existence.h"
+#include "roomgraph/observations/map_file.h"
 #include "temporary_folder.h"
 
 namespace roomgraph::test {
@@ -147,18 +148,26 @@ TEST_F(TruthTest, TinyRoomStageByStage) {
   EXPECT_EQ(counts.at("scans_unmatched"), 0);
 }
 
-// Places and sizes of the map are those of the graph, to the last digit: the optimum, not the filter's.
+double yawOf(const Eigen::Quaterniond& q) {
+  return std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));
+}
+
+// Places, yaws and sizes of the map are those of the graph, to the last digit: the optimum, not the filter's.
 TEST_F(TruthTest, TinyRoomIsTheOptimumOfItsGraph) {
   run("tiny_room");
   std::map<std::string, Eigen::Vector2d> places;  // of vertices
-  std::map<int, std::string> vertices;            // of landmarks
+  std::map<std::string, double> yaws;
+  std::map<int, std::string> vertices;  // of landmarks
   std::map<int, Eigen::Vector3d> sizes;
   for (const auto& line : linesOf(contentOf(out / "graph.g2o"))) {
     std::istringstream words(line);
     std::string tag, vertex, shape;
     int id = 0;
     if (words >> tag >> vertex && tag == "VERTEX_SE3:QUAT") {
-      words >> places[vertex].x() >> places[vertex].y();
+      double z = 0;
+      Eigen::Quaterniond turn;
+      words >> places[vertex].x() >> places[vertex].y() >> z >> turn.x() >> turn.y() >> turn.z() >> turn.w();
+      yaws[vertex] = yawOf(turn);
     } else if (vertex == "LANDMARK" && words >> vertex >> id >> shape) {
       vertices[id] = vertex;
       words >> sizes[id].x() >> sizes[id].y() >> sizes[id].z();
@@ -172,6 +181,30 @@ TEST_F(TruthTest, TinyRoomIsTheOptimumOfItsGraph) {
     EXPECT_LT((Eigen::Vector2d(landmark.at("x"), landmark.at("y")) - places.at(vertices.at(id))).norm(), 1e-9)
         << id;
     EXPECT_LT((Eigen::Vector3d(size[0], size[1], size[2]) - sizes.at(id)).norm(), 1e-9) << id;
+    EXPECT_NEAR(std::remainder(landmark.at("yaw").get<double>() - yaws.at(vertices.at(id)), 2 * M_PI), 0, 1e-7) << id;
+  }
+}
+
+TEST_F(TruthTest, TinyRoomIsTheSameInAllFiles) {
+  run("tiny_room");
+  const CSemanticMap map = loadMap(out / "map.rgmap");
+  const json all = landmarks();
+  ASSERT_EQ(all.size(), map.landmarks.size());
+  for (const json& in_text : all) {
+    const auto same = [&](const Landmark& landmark) { return landmark.id.value == in_text.at("id"); };
+    const auto landmark = std::find_if(map.landmarks.begin(), map.landmarks.end(), same);
+    ASSERT_NE(landmark, map.landmarks.end());
+    EXPECT_NEAR(landmark->position.x(), in_text.at("x"), 1e-9);
+    EXPECT_NEAR(landmark->position.y(), in_text.at("y"), 1e-9);
+    EXPECT_NEAR(landmark->position.z(), in_text.at("z"), 1e-9);
+    EXPECT_NEAR(landmark->yaw, in_text.at("yaw"), 1e-9);
+    EXPECT_NEAR(landmark->shape.width, in_text.at("size_wdh")[0], 1e-9);
+    EXPECT_NEAR(landmark->shape.depth, in_text.at("size_wdh")[1], 1e-9);
+    EXPECT_NEAR(landmark->shape.height, in_text.at("size_wdh")[2], 1e-9);
+    EXPECT_NEAR(landmark->existence, in_text.at("existence"), 1e-9);
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        EXPECT_NEAR(landmark->covariance(row, column), in_text.at("covariance")[row][column], 1e-9) << row << ", " << column;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 #include <array>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -70,7 +71,7 @@ struct FactorGraph::Impl {
   std::map<NodeId, Pose> poses;
   std::map<LandmarkId, Object> objects;
   std::map<PointId, Point> points;
-  std::vector<Entry> factors;
+  std::deque<Entry> factors;  ///< tens of thousands, of half a kilobyte each: none is moved or held in reserve
   ceres::EigenQuaternionManifold quaternion;
   ceres::SubsetManifold held_yaw{4, {3}};  // a yaw that nothing measures would make the problem singular
   std::unique_ptr<ceres::Problem> problem;

@@ -143,8 +143,8 @@ std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landma
   return out;
 }
 
-void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot) {
-  space_->add(frame, world_from_robot);
+void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people) {
+  space_->add(frame, world_from_robot, people);
 }
 
 std::vector<Candidate> ObjectMapper::candidates(const ObjectDatabase& database,

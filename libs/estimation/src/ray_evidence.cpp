@@ -18,6 +18,7 @@ constexpr double kAboveFrom_m = 0.1, kAboveTo_m = 0.4;
 constexpr double kAboveShare = 0.6;  // of the footprint's sides: beside an object stand others
 constexpr double kLowerPart = 0.5, kUpperPart = 0.7;  // of a door's height
 constexpr double kKnown = 0.2;                        // share of points that tells something
+constexpr double kDeep_m = 0.35, kDeepAlong_m = 0.5;  // from front and back, from the ends: more than these are off by
 constexpr int kSlices = 5;             // of a footprint, along an axis
 constexpr double kSliceFilled = 0.15;  // share of a slice's points from which it counts as filled
 constexpr double kUsuallyFilled = 0.3, kUsualSpread = 0.7;  // medians of true landmarks
@@ -157,14 +158,31 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
   evidence.beside_filled = share(wall, mostlyFilled);
 }
 
-// Of points on the ground in the footprint, by the scans that pass through the solid part above it.
-std::vector<RayCounts> countsOfBeams(const Landmark& landmark, double solid_share, const PosedViews& views) {
+// Of points of the footprint, object frame, by the scans that pass through the solid part above it.
+std::vector<RayCounts> countsOfBeams(const Landmark& landmark, const std::vector<Eigen::Vector2d>& points, double solid_share,
+                                     const PosedViews& views) {
   const Pose3 world_from_object = landmark.worldFromObject();
   std::vector<Eigen::Vector2d> ground;
-  for (const auto& p : footprintPoints(landmark.shape))
-    ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
+  for (const auto& p : points) ground.push_back((world_from_object * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>());
   const double bottom = landmark.position.z();
   return views.byScans(ground, bottom - kFloorSlack_m, bottom + solid_share * landmark.shape.height);
+}
+
+// The part of a footprint that beams reach only where the object is not: its sides end them before.
+std::vector<Eigen::Vector2d> deepPoints(const ObjectShape& shape) {
+  std::vector<Eigen::Vector2d> out;
+  for (const auto& p : footprintPoints(shape))
+    if (std::abs(p.x()) < shape.depth / 2 - kDeep_m && std::abs(p.y()) < shape.width / 2 - kDeepAlong_m) out.push_back(p);
+  return out;
+}
+
+// Of what is solid: beams went on through it, or ended deep inside, at a wall that it would stand in.
+double beamsAgainst(const Landmark& landmark, double solid_share, const PosedViews& views) {
+  const double through =
+      crossedRoot(countsOfBeams(landmark, footprintPoints(landmark.shape), solid_share, views));
+  if (landmark.shape.kind != ShapeKind::kCuboid) return through;
+  const auto deep = countsOfBeams(landmark, deepPoints(landmark.shape), solid_share, views);
+  return std::max(through, std::sqrt(share(deep, mostlyFilled)));
 }
 
 // Shares: of the points, those about which something is known; of these, those that are filled.
@@ -178,7 +196,7 @@ std::pair<double, double> knownAndFilled(const std::vector<RayCounts>& counts) {
 void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
              const PosedViews& views) {
   if (views.hasImages()) setDepthRays(evidence, landmark, solid_share, views);
-  if (solid_share > 0) evidence.beams_crossed = crossedRoot(countsOfBeams(landmark, solid_share, views));
+  if (solid_share > 0) evidence.beams_crossed = beamsAgainst(landmark, solid_share, views);
   if (evidence.filled == 0 && evidence.crossed == 0) evidence.crossed = evidence.beams_crossed;
   if (views.hasImages()) return;
   evidence.filled = kUsuallyFilled;
@@ -190,7 +208,7 @@ void setRays(PlaceLook& look, const Landmark& landmark, double solid_share, cons
   std::tie(look.known, look.filled) =
       knownAndFilled(views.byImages(inWorld(insidePoints(landmark.shape), world_from_object)));
   if (solid_share == 0) return;
-  std::tie(look.beams_known, look.beams_filled) = knownAndFilled(countsOfBeams(landmark, solid_share, views));
+  std::tie(look.beams_known, look.beams_filled) = knownAndFilled(countsOfBeams(landmark, footprintPoints(landmark.shape), solid_share, views));
 }
 
 }  // namespace roomgraph

@@ -29,6 +29,15 @@ double depthAt(const cv::Mat& depth_mm, double u, double v) {
   return kMillimetre * depth_mm.at<std::uint16_t>(static_cast<int>(y), static_cast<int>(x));
 }
 
+// Who sits in a chair fills it, and walks off.
+void leaveOut(const std::vector<Box2>& people, double factor, cv::Mat& depth_mm) {
+  for (const Box2& box : people) {
+    const cv::Point first(static_cast<int>(box.u_min * factor), static_cast<int>(box.v_min * factor)),
+        last(static_cast<int>(std::ceil(box.u_max * factor)), static_cast<int>(std::ceil(box.v_max * factor)));
+    depth_mm(cv::Rect(first, last) & cv::Rect(0, 0, depth_mm.cols, depth_mm.rows)).setTo(0);
+  }
+}
+
 void count(RayCounts& counts, double measured_m, double range_m) {
   const double margin = kMargin_m + kMarginShare * range_m;
   if (measured_m > range_m + margin) {
@@ -42,7 +51,7 @@ void count(RayCounts& counts, double measured_m, double range_m) {
 
 }  // namespace
 
-void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot) {
+void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people) {
   if (!frame.hasDepth() || !frame.camera.valid()) return;
   if (!images_.empty() && sameView(last_image_from_, world_from_robot)) return;
   last_image_from_ = world_from_robot;
@@ -55,6 +64,7 @@ void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot) {
       depth_mm.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::min(z_m / kMillimetre, 65535.0));
     }
   }
+  leaveOut(people, factor, depth_mm);
   images_.push_back({frame.t, frame.robot_from_camera, camera, depth_mm});
 }
 

@@ -56,8 +56,9 @@ class PosedViews {
 /// image.
 class SpaceMemory {
  public:
-  /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken.
-  void add(const Frame& frame, const Pose3& world_from_robot);
+  /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken. What is in the
+  /// boxes of people tells nothing.
+  void add(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people = {});
   void add(const Scan& scan, const Pose3& world_from_robot);
   const KeptScans& scans() const { return scans_; }
   /// Valid until the next add().

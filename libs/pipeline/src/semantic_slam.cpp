@@ -72,7 +72,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
     mapper_.add(frame, floor, people);  // sec. 5
-    objects_.look(frame, estimator_.poses().at(frame.t));
+    objects_.look(frame, estimator_.poses().at(frame.t), people);
     if (detections.current() && setup_->options.landmarks.enabled) {
       auto measurements = select(frame, proposals, tracked.features);            // sec. 3
       doubt(measurements, frame);                                                // sec. 5

@@ -55,8 +55,8 @@ class ObjectMapper {
   /// from one place count once.
   void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
 
-  /// Remembers what the depth image saw free and filled.
-  void look(const Frame& frame, const Pose3& world_from_robot);
+  /// Remembers what the depth image saw free and filled, outside the boxes of people.
+  void look(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people);
 
   /// Every landmark with what the whole run says about its existence; without a model that is the filter's.
   std::vector<Candidate> candidates(const ObjectDatabase& database, const ExistenceModel* model) const;
