@@ -166,9 +166,12 @@ RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& ne
   return origin;
 }
 
-void printWarnings(const ReadStatistics& read, const std::string& of_detector) {
+void printWarnings(const ReadStatistics& read, const std::string& of_detector, const std::vector<Finding>& findings) {
   std::vector<std::string> warnings = read.sensor_warnings;
   warnings.insert(warnings.end(), {read.warning, of_detector});
+  for (const Finding& finding : findings)
+    if (finding.severity >= Severity::kWarning)
+      warnings.push_back(finding.place + ": " + finding.what + (finding.hint.empty() ? "" : "; " + finding.hint));
   for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
 }
@@ -236,6 +239,7 @@ void run(const RunOptions& options) {
   RunOrigin origin = originOf(options, networks, checkpoint.get());
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam->setup().options);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
+  const auto findings = origin.findings.value_or(std::vector<Finding>{});
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it
   release(slam);
@@ -249,7 +253,7 @@ void run(const RunOptions& options) {
 
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  printWarnings(reader.statistics(), detector ? detector->warning() : "");
+  printWarnings(reader.statistics(), detector ? detector->warning() : "", findings);
   std::cout << "results in " << options.output;
   if (reported || drawn)
     std::cout << "; look at "
