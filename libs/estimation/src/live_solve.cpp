@@ -43,6 +43,7 @@ void LiveSolve::build() {
   const ObjectsInGraph objects = objects_(poses_);
   graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
   landmarks_ = landmarksIn(*graph_, objects);
+  measurements_ = {};  // the graph has them, and is large enough
 }
 
 }  // namespace roomgraph

@@ -54,10 +54,15 @@ Movement unknownMovement(double seconds) {
   return {Pose3::Identity(), Matrix6d(sigma.cwiseAbs2().asDiagonal())};
 }
 
-bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
+bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment) {
   if (!poses_.empty() && t <= poses_.lastTime()) return false;
   if (begun_.insert(segment).second) beginnings_.insert(t);
   poses_.add(t, odom_from_robot, segment);
+  return true;
+}
+
+bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
+  if (!add(t, odom_from_robot, segment)) return false;
   const Matrix6d before = summed_.empty() ? Matrix6d::Zero() : summed_.back().second;
   summed_.emplace_back(t, before + step_covariance);
   return true;
@@ -96,6 +101,7 @@ std::optional<Movement> MotionSource::between(double t_a, double t_b, double hor
 // Of the step that ends at t or as the first one after it. No step leads to the pose that begins a segment: it is
 // where its frame begins, and known in it without error.
 Matrix6d MotionSource::stepAt(double t) const {
+  if (summed_.empty()) return Matrix6d::Zero();
   auto step = std::lower_bound(summed_.begin(), summed_.end(), t,
                                [](const auto& entry, double time) { return entry.first < time; });
   if (step == summed_.end()) --step;

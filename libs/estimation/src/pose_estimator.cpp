@@ -212,21 +212,20 @@ std::optional<GraphSolution> PoseEstimator::takeOver() {
   const SolveReport report =
       solution([&] { return live->solve(); }, [&]() -> FactorGraph& { return live->graph(); });
   work_ = live->workBeside();
-  graph_ = std::move(live->graph());
-  return accept(report, live->nodes(), live->landmarks());
+  return accept(live->graph(), report, live->nodes(), live->landmarks());
 }
 
 // The graph of the first `count` key poses was optimised: poses are where it says. The window goes on from its last one,
 // or from the oldest that it may hold.
-std::optional<GraphSolution> PoseEstimator::accept(const SolveReport& report, std::size_t count,
+std::optional<GraphSolution> PoseEstimator::accept(const FactorGraph& graph, const SolveReport& report, std::size_t count,
                                                    const std::vector<LandmarkId>& landmarks) {
   GraphSolution out;
-  if (report.usable) out.later = adopt(graph_, count);
+  if (report.usable) out.later = adopt(graph, count);
   settleSurprises();
   const std::size_t size = poses_.nodes().size(), most = static_cast<std::size_t>(options_.window_nodes);
   restartWindow(std::max(count - 1, size - std::min(size, most)));
   if (!report.usable) return std::nullopt;
-  for (const LandmarkId id : landmarks) out.landmarks.emplace(id, graph_.landmark(id));
+  for (const LandmarkId id : landmarks) out.landmarks.emplace(id, graph.landmark(id));
   return out;
 }
 
@@ -247,7 +246,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   const SolveReport report =
       solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
   graph_is_near_ = report.usable;
-  auto accepted = accept(report, poses_.nodes().size(), landmarksIn(graph_, objects));
+  auto accepted = accept(graph_, report, poses_.nodes().size(), landmarksIn(graph_, objects));
   return accepted ? std::optional(std::move(accepted->landmarks)) : std::nullopt;
 }
 

@@ -34,7 +34,7 @@ FrontEnds::FrontEnds(const Stages& stages, const Options& options)
 FrontEnds::~FrontEnds() = default;
 
 bool FrontEnds::add(const OdometryReading& reading) {
-  return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0, Matrix6d::Zero());
+  return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0);
 }
 
 TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {

@@ -28,6 +28,8 @@ class MotionSource {
   /// Ignores a pose whose stamp does not come after the last one; returns whether it was added.
   /// `step_covariance`: of the movement since the last pose, on top of the noise model.
   bool add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance);
+  /// The same for a source, of all its poses, of whose steps nothing but the noise model is known.
+  bool add(double t, const Pose3& odom_from_robot, int segment);
   /// Replaces the poses (later data refined them); the step covariances stay.
   void refine(const Trajectory& poses) { poses_ = poses; }
 

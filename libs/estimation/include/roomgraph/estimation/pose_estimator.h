@@ -54,7 +54,7 @@ class PoseEstimator {
   const KeyPoses& poses() const { return poses_; }
   /// Of the latest key pose.
   const Drift& drift() const { return drift_; }
-  /// The graph as it was last optimised as a whole.
+  /// The graph as optimizeAll() last left it: those solved during the run are not kept.
   const FactorGraph& graph() const { return graph_; }
   /// Whether the robot drives on the floor; else the camera is handheld.
   bool planar() const { return measurements_.planar; }
@@ -105,7 +105,7 @@ class PoseEstimator {
  private:
   SolveReport solution(const std::function<SolveReport()>& solve, const std::function<FactorGraph&()>& graph);
   void repeatSurprises();
-  std::optional<GraphSolution> accept(const SolveReport& report, std::size_t count,
+  std::optional<GraphSolution> accept(const FactorGraph& graph, const SolveReport& report, std::size_t count,
                                       const std::vector<LandmarkId>& landmarks);
   PathShift adopt(const FactorGraph& solved, std::size_t count);
   void slideWindow();
