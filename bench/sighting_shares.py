@@ -3,15 +3,16 @@
 """What proposals err by, as shares of what they say, and how much of that repeats: `[backend] landmark_sigma_share` and
 `landmark_repeating_share`, from recordings with truth.
 
-    bench/sighting_shares.py out/flats/batch/inputs/flat_* [--detections runs/{name}--default/detections.jsonl] [--program PROGRAM]
+    bench/sighting_shares.py out/flats/batch/inputs/flat_? [--detections out/flats/batch/runs/{name}--default/detections.jsonl]
 
 Each INPUT is a folder of `roomgraph simulate` (only flats below 100: these are for choosing). `roomgraph bench proposals` lifts
 its boxes, by the true poses. With z an error on the ground, along and across the view, in its own standard deviations:
 
     sigma_share^2 = median |z|^2 / (2 ln 2)        which is 1 for the errors of a Gaussian that are as large as said
-    repeating     = 1 - median |z_i - z_j|^2 / (2 median |z|^2)    over two sightings of an object, half a second to ten apart
+    repeating     = 1 - median |z_i - z_j|^2 / (2 median |z|^2)    over two sightings of an object from one direction
 
-Medians: a tenth of the proposals is another depth or an object's other side, which robust losses are for.
+"within a visit": half a second to ten seconds apart; "again": more than ten seconds apart, which is the landmark_repeating_share of
+docs/method.md. Medians: some of the proposals are another depth or an object's other side, which robust losses are for.
 """
 import argparse
 import bisect
@@ -24,38 +25,45 @@ import sys
 import tempfile
 from pathlib import Path
 
-LEAST_S, MOST_S = 0.5, 10
+LEAST_S, MOST_S = 0.5, 10  # apart, within a visit
+VIEW_RAD = 0.26  # as [backend] landmark_view_rad
 FEWEST = 20  # sightings, or pairs, that say something
 
 
 def sightings_of(lines):
-    """Object -> [(t, z along the view, z across it)] in order of time, with its class."""
+    """(Class, object) -> [(t, direction of view, z along it, z across it)] in order of time."""
     seen = collections.defaultdict(list)
     for line in lines:
         row = json.loads(line)
         proposal = row.get("proposal")
         if proposal:
-            z = [error / sigma for error, sigma in zip(proposal["error_in_view_m"], proposal["sigma_in_view_m"])]
-            seen[row["class"], row["object"]].append((row["timestamp"], *z))
+            error = proposal["error_in_view_m"]
+            z = [e / sigma for e, sigma in zip(error, proposal["sigma_in_view_m"])]
+            east, north = proposal["center_error_m"]  # the same, not turned into the view
+            seen[row["class"], row["object"]].append((row["timestamp"], math.atan2(north, east) - math.atan2(error[1], error[0]), *z))
     return {key: sorted(of) for key, of in seen.items()}
 
 
-def differences(sightings):
-    """Squared differences of one object's sightings and those that follow in LEAST_S to MOST_S."""
+def differences(sightings, least_s, most_s):
+    """Squared differences of one object's sightings and those from the same direction that follow after least_s to most_s."""
     times = [t for t, *_ in sightings]
-    for i, (t, *z) in enumerate(sightings):
-        for _, *other in sightings[bisect.bisect_left(times, t + LEAST_S):bisect.bisect_right(times, t + MOST_S)]:
-            yield math.dist(z, other) ** 2
+    for t, direction, *z in sightings:
+        for _, other_direction, *other in sightings[bisect.bisect_left(times, t + least_s):bisect.bisect_right(times, t + most_s)]:
+            if abs(math.remainder(direction - other_direction, 2 * math.pi)) < VIEW_RAD:
+                yield math.dist(z, other) ** 2
 
 
 def shares(objects):
-    """(sigma share, repeating share, sightings, pairs) of sightings of objects; None where too few say it."""
-    squares = [x * x + y * y for of in objects for _, x, y in of]
-    pairs = [square for of in objects for square in differences(of)]
-    if len(squares) < FEWEST or len(pairs) < FEWEST:
-        return None, None, len(squares), len(pairs)
-    median = statistics.median(squares)
-    return math.sqrt(median / (2 * math.log(2))), 1 - statistics.median(pairs) / (2 * median), len(squares), len(pairs)
+    """(Sightings, sigma share, (pairs, repeating share) within a visit, the same again); None where too few say it."""
+    squares = [x * x + y * y for of in objects for *_, x, y in of]
+    median = statistics.median(squares) if len(squares) >= FEWEST else None
+
+    def repeating(least_s, most_s):
+        pairs = [square for of in objects for square in differences(of, least_s, most_s)]
+        return len(pairs), 1 - statistics.median(pairs) / (2 * median) if median and len(pairs) >= FEWEST else None
+
+    sigma = math.sqrt(median / (2 * math.log(2))) if median else None
+    return len(squares), sigma, repeating(LEAST_S, MOST_S), repeating(MOST_S, math.inf)
 
 
 def lifted(program, folder, detections):
@@ -64,7 +72,7 @@ def lifted(program, folder, detections):
     if not rawlog:
         sys.exit(f"{folder}: no *.rawlog in it")
     number = folder.name.rpartition("_")[2]
-    if number.isdigit() and int(number) > 99:
+    if number.isdigit() and int(number) >= 1000:
         sys.exit(f"{folder}: flats from 1000 on are for reporting, not for choosing")
     with tempfile.TemporaryDirectory() as temporary:
         each = Path(temporary) / "each.jsonl"
@@ -77,11 +85,15 @@ def lifted(program, folder, detections):
 
 
 def table(by_class):
-    lines = ["| class | sightings | pairs | sigma share | repeating share |", "| --- | --- | --- | --- | --- |"]
+    def figure(value):
+        return "-" if value is None else f"{value:.2f}"
+
+    lines = ["| class | sightings | sigma share | pairs within a visit | repeating share | pairs again | repeating share |",
+             "| --- | --- | --- | --- | --- | --- | --- |"]
     for name, objects in by_class.items():
-        sigma, repeating, count, pairs = shares(objects)
-        cells = ["-", "-"] if sigma is None else [f"{sigma:.2f}", f"{repeating:.2f}"]
-        lines.append(f"| {name} | {count} | {pairs} | {cells[0]} | {cells[1]} |")
+        count, sigma, *repeating = shares(objects)
+        cells = [str(count), figure(sigma)] + [cell for pairs, share in repeating for cell in (str(pairs), figure(share))]
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 

@@ -79,7 +79,7 @@ void declareRunOptions(CLI::App& command, RunOptions& options) {
                      "folder for a picture of every frame: boxes, masks, edges, shapes, what went wrong");
   command.add_flag("--quiet", options.quiet, "no progress");
   command.add_flag("--no-snapshot", options.no_snapshot, "do not render snapshot.png");
-  command.add_flag("--no-report", options.no_report, "do not write report.html");
+  command.add_flag("--no-report", options.no_report, "do not write report.html, nor look for what is wrong with the recording");
   command.footer(
       "Examples:\n"
       "  roomgraph run lab.rawlog -o out/lab\n"

@@ -327,6 +327,9 @@ TEST_F(Evidence, AWallThroughWhatIsSolid) {
   scan.robot_from_lidar.translation().z() = 0.3;
   memory_.add(scan, Pose3::Identity());
   EXPECT_GT(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0.7) << "through its middle";
+  Landmark slim = landmarkOf(1, "sofa", 3, 0);
+  slim.shape.depth = 0.75;
+  EXPECT_GT(of({slim}).beams_crossed, 0.7);
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3.4, 0)}).beams_crossed, 0, 1e-12) << "they end at its front";
   Landmark along = landmarkOf(1, "sofa", 3.9, 0);
   along.has_yaw = true;

@@ -41,6 +41,22 @@ TEST(MotionSource, StepCovariancesAreSummedOverTheSpan) {
   EXPECT_NEAR(source.between(0, 4, 0)->covariance(0, 0), model + 1.0, 1e-12);
 }
 
+TEST(MotionSource, WithoutStepsItsModelIsAll) {
+  MotionSource with(kNoise, false), without(kNoise, false);
+  for (int i = 0; i <= 4; ++i) {
+    const Pose3 pose = poseFromYpr(0.3 * i, 0.1 * i * i, 0, 0.2 * i, 0, 0);
+    EXPECT_TRUE(with.add(i, pose, i / 3, Matrix6d::Zero()));
+    EXPECT_TRUE(without.add(i, pose, i / 3));
+  }
+  EXPECT_FALSE(without.add(4, Pose3::Identity(), 1));
+  for (const auto& [a, b] : {std::pair(0.0, 2.0), {0.5, 1.5}, {3, 4}, {3.2, 4.4}}) {
+    const auto expected = with.between(a, b, 1), found = without.between(a, b, 1);
+    ASSERT_TRUE(expected && found);
+    EXPECT_EQ(found->covariance, expected->covariance);
+    EXPECT_EQ(without.inLocalMap(a, b, 1)->covariance, with.inLocalMap(a, b, 1)->covariance);
+  }
+}
+
 TEST(MotionSource, NothingAcrossALossAndOutsideTheData) {
   MotionSource source(kNoise, false);
   EXPECT_FALSE(source.between(0, 1, 10));

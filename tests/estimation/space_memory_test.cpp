@@ -50,10 +50,10 @@ TEST_F(OneWall, PixelsWithoutDepthSayNothing) {
 }
 
 // The box covers the right half and goes on beyond the image.
-TEST_F(OneWall, PeopleNeitherFillNorFree) {
+TEST_F(OneWall, PeopleHideWhatTheyFill) {
   memory_.add(frameOfDepth(0, 0, 3), Pose3::Identity(), {Box2{160, -20, 400, 300}});
-  EXPECT_EQ(at({2, -0.5, 1}), "0 crossed, 0 filled, 0 hidden");
-  EXPECT_EQ(at({3, -0.5, 1}), "0 crossed, 0 filled, 0 hidden");
+  EXPECT_EQ(at({2, -0.5, 1}), "0 crossed, 0 filled, 1 hidden");
+  EXPECT_EQ(at({3, -0.5, 1}), "0 crossed, 0 filled, 1 hidden");
   EXPECT_EQ(at({2, 0.5, 1}), "1 crossed, 0 filled, 0 hidden") << "beside the box";
 }
 

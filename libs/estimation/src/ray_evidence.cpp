@@ -171,8 +171,8 @@ std::vector<RayCounts> countsOfBeams(const Landmark& landmark, const std::vector
 // The part of a footprint that beams reach only where the object is not: its sides end them before.
 std::vector<Eigen::Vector2d> deepPoints(const ObjectShape& shape) {
   std::vector<Eigen::Vector2d> out;
-  for (const auto& p : footprintPoints(shape))
-    if (std::abs(p.x()) < shape.depth / 2 - kDeep_m && std::abs(p.y()) < shape.width / 2 - kDeepAlong_m) out.push_back(p);
+  for (const double x : steps(shape.depth / 2 - kDeep_m))
+    for (const double y : steps(shape.width / 2 - kDeepAlong_m)) out.emplace_back(x, y);
   return out;
 }
 

@@ -16,6 +16,7 @@ constexpr double kMoved_m = 0.15, kTurned_rad = 0.1;    // between two views
 constexpr double kNearest_m = 0.4, kFarthest_m = 4.5;   // depths that are compared
 constexpr double kMargin_m = 0.1, kMarginShare = 0.02;  // of range: noise of depth, pose and shape
 constexpr double kMillimetre = 1e-3;
+constexpr std::uint16_t kNobodyNearer_mm = 1;
 
 bool sameView(const Pose3& a, const Pose3& b) {
   const Pose3 moved = a.inverse() * b;
@@ -29,12 +30,12 @@ double depthAt(const cv::Mat& depth_mm, double u, double v) {
   return kMillimetre * depth_mm.at<std::uint16_t>(static_cast<int>(y), static_cast<int>(x));
 }
 
-// Who sits in a chair fills it, and walks off.
+// Who sits in a chair fills it, and walks off: they are as near as can be, and hide what is behind them.
 void leaveOut(const std::vector<Box2>& people, double factor, cv::Mat& depth_mm) {
   for (const Box2& box : people) {
     const cv::Point first(static_cast<int>(box.u_min * factor), static_cast<int>(box.v_min * factor)),
         last(static_cast<int>(std::ceil(box.u_max * factor)), static_cast<int>(std::ceil(box.v_max * factor)));
-    depth_mm(cv::Rect(first, last) & cv::Rect(0, 0, depth_mm.cols, depth_mm.rows)).setTo(0);
+    depth_mm(cv::Rect(first, last) & cv::Rect(0, 0, depth_mm.cols, depth_mm.rows)).setTo(kNobodyNearer_mm);
   }
 }
 

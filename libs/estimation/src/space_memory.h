@@ -56,8 +56,8 @@ class PosedViews {
 /// image.
 class SpaceMemory {
  public:
-  /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken. What is in the
-  /// boxes of people tells nothing.
+  /// Reduced by nearest pixels; left out without depth or when the robot stands where the last one was taken. The boxes of
+  /// people hide what is behind them.
   void add(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people = {});
   void add(const Scan& scan, const Pose3& world_from_robot);
   const KeptScans& scans() const { return scans_; }

@@ -41,7 +41,7 @@ struct ExistenceEvidence {
   double spread = 0;          ///< share of its length or width, the lesser one, along which they ended in it
   double beside_crossed = 0;  ///< of doors: of the wall beside and above, by depth rays
   double beside_filled = 0;   ///< of doors: share of it where they ended
-  double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams
+  double beams_crossed = 0;   ///< of solid classes: of the footprint, by lidar beams; of a cuboid also where they end deep inside it
   double above_filled = 0;  ///< of all but doors: share of the space above its middle where depth rays ended
   double uneven =
       0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top

@@ -82,7 +82,7 @@ class SemanticSlam {
   /// Refines everything with all data and builds the map. May be called at any moment.
   SlamResult finish();
 
-  /// The last graph that was optimised as a whole (after finish(): the final one).
+  /// Of finish(): the final one; empty before.
   const FactorGraph& graph() const { return estimator_.graph(); }
   /// Every measured object and the landmark it belongs to; after finish() with all hindsight.
   const ObjectMapper& objects() const { return objects_; }
