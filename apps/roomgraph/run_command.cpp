@@ -170,7 +170,7 @@ void printWarnings(const ReadStatistics& read, const std::string& of_detector, c
   std::vector<std::string> warnings = read.sensor_warnings;
   warnings.insert(warnings.end(), {read.warning, of_detector});
   for (const Finding& finding : findings)
-    if (finding.severity >= Severity::kWarning)
+    if (finding.severity >= Severity::kWarning && finding.place != "file")  // what the reader says already
       warnings.push_back(finding.place + ": " + finding.what + (finding.hint.empty() ? "" : "; " + finding.hint));
   for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";

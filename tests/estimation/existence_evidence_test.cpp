@@ -330,6 +330,9 @@ TEST_F(Evidence, AWallThroughWhatIsSolid) {
   Landmark slim = landmarkOf(1, "sofa", 3, 0);
   slim.shape.depth = 0.75;
   EXPECT_GT(of({slim}).beams_crossed, 0.7);
+  slim.shape.depth = 0.65;
+  slim.position.x() = 3.12;
+  EXPECT_NEAR(of({slim}).beams_crossed, 0, 1e-12) << "its front may be where they end";
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3.4, 0)}).beams_crossed, 0, 1e-12) << "they end at its front";
   Landmark along = landmarkOf(1, "sofa", 3.9, 0);
   along.has_yaw = true;

@@ -170,9 +170,11 @@ std::vector<RayCounts> countsOfBeams(const Landmark& landmark, const std::vector
 
 // The part of a footprint that beams reach only where the object is not: its sides end them before.
 std::vector<Eigen::Vector2d> deepPoints(const ObjectShape& shape) {
+  const double half_depth = shape.depth / 2 - kDeep_m, half_width = shape.width / 2 - kDeepAlong_m;
+  if (half_depth <= 0 || half_width <= 0) return {};  // a cabinet: nothing of it is farther inside than its sides may be off
   std::vector<Eigen::Vector2d> out;
-  for (const double x : steps(shape.depth / 2 - kDeep_m))
-    for (const double y : steps(shape.width / 2 - kDeepAlong_m)) out.emplace_back(x, y);
+  for (const double x : steps(half_depth))
+    for (const double y : steps(half_width)) out.emplace_back(x, y);
   return out;
 }
 
