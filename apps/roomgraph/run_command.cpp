@@ -170,7 +170,7 @@ void printWarnings(const ReadStatistics& read, const std::string& of_detector, c
   std::vector<std::string> warnings = read.sensor_warnings;
   warnings.insert(warnings.end(), {read.warning, of_detector});
   for (const Finding& finding : findings)
-    if (finding.severity >= Severity::kWarning && finding.place != "file")  // what the reader says already
+    if (finding.severity >= Severity::kWarning && finding.place != "file")  // which the reader says itself
       warnings.push_back(finding.place + ": " + finding.what + (finding.hint.empty() ? "" : "; " + finding.hint));
   for (const std::string& warning : warnings)
     if (!warning.empty()) std::cerr << "roomgraph: warning: " << warning << "\n";
@@ -239,7 +239,6 @@ void run(const RunOptions& options) {
   RunOrigin origin = originOf(options, networks, checkpoint.get());
   if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam->setup().options);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
-  const auto findings = origin.findings.value_or(std::vector<Finding>{});
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it
   release(slam);
@@ -253,7 +252,7 @@ void run(const RunOptions& options) {
 
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
-  printWarnings(reader.statistics(), detector ? detector->warning() : "", findings);
+  printWarnings(reader.statistics(), detector ? detector->warning() : "", origin.findings.value_or(std::vector<Finding>{}));
   std::cout << "results in " << options.output;
   if (reported || drawn)
     std::cout << "; look at "

@@ -297,14 +297,20 @@ TEST_F(Evidence, WhatGoesOnAboveIsHigher) {
   EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12) << "hidden";
 }
 
-TEST_F(Evidence, BeamsThroughWhatIsSolid) {
+// Half a turn of beams, all of one length, .3 m above the floor.
+Scan halfRound(float range_m) {
   Scan scan;
-  scan.ranges_m.assign(181, 6.F);
+  scan.ranges_m.assign(181, range_m);
   scan.valid.assign(181, 1);
   scan.angle_min_rad = -M_PI / 2;
   scan.angle_step_rad = M_PI / 180;
   scan.max_range_m = 10;
   scan.robot_from_lidar.translation().z() = 0.3;
+  return scan;
+}
+
+TEST_F(Evidence, BeamsThroughWhatIsSolid) {
+  Scan scan = halfRound(6);
   memory_.add(scan, Pose3::Identity());
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 1, 1e-12);
   EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).crossed, 1, 1e-12) << "no image saw anything of it";
@@ -318,14 +324,7 @@ TEST_F(Evidence, BeamsThroughWhatIsSolid) {
 
 // A sofa, 1.8 x .8 m, ends beams at its sides, whichever of them the scan sees: one that a beam reaches the inside of is not there.
 TEST_F(Evidence, AWallThroughWhatIsSolid) {
-  Scan scan;
-  scan.ranges_m.assign(181, 3.F);
-  scan.valid.assign(181, 1);
-  scan.angle_min_rad = -M_PI / 2;
-  scan.angle_step_rad = M_PI / 180;
-  scan.max_range_m = 10;
-  scan.robot_from_lidar.translation().z() = 0.3;
-  memory_.add(scan, Pose3::Identity());
+  memory_.add(halfRound(3), Pose3::Identity());
   EXPECT_GT(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0.7) << "through its middle";
   Landmark slim = landmarkOf(1, "sofa", 3, 0);
   slim.shape.depth = 0.75;

@@ -41,19 +41,19 @@ class Mounting(unittest.TestCase):
         """The warnings of a run into self.folder / "run"."""
         return self.call("run", rawlog, "-o", self.folder / "run", "--quiet", "--no-snapshot", "--threads", "1", *words)
 
-    def score(self, truth):
-        self.call("evaluate", "objects", truth, self.folder / "run" / "landmarks.json", "--json", self.folder / "score.json")
-        return json.loads((self.folder / "score.json").read_text())
+    def expect_map(self, simulated, objects):
+        self.mapped(next(simulated.glob("*.rawlog")))
+        file = self.folder / "score.json"
+        self.call("evaluate", "objects", simulated / "objects.json", self.folder / "run" / "landmarks.json", "--json", file)
+        score = json.loads(file.read_text())
+        self.assertEqual((score["correct"], score["false_alarms"]), (objects, 0))
+        self.assertLess(score["position_error_max_m"], FARTHEST_M)
 
     def test_a_camera_near_the_floor_on_a_robot(self):
         def lower(world):
             world["sensors"]["camera"].update(at_m=[0.05, 0, 0.6], pitch_down_deg=5)
 
-        there = self.simulated("tiny_room", lower)
-        self.mapped(there / "tiny_room.rawlog")
-        score = self.score(there / "objects.json")
-        self.assertEqual((score["correct"], score["false_alarms"]), (3, 0))
-        self.assertLess(score["position_error_max_m"], FARTHEST_M)
+        self.expect_map(self.simulated("tiny_room", lower), 3)
 
     # The world is levelled by a floor that is half a metre below the camera.
     def test_a_camera_held_half_a_metre_above_the_floor(self):
@@ -62,11 +62,7 @@ class Mounting(unittest.TestCase):
                 view["at_m"][2] -= 0.9
                 view["look_at_m"][2] = 0.45
 
-        there = self.simulated("tiny_handheld", lower)
-        self.mapped(there / "tiny_handheld.rawlog")
-        score = self.score(there / "objects.json")
-        self.assertEqual((score["correct"], score["false_alarms"]), (1, 0))
-        self.assertLess(score["position_error_max_m"], FARTHEST_M)
+        self.expect_map(self.simulated("tiny_handheld", lower), 1)
 
     # As recordings are whose cameras nobody measured: in the middle of the robot, on the floor.
     def test_without_extrinsics_a_run_says_where_the_camera_is(self):

@@ -16,7 +16,7 @@ constexpr double kMoved_m = 0.15, kTurned_rad = 0.1;    // between two views
 constexpr double kNearest_m = 0.4, kFarthest_m = 4.5;   // depths that are compared
 constexpr double kMargin_m = 0.1, kMarginShare = 0.02;  // of range: noise of depth, pose and shape
 constexpr double kMillimetre = 1e-3;
-constexpr std::uint16_t kNobodyNearer_mm = 1;
+constexpr std::uint16_t kNearestDepth_mm = 1;
 
 bool sameView(const Pose3& a, const Pose3& b) {
   const Pose3 moved = a.inverse() * b;
@@ -30,12 +30,12 @@ double depthAt(const cv::Mat& depth_mm, double u, double v) {
   return kMillimetre * depth_mm.at<std::uint16_t>(static_cast<int>(y), static_cast<int>(x));
 }
 
-// Who sits in a chair fills it, and walks off: they are as near as can be, and hide what is behind them.
-void leaveOut(const std::vector<Box2>& people, double factor, cv::Mat& depth_mm) {
+// Who sits in a chair fills it, and walks off: as near as can be, they hide what is behind them.
+void hideBehind(const std::vector<Box2>& people, double factor, cv::Mat& depth_mm) {
   for (const Box2& box : people) {
     const cv::Point first(static_cast<int>(box.u_min * factor), static_cast<int>(box.v_min * factor)),
         last(static_cast<int>(std::ceil(box.u_max * factor)), static_cast<int>(std::ceil(box.v_max * factor)));
-    depth_mm(cv::Rect(first, last) & cv::Rect(0, 0, depth_mm.cols, depth_mm.rows)).setTo(kNobodyNearer_mm);
+    depth_mm(cv::Rect(first, last) & cv::Rect(0, 0, depth_mm.cols, depth_mm.rows)).setTo(kNearestDepth_mm);
   }
 }
 
@@ -65,7 +65,7 @@ void SpaceMemory::add(const Frame& frame, const Pose3& world_from_robot, const s
       depth_mm.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(std::min(z_m / kMillimetre, 65535.0));
     }
   }
-  leaveOut(people, factor, depth_mm);
+  hideBehind(people, factor, depth_mm);
   images_.push_back({frame.t, frame.robot_from_camera, camera, depth_mm});
 }
 

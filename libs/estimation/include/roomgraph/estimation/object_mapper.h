@@ -55,7 +55,7 @@ class ObjectMapper {
   /// from one place count once.
   void observe(const Scan& scan, const Pose3& world_from_robot, const ObjectDatabase& database);
 
-  /// Remembers what the depth image saw free and filled, outside the boxes of people.
+  /// Remembers what the depth image saw free and filled; the boxes of people hide what is behind them.
   void look(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people);
 
   /// Every landmark with what the whole run says about its existence; without a model that is the filter's.
