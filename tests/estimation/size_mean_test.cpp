@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "shipped_objects.h"
 
@@ -51,26 +50,22 @@ TEST(SizeMean, WeighsByInformationAndWeight) {
       << "mean information, largest weight";
 }
 
-// Fits of usual width that hold the sofa's left end, seen from before and from behind, although it is 2.4 m
-// long.
+// Of sightings placed for the usual length some hold the sofa's left end, some both ends; it is 2.4 m long.
 TEST(OffsetMean, PlacesTheMiddleByTheSizeThatIsTrue) {
   OffsetMean mean;
-  Proposal left = fitted(1.85, 0.1);
-  left.place_by_size(1, 0) = -0.5;
-  mean.add(left, 0, 1);
-  Proposal from_behind = left;  // what is left there is right here
-  from_behind.place_by_size(1, 0) = 0.5;
-  mean.add(from_behind, std::numbers::pi, 3);
+  PlaceBySize left = PlaceBySize::Zero();
+  left(1, 0) = -0.5;
+  mean.add(left, 4);
   LandmarkViewFactor factor;
-  mean.apply(factor);
-  const Eigen::Vector3d truth(2.4, left.shape.depth, left.shape.height);
+  const ObjectShape usual = sofa().nominal();
+  mean.apply(usual, factor);
+  const Eigen::Vector3d truth(2.4, usual.depth, usual.height);
   const Eigen::Vector2d offset = factor.offset_m + factor.offset_by_size * truth;
   EXPECT_NEAR(offset.x(), 0, 1e-12);
-  EXPECT_NEAR(offset.y(), (2.4 - left.shape.width) / 2, 1e-12)
-      << "the fits' middles are nearer to the left end";
-  mean.add(4);  // half of the weight sees both ends
-  mean.apply(factor);
-  EXPECT_NEAR((factor.offset_m + factor.offset_by_size * truth).y(), (2.4 - left.shape.width) / 4, 1e-12);
+  EXPECT_NEAR(offset.y(), (2.4 - usual.width) / 2, 1e-12) << "the middle they tell of is nearer to the left end";
+  mean.add(PlaceBySize::Zero(), 4);  // half of the weight sees both ends
+  mean.apply(usual, factor);
+  EXPECT_NEAR((factor.offset_m + factor.offset_by_size * truth).y(), (2.4 - usual.width) / 4, 1e-12);
 }
 
 TEST(SizeMean, ThePriorIsTheUsualSize) {

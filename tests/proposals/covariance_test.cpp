@@ -119,5 +119,32 @@ TEST(Covariance, WithoutDepthItContainsTheBoxesNoise) {
   }
 }
 
+// Of a sofa one end is seen, its length is as uncertain as the class: what that does to the middle, by sampling.
+TEST(Covariance, OfACuboidContainsWhatIsNotKnownOfItsSize) {
+  BoxEvidence e = seen(true);
+  e.model = database().find("sofa");
+  PlacedShape placed;
+  placed.shape = e.model->nominal();
+  placed.x = 2.5;
+  placed.yaw = 2.2;
+  placed.has_yaw = true;
+  placed.quality = 0.95;
+  const Eigen::Matrix2d sure = covarianceOf(placed, e, 0).topLeftCorner<2, 2>();
+  placed.place_by_size(1, 0) = 0.5;
+  std::mt19937 random(6);
+  std::normal_distribution<double> length(0, e.model->width_sigma_m);
+  Eigen::Matrix2d sampled = Eigen::Matrix2d::Zero();
+  constexpr int kRuns = 20000;
+  for (int i = 0; i < kRuns; ++i) {
+    const Eigen::Vector2d moved = 0.5 * length(random) * Eigen::Vector2d(-std::sin(placed.yaw), std::cos(placed.yaw));
+    sampled += moved * moved.transpose() / kRuns;
+  }
+  const Eigen::Matrix2d added = Eigen::Matrix2d(covarianceOf(placed, e, 0).topLeftCorner<2, 2>()) - sure;
+  EXPECT_LT((added - sampled).norm(), 0.03 * sampled.norm());
+  placed.size_information[0] = 3 / std::pow(e.model->width_sigma_m, 2);
+  EXPECT_LT((Eigen::Matrix2d(covarianceOf(placed, e, 0).topLeftCorner<2, 2>()) - sure - added / 4).norm(), 1e-9)
+      << "the image says three times what the class says";
+}
+
 }  // namespace
 }  // namespace roomgraph

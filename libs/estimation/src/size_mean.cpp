@@ -37,18 +37,15 @@ LandmarkSizeFactor SizeMean::factor(LandmarkId id) const {
           variance.cwiseSqrt().cwiseMax(kLeastSigma_m)};
 }
 
-void OffsetMean::add(const Proposal& proposal, double yaw, double share) {
-  const Eigen::Matrix<double, 2, 3> in_landmark =
-      Eigen::Rotation2Dd(yaw).toRotationMatrix() * proposal.place_by_size;
-  at_fit_ += share * in_landmark * sizeOf(proposal.shape);
-  by_size_ += share * in_landmark;
+void OffsetMean::add(const PlaceBySize& lever, double share) {
+  by_size_ += share * lever;
   weight_ += share;
 }
 
-void OffsetMean::apply(LandmarkViewFactor& factor) const {
+void OffsetMean::apply(const ObjectShape& shape, LandmarkViewFactor& factor) const {
   if (weight_ <= 0) return;
-  factor.offset_m = at_fit_ / weight_;
   factor.offset_by_size = -by_size_ / weight_;
+  factor.offset_m = -factor.offset_by_size * sizeOf(shape);
 }
 
 LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model) {

@@ -26,20 +26,17 @@ class SizeMean {
   double weight_ = 0, largest_ = 0;
 };
 
-/// Where the sightings from one direction place the landmark, by its size: a side that all of them see is at
-/// the same place whatever the size; a fit that took the object for shorter has put its middle nearer to that
-/// side.
+/// Where the sightings of one view place the landmark, by its size: a side that all of them see is at the same place
+/// whatever the size; when it is longer than it was taken for, its middle is farther from that side.
 class OffsetMean {
  public:
-  /// `yaw`: of the sighting against the landmark, rad. `share`: its weight in the mean place.
-  void add(const Proposal& proposal, double yaw, double share);
-  /// A sighting in the mean place that says nothing about the offset.
-  void add(double share) { weight_ += share; }
-  void apply(LandmarkViewFactor& factor) const;
+  /// `lever`: of a sighting, in the landmark's frame. `share`: its weight in the mean place.
+  void add(const PlaceBySize& lever, double share);
+  /// `shape`: the size for which the sightings were placed.
+  void apply(const ObjectShape& shape, LandmarkViewFactor& factor) const;
 
  private:
-  Eigen::Vector2d at_fit_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix<double, 2, 3> by_size_ = Eigen::Matrix<double, 2, 3>::Zero();
+  PlaceBySize by_size_ = PlaceBySize::Zero();
   double weight_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "roomgraph/geometry/degree.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 namespace {
@@ -101,6 +102,8 @@ ProposalError errorOf(const Proposal& p, const ProposalCase& c) {
   e.in_view = view_from_ground * e.center;
   e.sigma_in_view =
       (view_from_ground * covariance * view_from_ground.transpose()).diagonal().cwiseMax(0).cwiseSqrt();
+  e.in_object = (c.camera_from_truth.inverse() * p.camera_from_object).translation().head<2>();
+  e.size = sizeOf(p.shape) - sizeOf(c.truth);
   e.nees = e.center.dot(covariance.inverse() * e.center);
   e.range_m = place.norm();
   if (c.rule.symmetry > 0) e.yaw_deg = yawError(estimate, truth, c.rule.symmetry);

@@ -91,9 +91,11 @@ std::string toJsonLine(const ProposalCase& c) {
                        {"has_yaw", top.has_yaw},
                        {"center_error_m", {error.center.x(), error.center.y()}},
                        {"yaw_error_deg", error.yaw_deg},
+                       {"size_error_m", {error.size.x(), error.size.y(), error.size.z()}},
                        {"iou3d", error.iou3d},
                        {"range_m", error.range_m},
                        {"error_in_view_m", {error.in_view.x(), error.in_view.y()}},
+                       {"error_in_object_m", {error.in_object.x(), error.in_object.y()}},
                        {"nees", error.nees},
                        {"sigma_in_view_m", {error.sigma_in_view.x(), error.sigma_in_view.y()}},
                        {"reasons", top.reasons}};

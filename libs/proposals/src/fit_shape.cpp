@@ -172,9 +172,9 @@ class FitProblem {
       fitted.place_by_size << by_size.col(0) / 2, by_size.col(0) / 2, by_size.col(1);
     } else {
       fitted.size_information = (known.segment<3>(3) - usual).cwiseMax(0);
-      // Points up to a cut side say how long it is at least.
-      if (endsBeyondACut(fitted, 1)) fitted.size_information[0] = 0;
-      if (endsBeyondACut(fitted, 0)) fitted.size_information[1] = 0;
+      // Points up to a cut side say how long it is at least: more than usual, or nothing.
+      if (endsBeyondACut(fitted, 1) && fitted.shape.width <= e_.model->width_m) fitted.size_information[0] = 0;
+      if (endsBeyondACut(fitted, 0) && fitted.shape.depth <= e_.model->depth_m) fitted.size_information[1] = 0;
       fitted.place_by_size = by_size;
     }
     fitted.place_by_size = fitted.place_by_size.cwiseMax(-kLargestLever).cwiseMin(kLargestLever);

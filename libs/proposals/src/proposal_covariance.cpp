@@ -96,8 +96,6 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   if (supported && static_cast<double>(e.mask.points.size()) < kFewPoints) s.grow(kWithFewPoints);
   if (e.cut.left || e.cut.right) s.grow(kWithCutSide);
   if (e.cut.bottom) s.grow(kWithCutBottom);
-  // How far it reaches beyond the cut is the class's usual size.
-  if (kind == ShapeKind::kCuboid && e.cut.left != e.cut.right) s.across = std::hypot(s.across, e.model->width_sigma_m / 2);
   s.along = std::hypot(s.along, placed.open_along_m);
   if (!placed.has_yaw) s.yaw = std::numbers::pi;
   const Eigen::Rotation2Dd turn(std::atan2(placed.y, placed.x));
@@ -105,6 +103,11 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
   covariance.topLeftCorner<2, 2>() = turn.toRotationMatrix() *
                                      Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
                                      turn.toRotationMatrix().transpose();
+  // How far it reaches from the side that was seen is the class's usual size.
+  if (kind == ShapeKind::kCuboid) {
+    const PlaceBySize lever = Eigen::Rotation2Dd(placed.yaw).toRotationMatrix() * placed.place_by_size;
+    covariance.topLeftCorner<2, 2>() += placeSpread(lever, placed.size_information, e.model->sizeSigma());
+  }
   const double height_sigma = e.model->rests_on_ground ? kHeightSigma : kBottomSigma_m;
   covariance(2, 2) = height_sigma * height_sigma;
   covariance(3, 3) = s.yaw * s.yaw;

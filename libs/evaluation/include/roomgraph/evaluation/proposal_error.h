@@ -30,6 +30,8 @@ struct ProposalCase {
 struct ProposalError {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();   ///< ground frame, estimate minus truth, m
   Eigen::Vector2d in_view = Eigen::Vector2d::Zero();  ///< the same along the view and to its left, m
+  Eigen::Vector2d in_object = Eigen::Vector2d::Zero();  ///< the same in front of and to the left of the true object, m
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< width, depth and height, estimate minus truth, m
   Eigen::Vector2d sigma_in_view =
       Eigen::Vector2d::Zero();  ///< that the proposal claims, along and to the left, m
   double nees = 0;              ///< of `center` by the proposal's covariance; expected: 2

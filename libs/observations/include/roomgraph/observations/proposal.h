@@ -26,6 +26,9 @@ struct FrameGround {
   std::string reason;                      ///< why it was not seen; empty when it was
 };
 
+/// By how much a place (m) moves for each metre that width, depth and height are larger.
+using PlaceBySize = Eigen::Matrix<double, 2, 3>;
+
 /// One hypothesis of an object's shape and place (method.md sec. 1.E).
 struct Proposal {
   int detection = -1;  ///< index j of the detection in its frame
@@ -38,9 +41,8 @@ struct Proposal {
   /// Of width, depth and height, 1/m^2: what this image said about each. `shape` is the compromise of that
   /// with the class's usual size.
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();
-  /// By how much the place (x forward, y left in the object's frame) moves for each metre that width, depth
-  /// and height are larger: the side that was seen stays where it is.
-  Eigen::Matrix<double, 2, 3> place_by_size = Eigen::Matrix<double, 2, 3>::Zero();
+  /// Of the place, x forward and y left in the object's frame: the side that was seen stays where it is.
+  PlaceBySize place_by_size = PlaceBySize::Zero();
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
   ProjectedShape projected;         ///< its `visible` ends where something nearer hides a side of the box
   double score = 0;  ///< initialisation score in [0, 1] (method.md sec. 1.5)
@@ -54,6 +56,11 @@ struct Proposal {
 struct Segment2 {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
 };
+
+/// Covariance of the place, x and y, that comes from what is not known of the size: of classes whose sizes vary by
+/// `size_sigma` (m) each, when an image said `size_information` (1/m^2) about each.
+Eigen::Matrix2d placeSpread(const PlaceBySize& by_size, const Eigen::Vector3d& size_information,
+                            const Eigen::Vector3d& size_sigma);
 
 /// How the proposals of one detection came about, for people (debug pictures).
 struct ProposalTrace {
