@@ -25,9 +25,9 @@ constexpr int kDirections = 1024;      // more than there are of the least landm
 constexpr int kEnds = 3;               // none, left, right
 constexpr double kLeastWeight = 1e-9;  // a view without weight would leave its place undetermined
 constexpr double kVisitPause_s = 3;    // an object not seen for so long begins a new visit
-// Part of the width by which the middle moves when the width is taken for larger: half when one end is held fast, none
-// when both or neither are.
-constexpr double kOneEnd = 0.25;
+// How far the middle may be from where the end that is held fast puts it for the usual width, for a view to tell of that end
+// alone: a sofa's is so uncertain, a door's is not.
+constexpr double kUnknown_m = 0.075;
 constexpr double kLeastSigma_m = 0.01;  // of a place, however well the size were known
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
@@ -95,13 +95,15 @@ struct View {
 struct EndSeen {
   LandmarkFactor factor;  // at the landmark's size, its yaw near the landmark's
   PlaceBySize lever = PlaceBySize::Zero();
+  int end = 0;                     // see ViewKey
   const Proposal* size = nullptr;  // that measured it; null: took width for depth
   double size_weight = 0;
 };
 
-int endOf(const PlaceBySize& lever) {
-  const double by_width = lever(1, 0);
-  return std::abs(by_width) < kOneEnd ? 0 : by_width > 0 ? 1 : -1;
+// Where the width hardly varies, either end tells the middle.
+int endOf(const PlaceBySize& lever, const ObjectModel& usual) {
+  const double by_width_m = lever(1, 0) * usual.width_sigma_m;
+  return std::abs(by_width_m) < kUnknown_m ? 0 : by_width_m > 0 ? 1 : -1;
 }
 
 EndSeen endSeen(const Sighting& sighting, const Landmark& landmark, const ObjectModel* usual, double yaw_in_robot,
@@ -116,6 +118,7 @@ EndSeen endSeen(const Sighting& sighting, const Landmark& landmark, const Object
   if (measures && has_yaw && landmark.has_yaw) {
     out.factor = atSize(landmark.shape, sighting, *usual);
     out.lever = Eigen::Rotation2Dd(turned).toRotationMatrix() * sighting.proposal->place_by_size;
+    out.end = endOf(out.lever, *usual);
   }
   out.factor = withYawNear(yaw_in_robot, out.factor);
   out.factor.covariance *= sigma_share * sigma_share;
@@ -152,7 +155,7 @@ std::map<ViewKey, View> viewsOf(const SightingsByNode& sightings, const Landmark
     std::map<int, std::vector<EndSeen>> ends;
     for (const Sighting& sighting : group) {
       const EndSeen seen = endSeen(sighting, landmark, usual, yaw_in_robot, options.landmark_sigma_share);
-      ends[endOf(seen.lever)].push_back(seen);
+      ends[seen.end].push_back(seen);
     }
     for (const auto& [end, seen] : ends) addToViews(seen, end, usual, poses, options, views);
   }
