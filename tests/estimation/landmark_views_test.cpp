@@ -46,8 +46,8 @@ Proposal holding(End end) {
 }
 
 // From a robot at the world's origin.
-Sighting sightingOf(const Proposal& proposal, std::int64_t node) {
-  Sighting out{.factor = {.node = NodeId{node}, .landmark = landmark().id}, .proposal = &proposal, .size_weight = 1};
+LandmarkSighting sightingOf(const Proposal& proposal, std::int64_t node) {
+  LandmarkSighting out{.factor = {.node = NodeId{node}, .landmark = landmark().id}, .proposal = &proposal, .size_weight = 1};
   out.factor.position_in_robot = proposal.camera_from_object.translation();
   out.factor.yaw_in_robot = planarPart(proposal.camera_from_object).yaw;
   out.factor.has_yaw = true;
@@ -75,7 +75,7 @@ TEST(LandmarkViews, TheEndThatWasSeenStaysWhateverTheLength) {
 // However wrong the size's share may be, a place does not become certain.
 TEST(LandmarkViews, APlaceStaysUncertain) {
   const Proposal left = holding(End::kLeft);
-  Sighting sure = sightingOf(left, 0);
+  LandmarkSighting sure = sightingOf(left, 0);
   sure.factor.covariance.topLeftCorner<2, 2>() *= 0.01;
   const Eigen::Matrix2d place = atSize(left.shape, sure, sofa()).covariance.topLeftCorner<2, 2>();
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(place).eigenvalues()(0), 1e-4 - 1e-12);

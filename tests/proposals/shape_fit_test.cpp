@@ -165,6 +165,30 @@ TEST(Fit, PlaceBySizeIsTheChangeOfThePlaceWithTheUsualSize) {
   }
 }
 
+// A crate of 2.6 m goes on beyond the image, 1.6 m of it are in view: it is longer than usual, or nothing is said.
+TEST(Fit, APartTellsALengthWhereItIsLongerThanUsual) {
+  Scene scene = test::sceneAhead();
+  scene.addBox(2.4, -0.9, pi, 2.6, 0.8, 0, 0.6, 1);
+  for (const bool usually_short : {true, false}) {
+    const ObjectDatabase database = ObjectDatabase::fromText(
+        "[crate]\nlabels = crate\ndepth_m = 0.8\nheight_m = 0.6\ndepth_sigma_m = 0.05\nheight_sigma_m = 0.05\n"
+        "width_sigma_m = 0.3\nwidth_m = " +
+        std::string(usually_short ? "1.2\n" : "2.4\n"));
+    const BoxEvidence e = fitEvidence(scene, *database.find("crate"), true);
+    ASSERT_TRUE(e.cut.right);
+    PlacedShape start = usualShape(e);
+    start.x = 2.4, start.y = 0.4 - start.shape.width / 2, start.yaw = pi, start.has_yaw = true;
+    const PlacedShape fitted = fitShape(start, e);
+    EXPECT_NEAR(fitted.y + fitted.shape.width / 2, 0.4, 0.05) << "the end in view";
+    if (usually_short) {
+      EXPECT_GT(fitted.shape.width, 1.45);
+      EXPECT_GT(fitted.size_information[0], 1 / (0.3 * 0.3)) << "surer than the class";
+    } else {
+      EXPECT_EQ(fitted.size_information[0], 0);
+    }
+  }
+}
+
 // Only the foot end of a bed is seen, at the height of the camera: the rest lies behind it.
 TEST(Cuboid, WhatIsNotSeenLiesBehindWhatIs) {
   const ObjectDatabase database = ObjectDatabase::fromText(

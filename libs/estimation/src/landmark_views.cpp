@@ -106,7 +106,7 @@ int endOf(const PlaceBySize& lever, const ObjectModel& usual) {
   return std::abs(by_width_m) < kUnknown_m ? 0 : by_width_m > 0 ? 1 : -1;
 }
 
-EndSeen endSeen(const Sighting& sighting, const Landmark& landmark, const ObjectModel* usual, double yaw_in_robot,
+EndSeen endSeen(const LandmarkSighting& sighting, const Landmark& landmark, const ObjectModel* usual, double yaw_in_robot,
                 double sigma_share) {
   const double turned = sighting.factor.yaw_in_robot - yaw_in_robot;
   const bool has_yaw = sighting.proposal->has_yaw, measures = usual && !(has_yaw && isAcross(turned));
@@ -153,7 +153,7 @@ std::map<ViewKey, View> viewsOf(const SightingsByNode& sightings, const Landmark
   for (const auto& [id, group] : sightings) {
     const double yaw_in_robot = yaw - planarPart(poses.node(id).world_from_robot).yaw;
     std::map<int, std::vector<EndSeen>> ends;
-    for (const Sighting& sighting : group) {
+    for (const LandmarkSighting& sighting : group) {
       const EndSeen seen = endSeen(sighting, landmark, usual, yaw_in_robot, options.landmark_sigma_share);
       ends[seen.end].push_back(seen);
     }
@@ -184,7 +184,7 @@ int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_
   return static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad));
 }
 
-LandmarkFactor atSize(const ObjectShape& shape, const Sighting& sighting, const ObjectModel& usual) {
+LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting, const ObjectModel& usual) {
   LandmarkFactor out = sighting.factor;
   const Proposal& proposal = *sighting.proposal;
   const PlaceBySize lever = Eigen::Rotation2Dd(out.yaw_in_robot).toRotationMatrix() * proposal.place_by_size;
