@@ -65,6 +65,25 @@ TEST(LandmarkBox, SizeStaysUnlessAFactorSpeaksOfIt) {
   EXPECT_EQ(shape.height, 0.9);
 }
 
+// A usual width of 1.8 +- .3 m and a least one, +- .1 m: their weighted mean, or the usual one where that is larger anyway.
+TEST(LandmarkSize, ALeastSizePullsOnlyUpwards) {
+  for (const double least : {1.5, 2.2}) {
+    FactorGraph graph;
+    graph.addLandmark(kId, {kSofaPose.translation(), 0.5, kSofa});
+    graph.addPose(NodeId{0}, viewer(0), true);
+    LandmarkFactor seen{.node = NodeId{0}, .landmark = kId};
+    seen.position_in_robot = viewer(0).inverse() * kSofaPose.translation();
+    graph.add(seen);
+    graph.add(LandmarkSizeFactor{kId, {1.8, 0.9, 0.8}, {0.3, 0.1, 0.1}});
+    graph.add(LandmarkSizeFactor{kId, {least, 0, 0}, {0.1, 0.1, 0.1}, true});
+    ASSERT_TRUE(graph.optimize().usable);
+    const double prior = 1 / (0.3 * 0.3), bound = 1 / (0.1 * 0.1);
+    const double width = least < 1.8 ? 1.8 : (prior * 1.8 + bound * least) / (prior + bound);
+    EXPECT_NEAR(graph.landmark(kId).shape.width, width, 1e-4) << least;
+    EXPECT_NEAR(graph.landmark(kId).shape.depth, 0.9, 1e-4);
+  }
+}
+
 TEST(LandmarkBox, CorrectsAPoseThatSeesAKnownLandmark) {
   FactorGraph moved;
   moved.addLandmark(kId, {kSofaPose.translation(), 0.5, kSofa});

@@ -50,6 +50,24 @@ TEST(SizeMean, WeighsByInformationAndWeight) {
       << "mean information, largest weight";
 }
 
+// Two parts go on beyond the image, a third sighting sees both ends.
+TEST(SizeMean, PartsTellTheLeastSize) {
+  SizeMean mean;
+  mean.add(fitted(2.2, 0.1), sofa(), 1);
+  EXPECT_FALSE(mean.leastSize(LandmarkId{7}));
+  for (const auto& [length, weight] : {std::pair(2.0, 1.0), std::pair(2.3, 0.5)}) {
+    Proposal part = fitted(length, 0.2);
+    std::swap(part.size_information, part.least_size_information);
+    mean.add(part, sofa(), weight);
+  }
+  const auto least = mean.leastSize(LandmarkId{7});
+  ASSERT_TRUE(least);
+  EXPECT_TRUE(least->at_least);
+  EXPECT_NEAR(least->size_m.x(), 2.1, 1e-4);
+  EXPECT_GT(least->sigma_m.y(), 100) << "of the depth nothing is known";
+  EXPECT_NEAR(mean.factor(LandmarkId{7}).size_m.x(), 2.2, 1e-4) << "they measure nothing";
+}
+
 // Of sightings placed for the usual length some hold the sofa's left end, some both ends; it is 2.4 m long.
 TEST(OffsetMean, PlacesTheMiddleByTheSizeThatIsTrue) {
   OffsetMean mean;

@@ -139,7 +139,10 @@ struct LandmarkSizeResidual {
 
   template <class T>
   bool operator()(const T* size, T* out) const {
-    for (int i = 0; i < 3; ++i) out[i] = (size[i] - factor.size_m[i]) / factor.sigma_m[i];
+    for (int i = 0; i < 3; ++i) {
+      out[i] = (size[i] - factor.size_m[i]) / factor.sigma_m[i];
+      if (factor.at_least && out[i] > T(0)) out[i] = T(0);
+    }
     return true;
   }
 

@@ -70,96 +70,111 @@ bool isAcross(double difference_rad) {
 }
 
 // The yaw of the other direction is reversed, one across does not measure the yaw.
-LandmarkFactor withYawNear(double yaw_in_robot, LandmarkFactor sighting) {
-  if (std::abs(wrapAngle(sighting.yaw_in_robot - yaw_in_robot)) > std::numbers::pi / 2)
-    sighting.yaw_in_robot = wrapAngle(sighting.yaw_in_robot + std::numbers::pi);
-  sighting.has_yaw &= !isAcross(sighting.yaw_in_robot - yaw_in_robot);
-  return sighting;
+LandmarkFactor withYawNear(double yaw, LandmarkFactor in_world) {
+  if (std::abs(wrapAngle(in_world.yaw_in_robot - yaw)) > std::numbers::pi / 2)
+    in_world.yaw_in_robot = wrapAngle(in_world.yaw_in_robot + std::numbers::pi);
+  in_world.has_yaw &= !isAcross(in_world.yaw_in_robot - yaw);
+  return in_world;
 }
 
-// The end of the landmark that a view holds fast: 0 when it is both or neither, else the sign of the lever.
-struct ViewKey {
-  int direction = 0, end = 0;
-  auto operator<=>(const ViewKey&) const = default;
-};
-
-using Visit = std::vector<LandmarkFactor>;  // sightings in a row, placed in world
-
-struct View {
-  std::vector<Visit> visits;
-  SizeMean size;
-  OffsetMean offset;
-};
-
-// A sighting as the view of one end takes it.
+// A sighting as a view takes it.
 struct EndSeen {
-  LandmarkFactor factor;  // at the landmark's size, its yaw near the landmark's
+  LandmarkFactor in_world;  // at the landmark's size, its yaw near the landmark's
   PlaceBySize lever = PlaceBySize::Zero();
-  int end = 0;                     // see ViewKey
+  std::optional<int> end;          // that it holds fast: 1 or -1, 0 for both or neither; nothing when it has not the landmark's yaw
   const Proposal* size = nullptr;  // that measured it; null: took width for depth
   double size_weight = 0;
 };
 
+using Visit = std::vector<LandmarkFactor>;  // sightings in a row, placed in world
+
+// One end, from one direction.
+struct View {
+  std::map<int, Visit> visits;
+  OffsetMean offset;
+};
+
+// What was seen from one direction.
+struct Direction {
+  std::map<int, View> ends;
+  SizeMean size;
+  NodeId last;    // key pose that saw it
+  int visit = 0;  // the latest
+};
+
 // Where the width hardly varies, either end tells the middle.
 int endOf(const PlaceBySize& lever, const ObjectModel& usual) {
-  const double by_width_m = lever(1, 0) * usual.width_sigma_m;
+  const double by_width_m = lever(1, 0) * usual.sizeSigma()[0];
   return std::abs(by_width_m) < kUnknown_m ? 0 : by_width_m > 0 ? 1 : -1;
 }
 
-EndSeen endSeen(const LandmarkSighting& sighting, const Landmark& landmark, const ObjectModel* usual, double yaw_in_robot,
-                double sigma_share) {
-  const double turned = sighting.factor.yaw_in_robot - yaw_in_robot;
-  const bool has_yaw = sighting.proposal->has_yaw, measures = usual && !(has_yaw && isAcross(turned));
+// `sighting`: in world. `yaw`: the landmark's.
+EndSeen endSeen(const LandmarkSighting& sighting, const Landmark& landmark, const ObjectModel* usual, double yaw,
+                const BackendOptions& options) {
+  const Proposal& proposal = *sighting.proposal;
+  const double turned = sighting.factor.yaw_in_robot - yaw;
   EndSeen out{sighting.factor};
-  if (measures) {
-    out.size = sighting.proposal;
+  if (usual && !(proposal.has_yaw && isAcross(turned))) {
+    out.size = &proposal;
     out.size_weight = sighting.size_weight;
+    if (options.object_views && landmark.has_yaw && proposal.has_yaw) {
+      out.in_world = atSize(landmark.shape, sighting, *usual);
+      // A size that is not estimated stays as uncertain as it is.
+      if (!options.object_sizes) out.in_world.covariance = sighting.factor.covariance;
+      out.lever = Eigen::Rotation2Dd(turned).toRotationMatrix() * proposal.place_by_size;
+      out.end = endOf(out.lever, *usual);
+    }
   }
-  if (measures && has_yaw && landmark.has_yaw) {
-    out.factor = atSize(landmark.shape, sighting, *usual);
-    out.lever = Eigen::Rotation2Dd(turned).toRotationMatrix() * sighting.proposal->place_by_size;
-    out.end = endOf(out.lever, *usual);
-  }
-  out.factor = withYawNear(yaw_in_robot, out.factor);
-  out.factor.covariance *= sigma_share * sigma_share;
+  out.in_world = withYawNear(yaw, out.in_world);
+  out.in_world.covariance *= options.landmark_sigma_share * options.landmark_sigma_share;
+  return out;
+}
+
+// By ends; what tells none of them goes with the end that tells most.
+std::map<int, std::vector<EndSeen>> byEnds(const std::vector<EndSeen>& seen) {
+  std::map<int, double> weights;
+  for (const EndSeen& s : seen)
+    if (s.end) weights[*s.end] += shareOfPlace(s.in_world);
+  const auto most = std::max_element(weights.begin(), weights.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::map<int, std::vector<EndSeen>> out;
+  for (const EndSeen& s : seen) out[s.end.value_or(most == weights.end() ? 0 : most->first)].push_back(s);
   return out;
 }
 
 // Adds what one key pose saw of one end.
-void addToViews(const std::vector<EndSeen>& seen, int end, const ObjectModel* usual, const KeyPoses& poses,
-                const BackendOptions& options, std::map<ViewKey, View>& views) {
+void addToDirections(const std::vector<EndSeen>& seen, int end, const ObjectModel* usual, const KeyPoses& poses,
+                     const BackendOptions& options, std::map<int, Direction>& directions) {
   std::vector<LandmarkFactor> factors;
-  for (const EndSeen& s : seen) factors.push_back(s.factor);
+  for (const EndSeen& s : seen) factors.push_back(s.in_world);
   const KeyPose& node = poses.node(factors.front().node);
-  const LandmarkFactor sighting =
-      inWorld(meanSighting(factors, kMeanWidth * options.landmark_robust_width), node.world_from_robot);
+  const LandmarkFactor sighting = meanSighting(factors, kMeanWidth * options.landmark_robust_width);
   if (sighting.weight < kLeastWeight) return;
-  View& view = views[{directionOf(sighting.position_in_robot, node, options.landmark_view_rad), end}];
+  Direction& from = directions[directionOf(sighting.position_in_robot, node, options.landmark_view_rad)];
   // A robot that stands still makes few key poses: a visit ends only when key poses in between do not see
   // the object.
-  const bool gone = view.visits.empty() || (node.id.value - view.visits.back().back().node.value > 1 &&
-                                            node.t - poses.node(view.visits.back().back().node).t > kVisitPause_s);
-  if (gone) view.visits.emplace_back();
-  view.visits.back().push_back(sighting);
+  if (from.last.valid() && node.id.value - from.last.value > 1 && node.t - poses.node(from.last).t > kVisitPause_s) ++from.visit;
+  from.last = node.id;
+  View& view = from.ends[end];
+  view.visits[from.visit].push_back(sighting);
   for (const EndSeen& s : seen) {
-    view.offset.add(s.lever, shareOfPlace(s.factor));
-    if (s.size) view.size.add(*s.size, *usual, s.size_weight);
+    view.offset.add(s.lever, shareOfPlace(s.in_world));
+    if (s.size) from.size.add(*s.size, *usual, s.size_weight);
   }
 }
 
-std::map<ViewKey, View> viewsOf(const SightingsByNode& sightings, const Landmark& landmark, const ObjectModel* usual,
-                                const KeyPoses& poses, double yaw, const BackendOptions& options) {
-  std::map<ViewKey, View> views;
+std::map<int, Direction> directionsOf(const SightingsByNode& sightings, const Landmark& landmark, const ObjectModel* usual,
+                                      const KeyPoses& poses, double yaw, const BackendOptions& options) {
+  std::map<int, Direction> directions;
   for (const auto& [id, group] : sightings) {
-    const double yaw_in_robot = yaw - planarPart(poses.node(id).world_from_robot).yaw;
-    std::map<int, std::vector<EndSeen>> ends;
-    for (const LandmarkSighting& sighting : group) {
-      const EndSeen seen = endSeen(sighting, landmark, usual, yaw_in_robot, options.landmark_sigma_share);
-      ends[seen.end].push_back(seen);
+    std::vector<EndSeen> seen;
+    for (LandmarkSighting sighting : group) {
+      sighting.factor = inWorld(sighting.factor, poses.node(id).world_from_robot);
+      seen.push_back(endSeen(sighting, landmark, usual, yaw, options));
     }
-    for (const auto& [end, seen] : ends) addToViews(seen, end, usual, poses, options, views);
+    for (const auto& [end, of_end] : byEnds(seen)) addToDirections(of_end, end, usual, poses, options, directions);
   }
-  return views;
+  return directions;
 }
 
 // `visits`: mean sightings in world.
@@ -173,8 +188,35 @@ LandmarkViewFactor sharedError(const std::vector<LandmarkFactor>& visits, const 
 }
 
 // The same whenever the graph is built again.
-LandmarkId viewId(LandmarkId landmark, const ViewKey& key) {
-  return LandmarkId{kFirstView + (landmark.value * kDirections + kDirections / 2 + key.direction) * kEnds + key.end + 1};
+LandmarkId viewId(LandmarkId landmark, int direction, int end) {
+  return LandmarkId{kFirstView + (landmark.value * kDirections + kDirections / 2 + direction) * kEnds + end + 1};
+}
+
+// `id`: of the view.
+void addView(LandmarkId id, const View& view, const Landmark& landmark, double yaw, const KeyPoses& poses,
+             const BackendOptions& options, ObjectFactors& out) {
+  std::vector<LandmarkFactor> visits;
+  for (const auto& [number, visit] : view.visits) {
+    visits.push_back(meanSighting(visit, kMeanWidth * options.landmark_robust_width));
+    LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
+    sighting.robust_width = options.landmark_robust_width;
+    if (options.object_views) {
+      sighting.landmark = id;
+      sighting.covariance *= 1 - options.landmark_repeating_share;
+    }
+    out.sightings.push_back(sighting);
+  }
+  if (!options.object_views) return;
+  out.views[id] = {landmark.position, yaw, landmark.shape};
+  out.shared_errors.push_back(sharedError(visits, options));
+  out.shared_errors.back().view = id;
+  if (landmark.has_yaw) view.offset.apply(landmark.shape, out.shared_errors.back());
+}
+
+void addSizes(const SizeMean& size, LandmarkId landmark, ObjectFactors& out) {
+  if (size.empty()) return;
+  out.sizes.push_back(size.factor(landmark));
+  if (const auto least = size.leastSize(landmark)) out.sizes.push_back(*least);
 }
 
 }  // namespace
@@ -187,10 +229,10 @@ int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_
 LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting, const ObjectModel& usual) {
   LandmarkFactor out = sighting.factor;
   const Proposal& proposal = *sighting.proposal;
-  const PlaceBySize lever = Eigen::Rotation2Dd(out.yaw_in_robot).toRotationMatrix() * proposal.place_by_size;
-  out.position_in_robot.head<2>() += lever * (sizeOf(shape) - sizeOf(proposal.shape));
+  const Eigen::Vector3d longer = sizeOf(shape) - sizeOf(proposal.shape);
+  out.position_in_robot.head<2>() += Eigen::Rotation2Dd(out.yaw_in_robot) * (proposal.place_by_size * longer);
   auto place = out.covariance.topLeftCorner<2, 2>();
-  place -= placeSpread(lever, proposal.size_information, usual.sizeSigma());
+  place -= placeSpread(proposal.place_by_size, out.yaw_in_robot, proposal.size_information, usual.sizeSigma());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(place);
   const Eigen::Vector2d least = Eigen::Vector2d::Constant(kLeastSigma_m * kLeastSigma_m);
   place = axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();
@@ -200,28 +242,13 @@ LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting
 bool addViews(const SightingsByNode& sightings, const Landmark& landmark, const ObjectModel* usual, const KeyPoses& poses,
               const BackendOptions& options, ObjectFactors& out) {
   const double yaw = votedYaw(sightings, poses, options.landmark_sigma_share).value_or(landmark.yaw);
-  const auto views = viewsOf(sightings, landmark, usual, poses, yaw, options);
-  for (const auto& [key, view] : views) {
-    std::vector<LandmarkFactor> visits;
-    const LandmarkId id = viewId(landmark.id, key);
-    for (const Visit& visit : view.visits) {
-      visits.push_back(meanSighting(visit, kMeanWidth * options.landmark_robust_width));
-      LandmarkFactor sighting = seenFrom(visits.back(), poses.node(visit[visit.size() / 2].node));
-      sighting.robust_width = options.landmark_robust_width;
-      if (options.object_views) {
-        sighting.landmark = id;
-        sighting.covariance *= 1 - options.landmark_repeating_share;
-      }
-      out.sightings.push_back(sighting);
-    }
-    if (options.object_sizes && !view.size.empty()) out.sizes.push_back(view.size.factor(landmark.id));
-    if (!options.object_views) continue;
-    out.views[id] = {landmark.position, yaw, landmark.shape};
-    out.shared_errors.push_back(sharedError(visits, options));
-    out.shared_errors.back().view = id;
-    if (landmark.has_yaw) view.offset.apply(landmark.shape, out.shared_errors.back());
+  const auto directions = directionsOf(sightings, landmark, usual, poses, yaw, options);
+  for (const auto& [direction, from] : directions) {
+    for (const auto& [end, view] : from.ends)
+      addView(viewId(landmark.id, direction, end), view, landmark, yaw, poses, options, out);
+    if (options.object_sizes) addSizes(from.size, landmark.id, out);
   }
-  if (views.empty()) return false;
+  if (directions.empty()) return false;
   out.yaws[landmark.id] = yaw;
   if (options.object_sizes && usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
   return true;

@@ -22,7 +22,8 @@ using SightingsByNode = std::map<NodeId, std::vector<LandmarkSighting>>;
 int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_rad);
 
 /// The sighting as it is where the landmark has the size of `shape`: what its proposal holds fast, the end that was seen,
-/// stays where it is, and the middle's uncertainty is without that of the size. `usual`: model of the proposal's class.
+/// stays where it is, and the middle's uncertainty is without that of the size. `sighting`: its place, yaw and covariance
+/// in the level world. `usual`: model of the proposal's class.
 LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting, const ObjectModel& usual);
 
 /// Adds the views of a landmark, its sizes and its yaw (see objectFactors()). `usual` (may be null): model of its class.

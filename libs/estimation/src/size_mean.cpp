@@ -15,26 +15,43 @@ constexpr double kLeastInformation = 1e-6;  // 1/m^2: a direction from which a d
 
 }  // namespace
 
-void SizeMean::add(const Proposal& proposal, const ObjectModel& model, double weight) {
+void SizeMean::Sum::add(double weight, const Eigen::Vector3d& measured, const Proposal& proposal,
+                        const ObjectModel& model) {
   const Eigen::Vector3d prior = model.sizeSigma().cwiseAbs2().cwiseInverse();
-  const Eigen::Vector3d measured = proposal.size_information, fitted = sizeOf(proposal.shape);
-  usual_ = sizeOf(model.nominal());
+  const Eigen::Vector3d fitted = sizeOf(proposal.shape), usual = sizeOf(model.nominal());
   for (int i = 0; i < 3; ++i) {
     if (measured[i] < kLeastInformation) continue;
-    information_[i] += weight * measured[i];
-    vector_[i] += weight * ((measured[i] + prior[i]) * fitted[i] - prior[i] * usual_[i]);
+    information[i] += weight * measured[i];
+    vector[i] += weight * ((measured[i] + prior[i]) * fitted[i] - prior[i] * usual[i]);
   }
+}
+
+void SizeMean::add(const Proposal& proposal, const ObjectModel& model, double weight) {
+  measured_.add(weight, proposal.size_information, proposal, model);
+  least_.add(weight, proposal.least_size_information, proposal, model);
+  usual_ = sizeOf(model.nominal());
   weight_ += weight;
   largest_ = std::max(largest_, weight);
 }
 
-LandmarkSizeFactor SizeMean::factor(LandmarkId id) const {
+LandmarkSizeFactor SizeMean::mean(const Sum& sum, LandmarkId id) const {
   const double least =
       kLeastInformation * weight_;  // what was never seen is as usual, with hardly any information
-  const Eigen::Vector3d information = information_.array() + least;
+  const Eigen::Vector3d information = sum.information.array() + least;
   const Eigen::Vector3d variance = (information * largest_ / weight_).cwiseInverse();
-  return {id, (vector_ + least * usual_).cwiseQuotient(information),
+  return {id, (sum.vector + least * usual_).cwiseQuotient(information),
           variance.cwiseSqrt().cwiseMax(kLeastSigma_m)};
+}
+
+LandmarkSizeFactor SizeMean::factor(LandmarkId id) const {
+  return mean(measured_, id);
+}
+
+std::optional<LandmarkSizeFactor> SizeMean::leastSize(LandmarkId id) const {
+  if (least_.information.isZero()) return std::nullopt;
+  LandmarkSizeFactor out = mean(least_, id);
+  out.at_least = true;
+  return out;
 }
 
 void OffsetMean::add(const PlaceBySize& lever, double share) {

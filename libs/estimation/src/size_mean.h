@@ -2,6 +2,8 @@
 // Size of a landmark as it was measured from one direction, without what its class says.
 #pragma once
 
+#include <optional>
+
 #include "roomgraph/backend/factors.h"
 #include "roomgraph/observations/object_database.h"
 #include "roomgraph/observations/proposal.h"
@@ -11,18 +13,26 @@ namespace roomgraph {
 /// Mean of sizes measured from one direction. The fit of every proposal weighs what it sees against the
 /// class's usual size; the mean of many such compromises would never leave the usual size. Therefore the
 /// usual size is taken out of each (information form), the rests are averaged, and it enters the graph once,
-/// by sizePrior().
+/// by sizePrior(). Likewise the mean of the sizes that it has at least.
 class SizeMean {
  public:
   /// A proposal of the model's class. `weight`: of the sighting, in [0, 1].
   void add(const Proposal& proposal, const ObjectModel& model, double weight);
   bool empty() const { return weight_ <= 0; }
-  /// As sure as one of its sightings, whatever their number: their errors repeat.
+  /// As sure as one of its sightings, whatever their number: their errors repeat. Not empty.
   LandmarkSizeFactor factor(LandmarkId id) const;
+  /// Nothing when no end was out of view.
+  std::optional<LandmarkSizeFactor> leastSize(LandmarkId id) const;
 
  private:
-  Eigen::Vector3d information_ = Eigen::Vector3d::Zero(), vector_ = Eigen::Vector3d::Zero();  // 1/m^2, 1/m
-  Eigen::Vector3d usual_ = Eigen::Vector3d::Zero();                                           // m
+  struct Sum {
+    Eigen::Vector3d information = Eigen::Vector3d::Zero(), vector = Eigen::Vector3d::Zero();  // 1/m^2, 1/m
+    void add(double weight, const Eigen::Vector3d& measured, const Proposal& proposal, const ObjectModel& model);
+  };
+  LandmarkSizeFactor mean(const Sum& sum, LandmarkId id) const;
+
+  Sum measured_, least_;
+  Eigen::Vector3d usual_ = Eigen::Vector3d::Zero();  // m
   double weight_ = 0, largest_ = 0;
 };
 

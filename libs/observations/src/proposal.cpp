@@ -4,10 +4,11 @@
 
 namespace roomgraph {
 
-Eigen::Matrix2d placeSpread(const PlaceBySize& by_size, const Eigen::Vector3d& size_information,
+Eigen::Matrix2d placeSpread(const PlaceBySize& by_size, double yaw, const Eigen::Vector3d& size_information,
                             const Eigen::Vector3d& size_sigma) {
   const Eigen::Vector3d variance = (size_information + size_sigma.cwiseAbs2().cwiseInverse()).cwiseInverse();
-  return by_size * variance.asDiagonal() * by_size.transpose();
+  const PlaceBySize turned = Eigen::Rotation2Dd(yaw).toRotationMatrix() * by_size;
+  return turned * variance.asDiagonal() * turned.transpose();
 }
 
 }  // namespace roomgraph

@@ -172,9 +172,8 @@ class FitProblem {
       fitted.place_by_size << by_size.col(0) / 2, by_size.col(0) / 2, by_size.col(1);
     } else {
       fitted.size_information = (known.segment<3>(3) - usual).cwiseMax(0);
-      // Points up to a cut side say how long it is at least: more than usual, or nothing.
-      if (endsBeyondACut(fitted, 1) && fitted.shape.width <= e_.model->width_m) fitted.size_information[0] = 0;
-      if (endsBeyondACut(fitted, 0) && fitted.shape.depth <= e_.model->depth_m) fitted.size_information[1] = 0;
+      for (const auto& [axis, size] : {std::pair(1, 0), std::pair(0, 1)})
+        if (endsBeyondACut(fitted, axis)) onlyAtLeast(fitted, size);
       fitted.place_by_size = by_size;
     }
     fitted.place_by_size = fitted.place_by_size.cwiseMax(-kLargestLever).cwiseMin(kLargestLever);
@@ -245,6 +244,14 @@ class FitProblem {
         if (u < first || u > last) return true;
       }
     return false;
+  }
+
+  // Points up to a cut side say how long it is at least: more than usual, or nothing.
+  void onlyAtLeast(PlacedShape& fitted, int size) const {
+    double& information = fitted.size_information[size];
+    const bool longer = sizeOf(fitted.shape)[size] > sizeOf(e_.model->nominal())[size];
+    fitted.least_size_information[size] = longer ? information : 0;
+    information = 0;
   }
 
   // At a cut side the model must reach the side; how far beyond is unknown. The other sides bound what of it is between

@@ -67,6 +67,7 @@ std::optional<Proposal> proposalOf(const PlacedShape& placed, const BoxEvidence&
   proposal.model = proposal.class_name = evidence.model->class_name;
   proposal.shape = placed.shape;
   proposal.size_information = placed.size_information;
+  proposal.least_size_information = placed.least_size_information;
   proposal.place_by_size = placed.place_by_size;
   proposal.camera_from_object = cameraFromObject(placed, evidence);
   proposal.covariance = covarianceOf(placed, evidence, tilt_sigma);

@@ -104,10 +104,9 @@ Eigen::Matrix4d covarianceOf(const PlacedShape& placed, const BoxEvidence& e, do
                                      Eigen::Vector2d(s.along * s.along, s.across * s.across).asDiagonal() *
                                      turn.toRotationMatrix().transpose();
   // How far it reaches from the side that was seen is the class's usual size.
-  if (kind == ShapeKind::kCuboid) {
-    const PlaceBySize lever = Eigen::Rotation2Dd(placed.yaw).toRotationMatrix() * placed.place_by_size;
-    covariance.topLeftCorner<2, 2>() += placeSpread(lever, placed.size_information, e.model->sizeSigma());
-  }
+  if (kind == ShapeKind::kCuboid)
+    covariance.topLeftCorner<2, 2>() +=
+        placeSpread(placed.place_by_size, placed.yaw, placed.size_information, e.model->sizeSigma());
   const double height_sigma = e.model->rests_on_ground ? kHeightSigma : kBottomSigma_m;
   covariance(2, 2) = height_sigma * height_sigma;
   covariance(3, 3) = s.yaw * s.yaw;

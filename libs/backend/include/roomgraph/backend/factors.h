@@ -82,11 +82,12 @@ struct LandmarkGroundFactor {
   double sigma_z_m = 0.02;
 };
 
-/// Prior of a landmark's size from the object database (factor 6). Makes the landmark's size variable.
+/// A landmark's size, measured or by the object database (factor 6). Makes the landmark's size variable.
 struct LandmarkSizeFactor {
   LandmarkId landmark;
   Eigen::Vector3d size_m = Eigen::Vector3d::Ones();  ///< width, depth, height
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Constant(0.1);
+  bool at_least = false;  ///< it may be larger
 };
 
 /// Bounding box of a landmark in an image against that of its projected model (factor 3, paper Eq. 12). A

@@ -36,11 +36,14 @@ struct Proposal {
   std::string class_name;
   ObjectShape shape;
   Pose3 camera_from_object = Pose3::Identity();  ///< object frame: bottom centre, x front, z up
-  Eigen::Matrix4d covariance =
-      Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the ground-aligned camera frame: m, rad
+  /// Of (x, y, z, yaw) in the ground-aligned camera frame: m, rad. That of the place contains placeSpread(), what is not
+  /// known of the size.
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
   /// Of width, depth and height, 1/m^2: what this image said about each. `shape` is the compromise of that
   /// with the class's usual size.
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();
+  /// Likewise of a part longer than usual whose end is not in view: about the size that it has at least.
+  Eigen::Vector3d least_size_information = Eigen::Vector3d::Zero();
   /// Of the place, x forward and y left in the object's frame: the side that was seen stays where it is.
   PlaceBySize place_by_size = PlaceBySize::Zero();
   bool has_yaw = false;             ///< false: yaw is not observable (round, or no direction found)
@@ -57,9 +60,9 @@ struct Segment2 {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();
 };
 
-/// Covariance of the place, x and y, that comes from what is not known of the size: of classes whose sizes vary by
-/// `size_sigma` (m) each, when an image said `size_information` (1/m^2) about each.
-Eigen::Matrix2d placeSpread(const PlaceBySize& by_size, const Eigen::Vector3d& size_information,
+/// Covariance of the place, x and y, that comes from what is not known of the size, of an object turned by `yaw` whose
+/// class's sizes vary by `size_sigma` (m) each, when an image said `size_information` (1/m^2) about each.
+Eigen::Matrix2d placeSpread(const PlaceBySize& by_size, double yaw, const Eigen::Vector3d& size_information,
                             const Eigen::Vector3d& size_sigma);
 
 /// How the proposals of one detection came about, for people (debug pictures).

@@ -25,6 +25,7 @@ struct PlacedShape {
   double open_along_m = 0;  ///< standard deviation along the view of what the depth points leave open
   std::optional<Eigen::Matrix3d> covariance;  ///< of (x, y, yaw), m, rad, where the construction gives one
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();  ///< see Proposal
+  Eigen::Vector3d least_size_information = Eigen::Vector3d::Zero();  ///< see Proposal
   PlaceBySize place_by_size = PlaceBySize::Zero();  ///< see Proposal
   bool supported = true;                      ///< false: made without the evidence's depth points
   std::string source;                         ///< how it was made, for debug pictures
