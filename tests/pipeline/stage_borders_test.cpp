@@ -123,6 +123,9 @@ TEST(StageBorders, BoxesMeasurementsAndMovements) {
   EXPECT_THAT(broken([](auto& m) { m.confidence = -0.1; }), HasSubstr("confidence"));
   EXPECT_THAT(broken([](auto& m) { m.proposal.shape.width = kNan; }), HasSubstr("size"));
   EXPECT_THAT(broken([](auto& m) { m.proposal.shape.height = -1; }), HasSubstr("size"));
+  EXPECT_THAT(broken([](auto& m) { m.proposal.size_information[1] = -1; }), HasSubstr("size information"));
+  EXPECT_THAT(broken([](auto& m) { m.proposal.least_size_information[0] = kNan; }), HasSubstr("size information"));
+  EXPECT_THAT(broken([](auto& m) { m.proposal.place_by_size(1, 0) = kNan; }), HasSubstr("place on the size"));
   EXPECT_THAT(broken([](auto& m) { m.proposal.camera_from_object.linear().setZero(); }),
               HasSubstr("rotation"));
   EXPECT_THAT(broken([](auto& m) { m.proposal.covariance(3, 3) = 0; }), HasSubstr("positive definite"));

@@ -79,7 +79,8 @@ void declareObjectFactors(BackendOptions& o, ParameterVisitor& v) {
                 "size."});
   v.add(
       "object_views", o.object_views,
-      {.doc = "Whether sightings of an object from one direction share an error; else all are independent."});
+      {.doc = "Whether sightings of an object, or of one end of it, from one direction share an error; else all are "
+               "independent."});
   v.add("object_sides", o.object_sides,
         {.doc = "Whether returns of scans on the sides of objects, and on the walls that doors are in, are "
                 "factors of the graph."});

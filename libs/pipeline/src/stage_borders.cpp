@@ -92,6 +92,9 @@ std::string problemOfMeasurement(const ObjectMeasurement& measurement) {
   for (const double size : {proposal.shape.width, proposal.shape.depth, proposal.shape.height})
     if (!(size >= 0 && size < kLargestObject_m)) return "size is not in [0, 1000) m";
   if (!isProbability(measurement.confidence)) return "confidence is not in [0, 1]";
+  for (const Eigen::Vector3d& information : {proposal.size_information, proposal.least_size_information})
+    if (!information.allFinite() || information.minCoeff() < 0) return "size information is not a finite number from 0 on";
+  if (!proposal.place_by_size.allFinite()) return "the dependence of the place on the size is not finite";
   if (auto problem = problemOf(proposal.camera_from_object, kPoseRounding); !problem.empty()) return problem;
   return problemOfCovariance(proposal.covariance);
 }

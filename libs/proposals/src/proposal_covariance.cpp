@@ -13,7 +13,8 @@ constexpr double kHeightSigma = 0.02;   // m, of the ground below the object
 constexpr double kBottomSigma_m = 0.05;  // of the lowest depth point of an object that does not rest on the ground
 
 // The values below were calibrated so that the errors of the best proposal are consistent with them:
-// `roomgraph bench proposals` prints the normalised squared errors.
+// `roomgraph bench proposals` prints the normalised squared errors. What is not known of a cuboid's size stands apart
+// (placeSpread()); where both its ends are seen it hardly matters.
 
 // Error of a good fit to depth points: along the view a constant (m) and a part with the squared range (1/m), as of
 // stereo depth; across it a constant and a part with the range; yaw (rad). A real sofa differs from a box, and its back

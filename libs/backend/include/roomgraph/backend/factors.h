@@ -62,7 +62,7 @@ struct LandmarkFactor {
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
-/// A landmark as it seems from one direction against the landmark itself: the error that all sightings from
+/// A landmark as it, or one end of it, seems from one direction against the landmark itself: the error that all sightings from
 /// there share has mean zero and this covariance. From there the landmark seems to stand beside its place
 /// when its size was taken for another one: by offset + offset_by_size * (width, depth, height), x forward
 /// and y left in the landmark's frame.

@@ -19,7 +19,7 @@ namespace roomgraph {
 struct ObjectFactors {
   std::map<LandmarkId, double>
       yaws;  ///< that most sightings say; of the landmarks that sightings tie to poses
-  /// Landmarks as they seem from one direction, with the yaw of most sightings.
+  /// Landmarks as they, or one end of them, seem from one direction, with the yaw of most sightings.
   std::map<LandmarkId, LandmarkEstimate> views;
   std::vector<LandmarkViewFactor> shared_errors;  ///< of views against their landmarks
   std::vector<LandmarkFactor> sightings;          ///< of views
@@ -43,8 +43,9 @@ struct ObjectsInGraph {
 ///   as it seems from one direction is therefore a landmark of its own, and differs from the true one by an
 ///   error that all its sightings share (BackendOptions::landmark_repeating_share of their variance). The
 ///   sightings of one visit are averaged to one, which has the rest of the variance for itself, at the key
-///   pose in the middle of the visit.
-/// * The mean size that was measured from each direction.
+///   pose in the middle of the visit. Of an object whose size may be far from usual each end has views of its own:
+///   sightings that hold it fast, placed as for the landmark's size.
+/// * The mean size that was measured from each direction, and the mean of those that it has at least.
 /// * One box per key pose and landmark, if the shape lifted from it explains it, and points that were seen on
 /// a landmark from several key poses. Boxes from one direction, and points of one object, share a part of
 /// their errors (BackendOptions::landmark_repeating_share), and are together worth no more than their mean.
