@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "direction_bin.h"
 #include "ray_evidence.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/core/order_statistics.h"
@@ -117,9 +118,8 @@ void add(SightingSums& sums, const Landmark& landmark, const WorldMeasurement& s
   sums.score += weight * proposal.score;
   sums.confidence += weight * seen.measurement.detection.score;
   sums.at_nodes[node] = std::max(sums.at_nodes[node], weight);
-  const Eigen::Vector3d from = camera_in_world - landmark.position;
   LengthSeen& length =
-      sums.lengths[static_cast<int>(std::floor(std::atan2(from.y(), from.x()) / kDirection_rad))];
+      sums.lengths[directionBin((camera_in_world - landmark.position).head<2>(), kDirection_rad)];
   length.weight += weight;
   if (proposal.class_name != landmark.class_name) return;
   ++sums.placed;

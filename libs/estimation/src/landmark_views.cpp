@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "direction_bin.h"
 #include "roomgraph/geometry/covariance.h"
 #include "roomgraph/geometry/shape_math.h"
 #include "sighting_mean.h"
@@ -222,8 +223,7 @@ void addSizes(const SizeMean& size, LandmarkId landmark, ObjectFactors& out) {
 }  // namespace
 
 int directionOf(const Eigen::Vector3d& place, const KeyPose& node, double angle_rad) {
-  const Eigen::Vector3d ray = place - node.world_from_robot.translation();
-  return static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / angle_rad));
+  return directionBin((place - node.world_from_robot.translation()).head<2>(), angle_rad);
 }
 
 LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting, const ObjectModel& usual) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "direction_bin.h"
 #include "object_weights.h"
 
 namespace roomgraph {
@@ -219,9 +220,7 @@ class SideFinder {
 
   void keep(const PosedScan& scan, const Return& r, const Eigen::Vector2d& outward) {
     const Eigen::Vector2d ray = landmark_.position.head<2>() - scan.lidar();
-    const int direction =
-        static_cast<int>(std::floor(std::atan2(ray.y(), ray.x()) / options_.landmark_view_rad));
-    by_direction_[direction].push_back({.node = scan.node(),
+    by_direction_[directionBin(ray, options_.landmark_view_rad)].push_back({.node = scan.node(),
                                         .landmark = landmark_.id,
                                         .point_in_robot = r.in_robot,
                                         .outward = outward,
