@@ -105,6 +105,6 @@ function(roomgraph_add_test name)
     add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
     set_tests_properties(${suite} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
   endforeach()
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_FILTER "${filter}"
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
 endfunction()

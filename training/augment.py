@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Batches as they are trained on: mirrored, re-lit, seen from twice as far, with colour or depth left out."""
+"""Batches as they are trained on: mirrored, re-lit, with other textures and floors, seen from twice as far, with colour or depth left out."""
 import numpy as np
 import torch
 from torch.nn import functional as F
 
-from data import COLOR, DEPTH, FRONT, KIND, MIN_HEIGHT_PX, RANGE, SURE, U0, U1, V0, V1
+from data import COLOR, DEPTH, FRONT, HEIGHT, HEIGHT_STEPS_PER_M, KIND, MIN_HEIGHT_PX, RANGE, SURE, U0, U1, V0, V1
 
 NEAR_M = 0.4  # depth whose inverse is the channel's largest value
 FAR_SHARE = 0.4  # of the batches' pictures
@@ -78,12 +78,45 @@ def mirrored(pictures, boxes, which):
     return pictures, torch.where(which.view(-1, 1, 1), other, boxes)
 
 
-def augmented(pictures, boxes, random):
-    """Mirrored, re-lit, and without colour or depth in some; the boxes where the pictures are."""
+def textured(colors, random):
+    """(n, 3, H, W) seen through a filter of random weights each (Xu et al. 2021), mixed with what they were: edges stay where they are, colours and
+    textures do not. What is rendered and what is real differ most in these."""
+    count, size = len(colors), int(random.choice([1, 3, 3, 5]))
+    weights = on(colors.device, random.normal(0, (3 * size * size) ** -0.5, (3 * count, 3, size, size)))
+    around = F.pad(colors, [size // 2] * 4, mode="replicate").flatten(0, 1).unsqueeze(0)
+    other = F.conv2d(around, weights, groups=count).view_as(colors)
+    mean, spread = other.mean((2, 3), keepdim=True), other.std((2, 3), keepdim=True)
+    other = (other - mean) / (spread + 1e-3) * colors.std((2, 3), keepdim=True) + colors.mean((2, 3), keepdim=True)
+    kept = on(colors.device, random.random(count)).view(-1, 1, 1, 1)
+    return (kept * colors + (1 - kept) * other).clamp(0, 1)
+
+
+def shaded(colors, random):
+    """Lighter here and darker there."""
+    light = on(colors.device, random.uniform(0.5, 1.5, (len(colors), 1, 3, 4)))
+    return (colors * F.interpolate(light, size=colors.shape[2:], mode="bilinear", align_corners=True)).clamp(0, 1)
+
+
+def lowered(pictures, which, random):
+    """Heights as where a table or a seat is the lowest level surface in view, and so taken for the floor."""
+    heights = pictures[:, HEIGHT]
+    steps = on(pictures.device, which * random.uniform(0.2, 0.9, len(pictures)) * HEIGHT_STEPS_PER_M / 255).view(-1, 1, 1)
+    out = pictures.clone()
+    out[:, HEIGHT] = torch.where(heights > 0, (heights - steps).clamp(min=1 / 255), heights)
+    return out
+
+
+def augmented(pictures, boxes, random, textures=0.0, floors=0.0):
+    """Mirrored, re-lit, and without colour or depth in some; the boxes where the pictures are. `textures`, `floors`: shares that get others."""
     count, device = len(pictures), pictures.device
     boxes = boxes.to(device)
     each = lambda values: on(device, values).view(count, -1, 1, 1)
     pictures, boxes = mirrored(pictures, boxes, on(device, random.random(count)) < 0.5)
+    if floors:
+        pictures = lowered(pictures, random.random(count) < floors, random)
+    which = torch.from_numpy((random.random(count) < textures).nonzero()[0]).to(device)
+    if len(which):
+        pictures[which, COLOR] = shaded(textured(pictures[which, COLOR], random), random)
     colors, depths = pictures[:, COLOR], pictures[:, DEPTH]
     fate = random.random(count)
     grey = each((fate >= 0.15) & (fate < 0.35))

@@ -14,7 +14,8 @@ KINDS = {"swivel_chair": 0, "armchair": 1, "stool": 1, "bench": 1, "sofa": 2, "d
          "visitor chair": 12}
 DOOR = 3
 FRONTED = (0, 1, 2, 3, 12)  # classes with a front that shows
-COLOR, DEPTH = slice(0, 3), slice(3, 6)
+COLOR, DEPTH, HEIGHT = slice(0, 3), slice(3, 6), 4
+HEIGHT_STEPS_PER_M = 254 / 2.6  # rgbdChannels()
 MIN_VISIBLE, MIN_HEIGHT_PX = 0.2, 8  # what is seen less of is neither asked for nor wrong
 # Columns of a box: class (-1: none), corners in px, 1 when it must be found, distance of the object's middle in m (0: not known),
 # angle about the vertical from the direction to the camera to the object's front in rad (NaN: not known).
@@ -50,10 +51,12 @@ def padded(rows, length):
 
 
 class Views:
-    """Views of the folders that match patterns: mapped from disk, or in the memory of a GPU. Folders that are finished later can be added."""
+    """Views of the folders that match patterns: mapped from disk, or in the memory of a GPU (`joined`: in one array, as a batch is then one
+    lookup). Folders that are finished later can be added."""
 
-    def __init__(self, patterns, device="cpu"):
+    def __init__(self, patterns, device="cpu", joined=None):
         self.patterns, self.device = [str(p) for p in patterns], torch.device(device)
+        self.joined = self.device.type != "cpu" if joined is None else joined
         self.known, self.arrays, self.boxes = set(), [], []
         self.array, self.row = torch.empty(0, dtype=torch.long), torch.empty(0, dtype=torch.long)
         self.refresh()
@@ -63,9 +66,6 @@ class Views:
         folders = sorted({Path(f).parent for p in self.patterns for f in glob(str(Path(p) / "set.json"))} - self.known)
         for folder in folders:
             self._add(folder)
-        if self.device.type != "cpu" and folders:  # one array there, as a batch is then one lookup
-            self.arrays = [torch.cat([pictures.to(self.device) for pictures in self.arrays])]
-            self.array, self.row = torch.zeros(len(self.row), dtype=torch.long), torch.arange(len(self.row))
         return len(folders)
 
     def _add(self, folder):
@@ -76,10 +76,27 @@ class Views:
             return
         shape = (count, about["channels"], about["height"], about["width"])
         self.height, self.width = shape[2:]
-        self.array = torch.cat([self.array, torch.full((count,), len(self.arrays))])
-        self.row = torch.cat([self.row, torch.arange(count)])
-        self.arrays.append(torch.from_numpy(np.memmap(folder / "views.u8", np.uint8, "c", shape=shape)))
+        self._keep(torch.from_numpy(np.memmap(folder / "views.u8", np.uint8, "c", shape=shape)))
         self.boxes += [boxes_of_label(json.loads(line)) for line in (folder / "views.jsonl").read_text().splitlines()]
+
+    def _keep(self, pictures):
+        """Their place is at the end."""
+        count = len(pictures)
+        if not self.joined:
+            self.array = torch.cat([self.array, torch.full((count,), len(self.arrays))])
+            self.row = torch.cat([self.row, torch.arange(count)])
+            self.arrays.append(pictures)
+            return
+        used = len(self.row)
+        if not self.arrays or used + count > len(self.arrays[0]):  # half as much again: the allocator keeps what was given back of each size
+            grown = torch.empty((3 * (used + count) // 2, *pictures.shape[1:]), dtype=torch.uint8, device=self.device)
+            if used:
+                grown[:used] = self.arrays[0][:used]
+            self.arrays = [grown]
+            if self.device.type == "cuda":
+                torch.cuda.empty_cache()
+        self.arrays[0][used:used + count] = pictures.to(self.device)
+        self.array, self.row = torch.zeros(used + count, dtype=torch.long), torch.arange(used + count)
 
     def __len__(self):
         return len(self.row)

@@ -34,6 +34,8 @@ def parsed():
     parser.add_argument("--decay", type=float, default=0.02, help="of the weights")
     parser.add_argument("--memory", type=float, default=0.998, help="of the mean of the weights over steps, which is what is shipped")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--textures", type=float, default=0, help="share of the pictures that get other colours and textures")
+    parser.add_argument("--floors", type=float, default=0, help="share of the pictures in which something higher is taken for the floor")
     parser.add_argument("--start", type=Path, help="checkpoint whose weights to begin with")
     parser.add_argument("--shrink", type=int, default=1, help="2: train on half the resolution, which is four times as fast")
     parser.add_argument("--device", default="cpu", help="cpu or cuda")
@@ -143,7 +145,7 @@ def main():
             views.refresh()
             looked = time.time()
         random = np.random.default_rng([arguments.seed, state["steps"]])
-        pictures, boxes = augment.augmented(*augment.drawn(views, arguments.batch, random), random)
+        pictures, boxes = augment.augmented(*augment.drawn(views, arguments.batch, random), random, arguments.textures, arguments.floors)
         sums += training.step(*augment.shrunk(pictures, boxes, arguments.shrink), grid)
         count += 1
         state["seconds"] += time.time() - last

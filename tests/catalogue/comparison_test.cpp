@@ -84,12 +84,15 @@ TEST_F(Compared, ManyTestsAskForMore) {
     add("lab", seed, "default", 0);
     for (const char* variant : {"v1", "v2", "v3"}) add("lab", seed, variant, seed);
   }
-  for (const auto& variant :
-       compareVariants(catalogue, {.figures = {"trajectory.ate_rmse_m"}}).rows[0].variants)
+  const Comparison all = compareVariants(catalogue, {.figures = {"trajectory.ate_rmse_m"}});
+  int compared = 0;
+  for (const auto& variant : all.rows.at(0).variants)
     if (variant.difference) {
+      ++compared;
       EXPECT_NEAR(variant.difference->test.p_value, 2.0 / 64, 1e-12);
       EXPECT_FALSE(variant.difference->significant()) << "3 tests: 0.094";
     }
+  EXPECT_EQ(compared, 3);
 }
 
 TEST_F(Compared, WhatIsBetterDependsOnTheFigure) {

@@ -40,7 +40,7 @@ class Training(unittest.TestCase):
     @classmethod
     def train(cls, steps):
         cls.said = call(sys.executable, TRAINING / "train.py", "--views", cls.at / "views", "--check", cls.at / "check", "--out", cls.at / "out",
-                        "--steps", steps, "--batch", 8, "--threads", 1)
+                        "--steps", steps, "--batch", 8, "--threads", 1, "--textures", 0.3, "--floors", 0.1)
 
     def test_the_loss_falls_and_a_stopped_training_goes_on(self):
         first, last = (json.loads(line) for line in (self.at / "out" / "log.jsonl").read_text().splitlines())
@@ -48,6 +48,47 @@ class Training(unittest.TestCase):
         self.assertEqual([first["steps"], last["steps"]], [10, 100])
         self.assertLess(last["places"], 0.9 * first["places"])
         self.assertLess(last["kinds"] + last["places"], 0.95 * (first["kinds"] + first["places"]))
+
+    def test_views_in_one_array_are_those_of_the_folders(self):
+        import data
+        import numpy
+        apart = data.Views([self.at / "views", self.at / "check"])
+        joined = data.Views([self.at / "views"], joined=True)
+        joined.patterns.append(str(self.at / "check"))
+        self.assertEqual(joined.refresh(), 1)
+        self.assertEqual([len(apart.arrays), len(joined.arrays)], [2, 1])
+        numbers = numpy.arange(len(apart))
+        order = sorted(numbers, key=lambda i: apart.array[i] == 0)  # "check" comes first in a sorted list, and last where it is added
+        for one, other in zip(apart.batch(order), joined.batch(numbers)):
+            self.assertTrue((one.nan_to_num(9) == other.nan_to_num(9)).all())
+
+    def test_other_textures_keep_the_edges_and_other_floors_the_holes(self):
+        import augment
+        import data
+        import numpy
+        import torch
+        views = data.Views([self.at / "views"])
+        pictures, boxes = views.batch(range(12))
+        random = numpy.random.default_rng(1)
+        textured = augment.textured(pictures[:, data.COLOR], random)
+        self.assertGreater(float((textured - pictures[:, data.COLOR]).abs().mean()), 0.02)
+        step = torch.zeros(1, 3, 40, 40)
+        step[..., 20:] = 0.8
+        seen = augment.textured(step.expand(20, -1, -1, -1), random)
+        self.assertLess(float((seen[..., 2:17] - seen[..., 1:16]).abs().max()), 1e-4)  # level on both sides of the edge, whatever the filter
+        self.assertLess(float((seen[..., 24:38] - seen[..., 23:37]).abs().max()), 1e-4)
+        self.assertGreater(float((seen[..., 10] - seen[..., 30]).abs().mean()), 0.1)
+        every = numpy.ones(12, bool)
+        lowered = augment.lowered(pictures, every, random)
+        others = [k for k in range(6) if k != data.HEIGHT]
+        self.assertTrue((lowered[:, others] == pictures[:, others]).all())
+        before, after = pictures[:, data.HEIGHT], lowered[:, data.HEIGHT]
+        self.assertTrue(((before == 0) == (after == 0)).all())
+        high = before > 100 / 255
+        shift = ((before - after) * 255 / data.HEIGHT_STEPS_PER_M)[high]  # m
+        self.assertGreater(float(shift.min()), 0.19)
+        self.assertLess(float(shift.max()), 0.91)
+        self.assertTrue((augment.lowered(pictures, ~every, random) == pictures).all())
 
     def test_curves_are_drawn(self):
         call(sys.executable, TRAINING / "curves.py", self.at / "out" / "log.jsonl", "-o", self.at / "curves.png")
