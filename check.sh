@@ -19,7 +19,8 @@ export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan_suppressions.txt ${TSAN_OPTION
 test_preset() {
   cmake --preset "$1" >"build/$1.configure.log" 2>&1 || { cat "build/$1.configure.log"; return 1; }
   cmake --build --preset "$1" -j "$jobs" || return 1
-  ctest --preset "$1" -j "$jobs"
+  # Modules are loaded by the sanitizer's dlopen(), for which the program's own search path does not count.
+  LD_LIBRARY_PATH="$PWD/build/$1/lib" ctest --preset "$1" -j "$jobs"
 }
 
 # All sources are read in the units of the release, which share their headers: in an eighth of the time.

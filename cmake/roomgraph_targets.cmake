@@ -39,6 +39,8 @@ if(ROOMGRAPH_SANITIZE)
   target_compile_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
                                                      -Wno-maybe-uninitialized)
   target_link_options(roomgraph_options INTERFACE -fsanitize=${ROOMGRAPH_SANITIZE})
+  # Eigen would align by hand under AddressSanitizer alone, and Ceres, which is not instrumented, frees what we allocate.
+  target_compile_definitions(roomgraph_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 if(ROOMGRAPH_COVERAGE)
   target_compile_options(roomgraph_options INTERFACE --coverage)

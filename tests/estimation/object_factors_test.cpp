@@ -12,6 +12,7 @@
 
 #include "random_poses.h"
 #include "roomgraph/estimation/object_loop_closer.h"
+#include "roomgraph/geometry/projection.h"
 #include "shipped_objects.h"
 
 namespace roomgraph::test {
@@ -307,6 +308,35 @@ TEST(ObjectFactors, StandingStillIsOneVisit) {
   const ObjectFactors factors = objectFactors(framesOf(poses), poses, {chair()}, {}, BackendOptions{});
   EXPECT_EQ(factors.views.size(), 1u);
   EXPECT_EQ(factors.sightings.size(), 1u);
+}
+
+// Boxes of one direction repeat their error: a hundred are worth no more than a dozen, and a graph must not grow with time.
+TEST(ObjectFactors, BoxesFromOneDirectionAreFewAndSpreadOverTime) {
+  constexpr int kPoses = 100;
+  const MotionSource none(MotionNoise{}, true);
+  const Motion motion{none, none, none};
+  KeyPoses poses(motion);
+  for (int i = 0; i < kPoses; ++i) poses.add(i, poseFromYpr(0.002 * i, 0, 0, 0.3, 0, 0));
+  auto frames = framesOf(poses);
+  for (auto& frame : frames) {
+    frame.camera = {640, 480, 500, 500, 319.5, 239.5, {}};
+    frame.robot_from_camera.linear() = bodyFromOptical();
+    auto& seen = frame.decisions[0].seen.measurement;
+    seen.proposal.shape = {ShapeKind::kCylinder, 0.6, 0.6, 0.9};
+    seen.proposal.camera_from_object = frame.robot_from_camera.inverse() * seen.proposal.camera_from_object;
+    seen.detection.box = projectShape(seen.proposal.shape, seen.proposal.camera_from_object, frame.camera)->visible;
+  }
+  BackendOptions options;
+  options.landmark_repeating_share = 0.5;
+  const auto boxes = objectFactors(frames, poses, {chair()}, {}, options).boxes;
+  ASSERT_EQ(boxes.size(), 12u);
+  EXPECT_EQ(boxes.front().node, poses.nodes().front().id);
+  EXPECT_EQ(boxes.back().node, poses.nodes().back().id);
+  for (const auto& box : boxes) EXPECT_NEAR(box.weight, 0.8 / (1 + 0.5 * 11), 1e-12) << "a mean of twelve, not of a hundred";
+  frames.resize(5);
+  const auto all = objectFactors(frames, poses, {chair()}, {}, options).boxes;
+  ASSERT_EQ(all.size(), 5u);
+  EXPECT_NEAR(all[2].weight, 0.8 / (1 + 0.5 * 4), 1e-12);
 }
 
 TEST(ObjectFactors, SightingsThatWeighNothingMakeNoView) {

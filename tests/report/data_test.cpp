@@ -105,7 +105,8 @@ TEST_F(ReportData, SightingsAreCountedAgain) {
       count.last = std::max(count.last, t);
     }
   }
-  for (const json& object : runOf(folder)["objects"]) {
+  const json run = runOf(folder);
+  for (const json& object : run["objects"]) {
     const int id = object["id"];
     if (!expected.contains(id)) {
       EXPECT_TRUE(object["sightings"].is_null());

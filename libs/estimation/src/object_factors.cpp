@@ -98,8 +98,9 @@ void addBoxes(const Gathered& seen, const Landmark& landmark, const KeyPoses& po
   std::map<int, std::vector<LandmarkBoxFactor>> by_direction;
   for (const auto& [id, box] : seen.boxes)
     by_direction[directionOf(landmark.position, poses.node(id), options.landmark_view_rad)].push_back(box);
-  for (auto& [direction, boxes] : by_direction) {
-    for (LandmarkBoxFactor& box : boxes) {
+  for (const auto& [direction, all] : by_direction) {
+    const auto boxes = thinned(all, kMostOfDirection);
+    for (LandmarkBoxFactor box : boxes) {
       box.weight *= weightAmong(boxes.size(), options.landmark_repeating_share);
       out.boxes.push_back(box);
     }

@@ -27,7 +27,6 @@ constexpr double kWallBeside_m = 1.2;  // of the wall on both sides of a door
 constexpr double kLeastShown = 0.5;    // share of the length of a cuboid's side that returns must lie along
 constexpr double kSpread_m = 0.05, kMostAlike = 0.7;        // so many of a side's returns are so near a line
 constexpr std::size_t kLeastReturns = 4, kMostReturns = 6;  // of one side in one scan
-constexpr std::size_t kMostOfDirection = 12;                // more say nothing new
 
 // In the landmark's frame.
 struct Side {
@@ -97,15 +96,6 @@ Returns endOfSurface(Returns first, Returns end) {
     return (a.in_landmark - b.in_landmark).norm() > kSameThing_m;
   });
   return gap == end ? end : gap + 1;
-}
-
-// Evenly in their order, that of the beams or of time.
-template <class T>
-std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  std::vector<T> out;
-  for (std::size_t i = 0; i < most; ++i) out.push_back(all[i * (all.size() - 1) / (most - 1)]);
-  return out;
 }
 
 // One scan, placed. Its points are computed when a landmark is in reach.
