@@ -62,6 +62,13 @@ struct Drive {
 
 double distance(const Pose3& a, const Pose3& b) { return (a.translation() - b.translation()).norm(); }
 
+TEST(LiveSolve, LargerGraphsHaveLonger) {
+  EXPECT_EQ(PoseEstimator::lagOf(1), 3u);
+  EXPECT_EQ(PoseEstimator::lagOf(500), 5u) << "a hundredth";
+  EXPECT_EQ(PoseEstimator::lagOf(3000), 100u) << "four times what half as many have";
+  EXPECT_EQ(PoseEstimator::lagOf(1500), 25u);
+}
+
 TEST(LiveSolve, IsTakenOverThreeKeyPosesLaterWithAnyNumberOfThreads) {
   std::vector<std::vector<Pose3>> paths;
   for (const int threads : {1, 2}) {

@@ -13,12 +13,7 @@ namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the work beside a run; the next optimisation begins where this one ended
 constexpr int kNearIterations = 10;
-// Key poses from the beginning of an optimisation to its end: as many as take a robot, and a replay three times as fast,
-// longer to drive. What an optimisation takes grows with the square of the graph once that is large.
 constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100, kSquaredNodesPerLag = 90'000;
-std::size_t lagOf(std::size_t nodes) {
-  return std::max({kLeastLag, nodes / kNodesPerLag, nodes * nodes / kSquaredNodesPerLag});
-}
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 }
 
@@ -203,6 +198,10 @@ void PoseEstimator::repeatSurprises() {
 
 bool PoseEstimator::takesOver() const {
   return live_ && poses_.nodes().size() >= live_->nodes() + lagOf(live_->nodes());
+}
+
+std::size_t PoseEstimator::lagOf(std::size_t nodes) {
+  return std::max({kLeastLag, nodes / kNodesPerLag, nodes * nodes / kSquaredNodesPerLag});
 }
 
 std::optional<GraphSolution> PoseEstimator::takeOver() {
