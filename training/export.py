@@ -19,6 +19,11 @@ import evaluate
 from network import RoomDetector, STRIDES, cells, folded
 
 
+def mean_weights(each):
+    """Of networks that one began where the other ended (Izmailov et al. 2018); whole numbers are the last one's."""
+    return {k: torch.stack([w[k].float() for w in each]).mean(0) if v.dtype.is_floating_point else v for k, v in each[-1].items()}
+
+
 def platt(logits, right, steps=200):
     """(slope, shift) of the logistic regression, with the prior of one of each that Platt recommends."""
     x, y = np.asarray(logits, float), np.asarray(right, float)
@@ -68,13 +73,13 @@ def calibrated(model, views):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--checkpoint", type=Path, required=True)
+    parser.add_argument("--checkpoint", type=Path, nargs="+", required=True, help="of several the mean of their weights, as of one training's passes")
     parser.add_argument("--check", nargs="+", required=True, help="folders of views to calibrate with")
     parser.add_argument("--out", type=Path, required=True)
     arguments = parser.parse_args()
     torch.set_num_threads(1)  # it takes a minute; two threads beside other work take far longer
     model = RoomDetector(len(data.CLASSES))
-    weights = torch.load(arguments.checkpoint)["mean"]
+    weights = mean_weights([torch.load(file)["mean"] for file in arguments.checkpoint])
     model.load_state_dict(weights)
     model.eval()
     views = data.Views(arguments.check)

@@ -90,6 +90,15 @@ class Training(unittest.TestCase):
         self.assertLess(float(shift.max()), 0.91)
         self.assertTrue((augment.lowered(pictures, ~every, random) == pictures).all())
 
+    def test_the_mean_of_weights(self):
+        import export
+        import torch
+        a, b = {"w": torch.tensor([1.0, 4.0]), "n": torch.tensor(3)}, {"w": torch.tensor([2.0, 0.0]), "n": torch.tensor(5)}
+        mean = export.mean_weights([a, b])
+        self.assertEqual(mean["w"].tolist(), [1.5, 2.0])
+        self.assertEqual(int(mean["n"]), 5)
+        self.assertEqual(export.mean_weights([a])["w"].tolist(), [1.0, 4.0])
+
     def test_curves_are_drawn(self):
         call(sys.executable, TRAINING / "curves.py", self.at / "out" / "log.jsonl", "-o", self.at / "curves.png")
         self.assertEqual((self.at / "curves.png").read_bytes()[:4], b"\x89PNG")
