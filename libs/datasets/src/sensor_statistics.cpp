@@ -69,7 +69,7 @@ void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observa
   for (int v = 0; v < static_cast<int>(ranges.rows()); v += kPixelStride)
     for (int u = 0; u < static_cast<int>(ranges.cols()); u += kPixelStride) {
       ++samples_;
-      if (ranges(v, u) > 0) depths_m_.push_back(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
+      if (ranges(v, u) > 0) depths_m_.add(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
     }
   const PointGrid grid = grids_.make(observation);
   const Pose3 robot_from_sensor = toPose3(observation.sensorPose);
@@ -143,9 +143,9 @@ void ImageStatistics::describe(const mrpt::obs::CObservation3DRangeScan& observa
 
 ImageSummary ImageStatistics::report() const {
   ImageSummary out = summary_;
-  out.median_depth_m = median({depths_m_.begin(), depths_m_.end()});
-  out.near_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.05);
-  out.far_depth_m = quantile({depths_m_.begin(), depths_m_.end()}, 0.95);
+  out.median_depth_m = depths_m_.quantile(0.5);
+  out.near_depth_m = depths_m_.quantile(0.05);
+  out.far_depth_m = depths_m_.quantile(0.95);
   out.floor = floor_.report();
   out.noisy = roughness_.noisy();
   out.same = repetition_.longest();

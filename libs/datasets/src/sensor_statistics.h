@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "floor_statistics.h"
+#include "log_histogram.h"
 #include "point_grid.h"
 #include "range_agreement.h"
 #include "repetition.h"
@@ -52,7 +53,7 @@ class ImageStatistics {
   FloorStatistics floor_;
   RangeAgreement agreement_;
   ScanAgreement walls_;
-  std::vector<float> depths_m_;  ///< samples of the valid ones
+  LogHistogram depths_m_;  ///< samples of the valid ones
   std::size_t samples_ = 0;
   int seen_ = 0;
 };
