@@ -197,7 +197,7 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
   return checkpoint;
 }
 
-// Threads share one heap: of the many that the C library would make for them each keeps what it once needed at most, a quarter
+// Threads share one heap: of the many that the C library would make for them each keeps what it once needed at most, a sixth
 // of a long run's memory.
 void shareHeap() { mallopt(M_ARENA_MAX, 1); }
 

@@ -48,7 +48,8 @@ struct ObjectsInGraph {
 /// * The mean size that was measured from each direction, and the mean of those that it has at least.
 /// * One box per key pose and landmark, if the shape lifted from it explains it, and points that were seen on
 /// a landmark from several key poses. Boxes from one direction, and points of one object, share a part of
-/// their errors (BackendOptions::landmark_repeating_share), and are together worth no more than their mean.
+/// their errors (BackendOptions::landmark_repeating_share), and are together worth no more than their mean. Of
+/// boxes from one direction twelve at most are used, spread over time.
 ///
 /// The yaw is that of most sightings; front and back of an object are easily confused, so opposite yaws are
 /// reversed, and those across took width for depth and measure no yaw.
