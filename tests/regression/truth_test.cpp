@@ -129,6 +129,26 @@ TEST_F(TruthTest, TinyRoom) {
   EXPECT_LT(map.at("wall_distance_mean_m"), 0.04);
 }
 
+// Recorded boxes of a sofa and a chair: a shape with a front, ends and a usual size that this one has not.
+TEST_F(TruthTest, TinyLounge) {
+  run("tiny_lounge");
+  const fs::path truth = truthOf("tiny_lounge");
+  EXPECT_LT(trajectory(truth / "groundtruth_robot.txt", "trajectory.tum").at("ate_rmse_m"), 0.0056);
+  const json found = objects(truth);
+  EXPECT_EQ(found.at("correct"), 2);
+  EXPECT_EQ(found.at("precision"), 1.0) << "the armchair is none of them";
+  EXPECT_EQ(found.at("recall"), 1.0);
+  const json& sofa = found.at("per_class").at("sofa");
+  EXPECT_EQ(sofa.at("correct"), 1);
+  EXPECT_LT(sofa.at("position_error_mean_m"), 0.087);
+  EXPECT_LT(sofa.at("yaw_error_mean_deg"), 0.4) << "and its front is not its back";
+  EXPECT_LT(sofa.at("size_error_mean_m"), 0.075);
+  EXPECT_GT(sofa.at("iou3d_mean"), 0.83);
+  EXPECT_EQ(found.at("associations_attributed"), 49);
+  EXPECT_EQ(found.at("association_accuracy"), 1.0);
+  for (const json& landmark : landmarks()) EXPECT_GT(landmark.at("existence"), 0.95);
+}
+
 // What each stage hands on, so that none hides behind those after it.
 TEST_F(TruthTest, TinyRoomStageByStage) {
   run("tiny_room");
