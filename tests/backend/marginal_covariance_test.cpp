@@ -110,6 +110,18 @@ TEST(MarginalCovariance, IsTheBlockOfTheDenseInverse) {
   }
 }
 
+TEST(MarginalCovariance, OfSomeLandmarksAsOfAll) {
+  SimulatedLoop loop(3);
+  FactorGraph graph = loop.graph();
+  ASSERT_TRUE(graph.optimize().usable);
+  const auto all = graph.landmarkCovariances();
+  const auto some = graph.landmarkCovariances({LandmarkId{2}, LandmarkId{77}, LandmarkId{0}});
+  ASSERT_TRUE(all && some);
+  EXPECT_GT(all->size(), 2U);
+  ASSERT_EQ(some->size(), 2U) << "one is not in the graph";
+  for (const auto& [id, covariance] : *some) EXPECT_TRUE(covariance == all->at(id)) << id.value;
+}
+
 TEST(MarginalCovariance, UnknownYawIsUniform) {
   SimulatedLoop loop(1, 4);
   FactorGraph graph;

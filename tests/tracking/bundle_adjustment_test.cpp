@@ -34,9 +34,7 @@ struct World {
     for (const auto& place : places) {
       const Eigen::Vector3d p = keyframe.odom_from_camera.inverse() * place;
       const Eigen::Vector2d pixel = keyframe.camera.project(p);
-      keyframe.features.keypoints.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
-                                               31.F);
-      keyframe.features.keypoints.back().octave = 0;
+      keyframe.features.places.push_back({cv::Point2d(pixel.x(), pixel.y())});
       keyframe.features.descriptors.emplace_back();
       keyframe.features.depth.push_back(static_cast<float>(p.z()));
     }
@@ -65,7 +63,7 @@ TEST(BundleAdjustment, BringsKeyframesAndPointsBack) {
 
 TEST(BundleAdjustment, RemovesSightingsThatDoNotFit) {
   World world;
-  world.map.keyframe(2).features.keypoints[7].pt.x += 30;
+  world.map.keyframe(2).features.places[7].pt.x += 30;
   adjustLocally(world.map, 2, {});
   EXPECT_EQ(world.map.keyframe(2).points[7], -1);
   EXPECT_EQ(world.map.point(7).sightings.size(), 2u);

@@ -18,23 +18,24 @@ namespace {
 
 TEST(FeatureGrid, FindsWhatBruteForceFinds) {
   std::mt19937 random(3);
-  std::vector<cv::KeyPoint> keypoints;
-  for (int i = 0; i < 500; ++i)
-    keypoints.emplace_back(static_cast<float>(random() % 3200) / 10, static_cast<float>(random() % 2400) / 10,
-                           1.F);
-  const FeatureGrid grid(keypoints, 320, 240);
+  std::vector<FeaturePlace> places;
+  for (int i = 0; i < 500; ++i) {
+    const auto u = static_cast<float>(random() % 3200) / 10, v = static_cast<float>(random() % 2400) / 10;
+    places.push_back({{u, v}});
+  }
+  const FeatureGrid grid(places, 320, 240);
   for (int round = 0; round < 50; ++round) {
     const double u = static_cast<double>(random() % 340) - 10, v = static_cast<double>(random() % 260) - 10;
     std::vector<int> found, expected;
     grid.query(u, v, 25, found);
     for (int i = 0; i < 500; ++i)
-      if (std::hypot(keypoints[static_cast<std::size_t>(i)].pt.x - u,
-                     keypoints[static_cast<std::size_t>(i)].pt.y - v) <= 25)
+      if (std::hypot(places[static_cast<std::size_t>(i)].pt.x - u,
+                     places[static_cast<std::size_t>(i)].pt.y - v) <= 25)
         expected.push_back(i);
     // Matching takes the first of equally good ones: by rows of cells, in a row by column, in a cell by index.
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), [&](int a, int b) {
       const auto key = [&](int i) {
-        const cv::Point2f& p = keypoints[static_cast<std::size_t>(i)].pt;
+        const cv::Point2f& p = places[static_cast<std::size_t>(i)].pt;
         return std::tuple(static_cast<int>(p.y) / 16, static_cast<int>(p.x) / 16, i);
       };
       return key(a) < key(b);
@@ -52,7 +53,7 @@ TEST(FeatureExtractor, SpreadsFeaturesEvenly) {
   right.convertTo(right, CV_8U, 0.3, 90);
   const auto features = extractFeatures(frame.gray, frame, {}, {});
   int left = 0;
-  for (const auto& k : features.keypoints) left += k.pt.x < 160;
+  for (const auto& k : features.places) left += k.pt.x < 160;
   EXPECT_GT(features.size(), 500u);
   EXPECT_GT(static_cast<int>(features.size()) - left, left / 2);
 }
@@ -62,13 +63,13 @@ TEST(FeatureExtractor, LeavesOutExcludedBoxes) {
   const Frame frame = room.render(0, Pose3::Identity());
   const Box2 box{100, 60, 220, 180};
   const auto inside = [&](const Features& features) {
-    return std::count_if(features.keypoints.begin(), features.keypoints.end(),
-                         [&](const cv::KeyPoint& k) { return box.contains(k.pt.x, k.pt.y); });
+    return std::count_if(features.places.begin(), features.places.end(),
+                         [&](const FeaturePlace& k) { return box.contains(k.pt.x, k.pt.y); });
   };
   EXPECT_GT(inside(extractFeatures(frame.gray, frame, {}, {})), 50);
   // Coarse levels round to their own pixels.
   const Box2 inner{box.u_min + 3, box.v_min + 3, box.u_max - 3, box.v_max - 3};
-  for (const auto& k : extractFeatures(frame.gray, frame, {box}, {}).keypoints)
+  for (const auto& k : extractFeatures(frame.gray, frame, {box}, {}).places)
     EXPECT_FALSE(inner.contains(k.pt.x, k.pt.y));
 }
 
@@ -97,7 +98,7 @@ TEST(FeatureExtractor, CoarseLevelsDoNotMoveTheFeatures) {
           std::lround(40 + 180 * std::exp(-(nearest(u, v) - Eigen::Vector2d(u, v)).squaredNorm() / (2 * 4.0 * 4.0))));
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   int count = 0;
-  for (const auto& k : extractFeatures(frame.gray, frame, {}, parameters).keypoints) {
+  for (const auto& k : extractFeatures(frame.gray, frame, {}, parameters).places) {
     if (k.octave != kLevel) continue;
     const Eigen::Vector2d error = Eigen::Vector2d(k.pt.x, k.pt.y) - nearest(k.pt.x, k.pt.y);
     ASSERT_LT(error.norm(), 3) << "a corner beside the spots";
@@ -115,7 +116,7 @@ TEST(FeatureExtractor, DropsDepthAtEdges) {
   frame.depth.colRange(160, 320).setTo(3.F);
   const auto features = extractFeatures(frame.gray, frame, {}, {});
   for (std::size_t i = 0; i < features.size(); ++i) {
-    const float u = features.keypoints[i].pt.x;
+    const float u = features.places[i].pt.x;
     if (u < 155) {
       EXPECT_FLOAT_EQ(features.depth[i], 2);
     }

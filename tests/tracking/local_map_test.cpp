@@ -27,15 +27,14 @@ Keyframe keyframeAt(double x, const std::vector<Eigen::Vector3d>& places, int se
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Eigen::Vector3d p = out.odom_from_camera.inverse() * places[i];
     const Eigen::Vector2d pixel = out.camera.project(p);
-    out.features.keypoints.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), 31.F);
-    out.features.keypoints.back().octave = 0;
+    out.features.places.push_back({cv::Point2d(pixel.x(), pixel.y())});
     std::mt19937 random(static_cast<unsigned>(std::lround(3000 * places[i].x()) + std::lround(100 * places[i].y())));
     Descriptor descriptor;
     for (auto& byte : descriptor) byte = static_cast<std::uint8_t>(random() % 256);
     out.features.descriptors.push_back(descriptor);
     out.features.depth.push_back(static_cast<float>(p.z()));
   }
-  out.features.grid = FeatureGrid(out.features.keypoints, 640, 480);
+  out.features.grid = FeatureGrid(out.features.places, 640, 480);
   out.points.assign(places.size(), -1);
   return out;
 }
@@ -67,7 +66,7 @@ TEST(LocalMap, APointIsWhereItsFeatureAndDepthPutIt) {
   LocalMap map;
   const Eigen::Vector3d place(0.4, -0.3, 2.5);
   map.keyframes.push_back(keyframeAt(0.2, {place}));
-  map.keyframe(0).features.keypoints[0].octave = 3;
+  map.keyframe(0).features.places[0].octave = 3;
   const auto id = map.createPoint(0, 0);
   const MapPoint& point = map.point(id);
   EXPECT_LT((point.position - place).norm(), 1e-5);

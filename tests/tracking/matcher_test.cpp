@@ -93,14 +93,13 @@ struct OnePoint {
     map.points.add() = point;
   }
   void addFeature(double u, double v, int octave, int bits) {
-    features.keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v), 31.F);
-    features.keypoints.back().octave = octave;
+    features.places.push_back({cv::Point2d(u, v), octave});
     features.descriptors.push_back(flipped(map.point(0).descriptor, bits, random));
     features.depth.push_back(0);
   }
   /// Feature that is found from `pose`, -1: none.
   int search(const Pose3& odom_from_camera, std::vector<std::int64_t> taken = {}) {
-    features.grid = FeatureGrid(features.keypoints, camera.width, camera.height);
+    features.grid = FeatureGrid(features.places, camera.width, camera.height);
     taken.resize(features.size(), -1);
     const Pose3 camera_from_odom = odom_from_camera.inverse();
     const auto found =
@@ -146,7 +145,7 @@ TEST(ProjectionSearch, LooksOnlyForWhatCanBeSeen) {
   p.addFeature(30, 240, 2, 0);
   std::vector<std::int64_t> in_view;
   const auto seen = [&](const Pose3& odom_from_camera) {
-    p.features.grid = FeatureGrid(p.features.keypoints, 640, 480);
+    p.features.grid = FeatureGrid(p.features.places, 640, 480);
     const Pose3 camera_from_odom = odom_from_camera.inverse();
     in_view.clear();
     ProjectionSearch{p.map, p.camera, camera_from_odom, 10}.match({0}, p.features, {-1, -1}, p.parameters, &in_view);

@@ -102,7 +102,7 @@ TEST(RepeatedTracking, DoesNotLookAtImagesWhoseViewsAreKnown) {
 
 TEST(RepeatedTracking, AViewThroughBytesIsTheSame) {
   tracking::LocatedView view;
-  view.features.keypoints = {{{1.0f / 3, 7.25f}, 31}, {{639.5f, 0}, 31}};
+  view.features.places = {{{1.0f / 3, 7.25f}}, {{639.5f, 0}}};
   view.features.depth = {2.5f, 0};
   view.points = {0, 4000000000};
   view.in_view = {5};
@@ -112,8 +112,8 @@ TEST(RepeatedTracking, AViewThroughBytesIsTheSame) {
   view.inliers = 2, view.matches = 3, view.reference = 4, view.reference_inliers = 5;
   const auto back = tracking::locatedView(bytesOf(view));
   ASSERT_EQ(back.features.size(), 2u);
-  EXPECT_EQ(back.features.keypoints[0].pt, view.features.keypoints[0].pt);
-  EXPECT_EQ(back.features.keypoints[1].pt, view.features.keypoints[1].pt);
+  EXPECT_EQ(back.features.places[0].pt, view.features.places[0].pt);
+  EXPECT_EQ(back.features.places[1].pt, view.features.places[1].pt);
   EXPECT_EQ(back.features.depth, view.features.depth);
   EXPECT_EQ(back.points, view.points);
   EXPECT_EQ(back.in_view, view.in_view);
@@ -127,7 +127,7 @@ TEST(RepeatedTracking, AViewThroughBytesIsTheSame) {
 
 TEST(RepeatedTracking, BytesThatAreNoViewAreRefused) {
   tracking::LocatedView view;
-  view.features.keypoints = {{{1, 2}, 31}, {{3, 4}, 31}};
+  view.features.places = {{{1, 2}}, {{3, 4}}};
   view.features.depth = {2.5f, 0};
   view.points = {0, 1};
   const std::string good = bytesOf(view);

@@ -14,6 +14,12 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr double kUniformYaw = std::numbers::pi * std::numbers::pi / 3;  // variance over the circle
 constexpr double kSmallestPivot = 1e-12;  // of a matrix with a diagonal of ones
 
+Eigen::VectorXd squaredNorms(const Sparse& columns) {
+  Eigen::VectorXd out(columns.cols());
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) out[j] = columns.col(j).squaredNorm();
+  return out;
+}
+
 // Decomposed information matrix of all variables; blocks of its inverse are computed column by column.
 class Covariances {
  public:
@@ -24,7 +30,7 @@ class Covariances {
       size_ += graph.freedoms(block);
     }
     if (blocks.empty()) return;
-    if (const auto linear = graph.linearize(blocks, {})) decompose(linear->jacobian);
+    if (auto linear = graph.linearize(blocks, {})) decompose(std::move(linear->jacobian));
   }
 
   bool ok() const { return ok_; }
@@ -45,13 +51,16 @@ class Covariances {
   }
 
  private:
-  // Scaled to a diagonal of ones, so that the units do not decide what counts as singular.
-  void decompose(const Sparse& jacobian) {
-    Sparse information = jacobian.transpose() * jacobian;
-    const Eigen::VectorXd diagonal = information.diagonal();
+  // Scaled to a diagonal of ones, so that the units do not decide what counts as singular. Only the lower triangle, and
+  // nothing that is done with: in a long run this is the largest matrix.
+  void decompose(Sparse jacobian) {
+    const Eigen::VectorXd diagonal = squaredNorms(jacobian);
     if (!diagonal.allFinite() || diagonal.minCoeff() <= 0) return;
     scale_ = diagonal.cwiseSqrt().cwiseInverse();
-    information = scale_.asDiagonal() * information * scale_.asDiagonal();
+    jacobian = jacobian * scale_.asDiagonal();
+    Sparse information(size_, size_);
+    information.selfadjointView<Eigen::Lower>().rankUpdate(Sparse(jacobian.transpose()));
+    jacobian = Sparse();
     solver_.compute(information);
     ok_ = solver_.info() == Eigen::Success && solver_.vectorD().minCoeff() > kSmallestPivot;
   }
@@ -74,11 +83,20 @@ Eigen::Matrix4d landmarkBlock(const Covariances& covariances, const FactorGraph:
 }  // namespace
 
 std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovariances() const {
+  std::vector<LandmarkId> all;
+  for (const auto& [id, object] : impl_->objects) all.push_back(id);
+  return landmarkCovariances(all);
+}
+
+std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovariances(
+    const std::vector<LandmarkId>& of) const {
   if (impl_->objects.empty()) return std::nullopt;
   const Covariances covariances(*impl_);
   if (!covariances.ok()) return std::nullopt;
   std::map<LandmarkId, Eigen::Matrix4d> result;
-  for (const auto& [id, object] : impl_->objects) result[id] = landmarkBlock(covariances, object);
+  for (const LandmarkId id : of)
+    if (const auto found = impl_->objects.find(id); found != impl_->objects.end())
+      result[id] = landmarkBlock(covariances, found->second);
   return result;
 }
 

@@ -24,7 +24,9 @@ std::vector<Landmark> inMap(const std::vector<Candidate>& candidates, const Land
 // The covariances of the graph are those of the shapes' middles; where the objects' own are, no number of views tells.
 void setCovariances(std::vector<Candidate>& candidates, const FactorGraph& graph, const ObjectDatabase& database,
                     std::map<std::string, int>& reasons) {
-  const auto covariances = graph.landmarkCovariances();
+  std::vector<LandmarkId> ids;  // without the graph's own, the views
+  for (const auto& [landmark, evidence] : candidates) ids.push_back(landmark.id);
+  const auto covariances = graph.landmarkCovariances(ids);
   if (!covariances) return;
   for (auto& [landmark, evidence] : candidates) {
     const auto found = covariances->find(landmark.id);

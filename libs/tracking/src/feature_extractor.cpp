@@ -167,23 +167,22 @@ Features extractFeatures(const cv::Mat& gray, const Frame& frame, const std::vec
 Features extractFeatures(const cv::Mat& gray, const Corners& corners, const Frame& frame,
                          const std::vector<Box2>& excluded, const TrackingParameters& parameters) {
   Features features;
-  features.keypoints = pyramidCorners(corners, excluded, parameters);
+  std::vector<cv::KeyPoint> chosen = pyramidCorners(corners, excluded, parameters);
   cv::Mat descriptors;
-  if (!features.keypoints.empty())
+  if (!chosen.empty())
     cv::ORB::create(parameters.max_features, static_cast<float>(parameters.scale_factor),
                     parameters.pyramid_levels, kBorderPx, 0, 2, cv::ORB::FAST_SCORE, 31,
                     parameters.fast_threshold)
-        ->compute(gray, features.keypoints, descriptors);
-  features.descriptors.resize(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) {
+        ->compute(gray, chosen, descriptors);
+  features.descriptors.resize(chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
     std::memcpy(features.descriptors[i].data(), descriptors.ptr(static_cast<int>(i)), 32);
     // Resizing maps pixel centres, not corners: undo the shift of coarse levels.
-    auto& keypoint = features.keypoints[i];
-    const auto shift = static_cast<float>((std::pow(parameters.scale_factor, keypoint.octave) - 1) / 2);
-    keypoint.pt += cv::Point2f(shift, shift);
-    features.depth.push_back(steadyDepth(frame, keypoint.pt, parameters));
+    const auto shift = static_cast<float>((std::pow(parameters.scale_factor, chosen[i].octave) - 1) / 2);
+    features.places.push_back({chosen[i].pt + cv::Point2f(shift, shift), chosen[i].octave});
+    features.depth.push_back(steadyDepth(frame, features.places.back().pt, parameters));
   }
-  features.grid = FeatureGrid(features.keypoints, gray.cols, gray.rows);
+  features.grid = FeatureGrid(features.places, gray.cols, gray.rows);
   return features;
 }
 

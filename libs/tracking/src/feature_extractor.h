@@ -18,13 +18,13 @@ namespace roomgraph::tracking {
 
 /// Features of one image. All vectors have the same length.
 struct Features {
-  std::vector<cv::KeyPoint> keypoints;  ///< pt in px of the full image, octave = pyramid level
+  std::vector<FeaturePlace> places;
   std::vector<Descriptor> descriptors;  ///< ORB
   std::vector<float> depth;             ///< m, 0: none, or not to be relied on
   FeatureGrid grid;
 
-  std::size_t size() const { return keypoints.size(); }
-  Eigen::Vector2d pixel(std::size_t i) const { return {keypoints[i].pt.x, keypoints[i].pt.y}; }
+  std::size_t size() const { return places.size(); }
+  Eigen::Vector2d pixel(std::size_t i) const { return {places[i].pt.x, places[i].pt.y}; }
 };
 
 /// Corners of an image as FAST finds them, level by level: what features need that depends on the image alone.

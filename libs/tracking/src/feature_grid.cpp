@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bucketed keypoints and radius queries.
+// Bucketed features and radius queries.
 #include "feature_grid.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace roomgraph::tracking {
 
-FeatureGrid::FeatureGrid(const std::vector<cv::KeyPoint>& keypoints, int width, int height)
+FeatureGrid::FeatureGrid(const std::vector<FeaturePlace>& features, int width, int height)
     : columns_((width + kCellPx - 1) / kCellPx), rows_((height + kCellPx - 1) / kCellPx) {
   const auto cellOf = [this](const cv::Point2f& p) {
     const int c = std::clamp(static_cast<int>(p.x) / kCellPx, 0, columns_ - 1);
@@ -16,12 +16,12 @@ FeatureGrid::FeatureGrid(const std::vector<cv::KeyPoint>& keypoints, int width, 
     return static_cast<std::size_t>(r * columns_ + c);
   };
   begins_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-  for (const auto& keypoint : keypoints) ++begins_[cellOf(keypoint.pt) + 1];
+  for (const auto& feature : features) ++begins_[cellOf(feature.pt) + 1];
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   std::vector<int> next(begins_.begin(), begins_.end() - 1);
-  entries_.resize(keypoints.size());
-  for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    const cv::Point2f& p = keypoints[i].pt;
+  entries_.resize(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const cv::Point2f& p = features[i].pt;
     entries_[static_cast<std::size_t>(next[cellOf(p)]++)] = {p, static_cast<int>(i)};
   }
 }

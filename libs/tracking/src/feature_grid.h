@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grid index of keypoints for search around a pixel.
+// Grid index of features for search around a pixel.
 #pragma once
 
 #include <opencv2/core/types.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace roomgraph::tracking {
 
-/// Index of keypoints by image cell, for queries around a pixel.
+/// Where a feature is. A keyframe keeps hundreds of them for the rest of the run: cv::KeyPoint is more than twice as large.
+struct FeaturePlace {
+  cv::Point2f pt;           ///< px of the full image
+  std::int32_t octave = 0;  ///< level of the pyramid
+};
+
+/// Index of features by image cell, for queries around a pixel.
 class FeatureGrid {
  public:
   FeatureGrid() = default;
-  FeatureGrid(const std::vector<cv::KeyPoint>& keypoints, int width, int height);
-  /// Appends the indices of keypoints within radius (px) of (u, v), in a fixed order.
+  FeatureGrid(const std::vector<FeaturePlace>& features, int width, int height);
+  /// Appends the indices of features within radius (px) of (u, v), in a fixed order.
   void query(double u, double v, double radius, std::vector<int>& out) const;
 
  private:

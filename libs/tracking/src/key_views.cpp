@@ -98,7 +98,7 @@ struct ViewLocator::Views {
       const auto k = static_cast<std::size_t>(b);
       problem.points.push_back(all[index].points[static_cast<std::size_t>(a)]);
       problem.observations.push_back(
-          makeObservation(features.pixel(k), features.keypoints[k].octave, features.depth[k], parameters));
+          makeObservation(features.pixel(k), features.places[k].octave, features.depth[k], parameters));
     }
     const PoseSolution solution = ransacPose(problem, kLeastInliers);
     return {all[index].world_from_camera * solution.camera_from_world.inverse(), solution.inliers, index};

@@ -22,7 +22,7 @@ void fuse(LocalMap& map, int index, const std::vector<std::int64_t>& created,
     if (other == index || map.keyframe(other).segment != map.keyframe(index).segment) continue;
     if (++neighbours > kFuseNeighbours) break;
     Keyframe& keyframe = map.keyframe(other);
-    keyframe.features.grid = FeatureGrid(keyframe.features.keypoints, keyframe.camera.width, keyframe.camera.height);
+    keyframe.features.grid = FeatureGrid(keyframe.features.places, keyframe.camera.width, keyframe.camera.height);
     const Pose3 camera_from_odom = keyframe.odom_from_camera.inverse();
     const ProjectionSearch search{map, keyframe.camera, camera_from_odom, kFuseRadiusPx};
     for (const auto& match : search.match(created, keyframe.features, keyframe.points, parameters))

@@ -9,7 +9,7 @@ namespace roomgraph::tracking {
 
 Observation Keyframe::observation(int feature, const TrackingParameters& parameters) const {
   const auto i = static_cast<std::size_t>(feature);
-  return makeObservation(features.pixel(i), features.keypoints[i].octave, features.depth[i], parameters);
+  return makeObservation(features.pixel(i), features.places[i].octave, features.depth[i], parameters);
 }
 
 std::int64_t LocalMap::createPoint(int keyframe_index, int feature) {
@@ -33,7 +33,7 @@ void LocalMap::addSighting(std::int64_t id, int keyframe_index, int feature) {
   frame.points[i] = id;
   const Eigen::Vector3d ray = p.position - frame.odom_from_camera.translation();
   p.descriptor = frame.features.descriptors[i];
-  p.octave = frame.features.keypoints[i].octave;
+  p.octave = frame.features.places[i].octave;
   p.distance = ray.norm();
   p.direction = ray.normalized();
 }

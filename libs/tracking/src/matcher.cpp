@@ -44,7 +44,7 @@ Best closest(const MapPoint& point, const Expected& expected, const Features& fe
   Best best;
   for (const int i : nearby) {
     const auto k = static_cast<std::size_t>(i);
-    if (taken[k] >= 0 || std::abs(features.keypoints[k].octave - expected.octave) > 1) continue;
+    if (taken[k] >= 0 || std::abs(features.places[k].octave - expected.octave) > 1) continue;
     const int distance = hammingDistance(point.descriptor, features.descriptors[k]);
     if (distance < best.distance) {
       best.second = best.distance;

@@ -50,7 +50,7 @@ Recognition recognize(const LocalMap& map, int index, const Features& features, 
     if (!point) continue;
     problem.points.push_back(*point);
     problem.observations.push_back(
-        makeObservation(features.pixel(k), features.keypoints[k].octave, features.depth[k], parameters));
+        makeObservation(features.pixel(k), features.places[k].octave, features.depth[k], parameters));
     matches.push_back({keyframe.points[i], b});
   }
   Recognition out{ransacPose(problem, parameters.min_inliers), {}};

@@ -148,7 +148,7 @@ void Tracker::keep(const View* view) {
   LocatedView kept;
   for (std::size_t i = 0; view && i < view->points.size(); ++i) {
     if (view->points[i] < 0) continue;
-    kept.features.keypoints.push_back(view->features.keypoints[i]);
+    kept.features.places.push_back(view->features.places[i]);
     kept.features.depth.push_back(view->features.depth[i]);
     kept.points.push_back(view->points[i]);
   }

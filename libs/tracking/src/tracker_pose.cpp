@@ -25,7 +25,7 @@ bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
     if (view.points[i] < 0) continue;
     used.push_back(i);
     problem.points.push_back(map_.point(view.points[i]).position);
-    problem.observations.push_back(makeObservation(view.features.pixel(i), view.features.keypoints[i].octave,
+    problem.observations.push_back(makeObservation(view.features.pixel(i), view.features.places[i].octave,
                                                    view.features.depth[i], parameters_));
   }
   view.matches = static_cast<int>(used.size());

@@ -27,8 +27,7 @@ std::vector<std::uint32_t> shortened(const std::vector<std::int64_t>& ids) {
 
 std::string bytesOf(const LocatedView& view) {
   std::vector<float> pixels;
-  for (const auto& keypoint : view.features.keypoints)
-    pixels.insert(pixels.end(), {keypoint.pt.x, keypoint.pt.y});
+  for (const auto& feature : view.features.places) pixels.insert(pixels.end(), {feature.pt.x, feature.pt.y});
   const double* pose = view.odom_from_camera.data();
   const double* covariance = view.covariance.data();
   mrpt::io::CMemoryStream memory;
@@ -54,7 +53,7 @@ LocatedView locatedView(const std::string& bytes) {
       covariance.size() != kCovarianceNumbers)
     throw std::invalid_argument("its lists do not have the same length");
   for (std::size_t i = 0; i + 1 < pixels.size(); i += 2)
-    view.features.keypoints.emplace_back(cv::Point2f(pixels[i], pixels[i + 1]), 1.f);
+    view.features.places.push_back({cv::Point2f(pixels[i], pixels[i + 1])});
   view.points.assign(points.begin(), points.end());
   view.in_view.assign(in_view.begin(), in_view.end());
   view.odom_from_camera.matrix() = Eigen::Map<const Eigen::Matrix4d>(pose.data());

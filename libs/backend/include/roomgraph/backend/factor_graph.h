@@ -82,6 +82,8 @@ class FactorGraph {
   /// Marginal covariances (x, y, z, yaw) of landmarks at the current estimate; nothing when the problem is
   /// singular or cannot be evaluated. A yaw that nothing measures is uniform over the circle.
   std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances() const;
+  /// Of these landmarks only, each once; those that the graph does not hold are left out.
+  std::optional<std::map<LandmarkId, Eigen::Matrix4d>> landmarkCovariances(const std::vector<LandmarkId>& of) const;
 
   /// Marginalises everything but `keep` (Schur complement at the current estimate). The prior contains every factor on
   /// a removed variable, and every MarginalPrior; the caller adds it, and the factors among kept variables, to a graph
