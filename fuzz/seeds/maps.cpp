@@ -63,7 +63,7 @@ void addCheckpoints(Corpus& corpus) {
   corpus.add("journalled_boxes", "two", boxes);
   corpus.add("journalled_boxes", "none", bytesOf(Outcome<std::vector<Detection>>::failure("too dark")));
   tracking::LocatedView view;
-  view.features.keypoints = {{cv::Point2f(1, 2), 1.f}, {cv::Point2f(3, 4), 1.f}};
+  view.features.places = {{cv::Point2f(1, 2)}, {cv::Point2f(3, 4)}};
   view.features.depth = {1.5f, 2.5f};
   view.points = view.in_view = {3, 5};
   corpus.add("journalled_view", "two", tracking::bytesOf(view));
