@@ -7,7 +7,7 @@
 #include <mrpt/serialization/stl_serialization.h>
 
 #include "mask_memory.h"
-
+#include "roomgraph/observations/growing_reads.h"
 
 namespace roomgraph {
 
@@ -31,10 +31,15 @@ bool readFlag(CArchive& in) {
 Detection read(CArchive& in, MaskMemory& memory_of_masks) {
   Detection d;
   MaskRuns mask;
-  in >> d.box.u_min >> d.box.v_min >> d.box.u_max >> d.box.v_max >> d.class_name >> d.label >> d.score;
-  in >> mask.width >> mask.height >> mask.runs >> d.track.value;
+  in >> d.box.u_min >> d.box.v_min >> d.box.u_max >> d.box.v_max;
+  d.class_name = readText(in);
+  d.label = readText(in);
+  in >> d.score >> mask.width >> mask.height;
+  mask.runs = readGrowing<std::vector<std::uint32_t>>(in);
+  in >> d.track.value;
   d.carried = readFlag(in);
-  in >> d.rival_score >> d.rival_label;
+  in >> d.rival_score;
+  d.rival_label = readText(in);
   d.mask = memory_of_masks.toMask(mask);
   return d;
 }
@@ -56,9 +61,8 @@ Outcome<std::vector<Detection>> detectionsFrom(const std::string& bytes) {
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
   auto in = archiveFrom(memory);
   const bool ok = readFlag(in);
-  std::string reason;
-  std::uint32_t count = 0;
-  in >> reason >> count;
+  const std::string reason = readText(in);
+  const auto count = in.ReadAs<std::uint32_t>();
   if (!ok) return Outcome<std::vector<Detection>>::failure(reason);
   std::vector<Detection> detections;
   MaskMemory memory_of_masks;

@@ -10,6 +10,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "roomgraph/observations/growing_reads.h"
+
 namespace roomgraph {
 
 IMPLEMENTS_SERIALIZABLE(CObservationDetections, mrpt::obs::CObservation, roomgraph)
@@ -19,7 +21,7 @@ namespace {
 // Version 0 had 32-bit boxes and no masks.
 template <class Number>
 void readItem(mrpt::serialization::CArchive& in, CObservationDetections::Item& item) {
-  in >> item.label;
+  item.label = readText(in);
   for (double* value : {&item.score, &item.u_min, &item.v_min, &item.u_max, &item.v_max})
     *value = static_cast<double>(in.ReadAs<Number>());
   in >> item.track;
@@ -43,14 +45,22 @@ void CObservationDetections::serializeTo(mrpt::serialization::CArchive& out) con
 
 void CObservationDetections::serializeFrom(mrpt::serialization::CArchive& in, std::uint8_t version) {
   if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  in >> timestamp >> sensorLabel >> sensor_pose_ >> image_label >> image_width >> image_height >> model >>
-      model_hash >> score_threshold >> nms_threshold;
-  items.resize(in.ReadAs<std::uint32_t>());
-  for (auto& item : items) {
-    version == 0 ? readItem<float>(in, item) : readItem<double>(in, item);
-    item.mask = {};
-    if (version > 0) in >> item.mask.width >> item.mask.height >> item.mask.runs;
-  }
+  in >> timestamp;
+  sensorLabel = readText(in);
+  in >> sensor_pose_;
+  image_label = readText(in);
+  in >> image_width >> image_height;
+  model = readText(in);
+  model_hash = readText(in);
+  in >> score_threshold >> nms_threshold;
+  items = readList(in, [version](mrpt::serialization::CArchive& from) {
+    Item item;
+    version == 0 ? readItem<float>(from, item) : readItem<double>(from, item);
+    if (version == 0) return item;
+    from >> item.mask.width >> item.mask.height;
+    item.mask.runs = readGrowing<std::vector<std::uint32_t>>(from);
+    return item;
+  });
 }
 
 void CObservationDetections::getDescriptionAsText(std::ostream& out) const {

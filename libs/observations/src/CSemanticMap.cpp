@@ -6,6 +6,7 @@
 #include <mrpt/serialization/stl_serialization.h>
 
 #include "option_values.h"
+#include "roomgraph/observations/growing_reads.h"
 
 namespace roomgraph {
 namespace {
@@ -37,10 +38,11 @@ void writeLandmark(CArchive& out, const Landmark& landmark) {
 
 Landmark readLandmark(CArchive& in) {
   Landmark landmark;
-  std::string kind;
-  in >> landmark.id.value >> landmark.class_name >> landmark.model >> kind >> landmark.shape.width >>
-      landmark.shape.depth >> landmark.shape.height;
-  landmark.shape.kind = shapeKindFromString(kind);
+  in >> landmark.id.value;
+  landmark.class_name = readText(in);
+  landmark.model = readText(in);
+  landmark.shape.kind = shapeKindFromString(readText(in));
+  in >> landmark.shape.width >> landmark.shape.depth >> landmark.shape.height;
   for (int i = 0; i < 3; ++i) in >> landmark.position[i];
   in >> landmark.yaw;
   landmark.has_yaw = in.ReadAs<std::uint8_t>() != 0;  // any byte may be there
@@ -49,6 +51,13 @@ Landmark readLandmark(CArchive& in) {
   in >> landmark.existence >> landmark.class_posterior;
   landmark.observations = in.ReadAs<std::int32_t>();
   return landmark;
+}
+
+StampedPose readStamped(CArchive& in) {
+  StampedPose stamped;
+  in >> stamped.t;
+  stamped.pose = readPose(in);
+  return stamped;
 }
 
 void writeSeen(CArchive& out, const SeenSpans& seen) {
@@ -77,15 +86,18 @@ void writeView(CArchive& out, const KeyView& view) {
   }
 }
 
+KeyCorner readCorner(CArchive& in) {
+  KeyCorner corner;
+  in.ReadBuffer(corner.descriptor.data(), corner.descriptor.size());
+  for (std::int16_t& along : corner.place_mm) in >> along;
+  return corner;
+}
+
 KeyView readView(CArchive& in) {
   KeyView view;
   in >> view.t;
   view.world_from_camera = readPose(in);
-  view.corners.resize(in.ReadAs<std::uint32_t>());
-  for (KeyCorner& corner : view.corners) {
-    in.ReadBuffer(corner.descriptor.data(), corner.descriptor.size());
-    for (std::int16_t& along : corner.place_mm) in >> along;
-  }
+  view.corners = readList(in, readCorner);
   return view;
 }
 
@@ -140,13 +152,8 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
     occupancy = mrpt::maps::COccupancyGridMap2D::Create();
     in >> *occupancy;
   }
-  landmarks.resize(in.ReadAs<std::uint32_t>());
-  for (auto& landmark : landmarks) landmark = readLandmark(in);
-  world_from_robot.resize(in.ReadAs<std::uint32_t>());
-  for (auto& stamped : world_from_robot) {
-    in >> stamped.t;
-    stamped.pose = readPose(in);
-  }
+  landmarks = readList(in, readLandmark);
+  world_from_robot = readList(in, readStamped);
   seen.clear();
   provenance = {};
   views.clear();
@@ -156,10 +163,12 @@ void CSemanticMap::serializeFrom(CArchive& in, std::uint8_t version) {
   likelihood = {};
   if (version == 0) return;
   seen = readSeen(in);
-  in >> provenance.program >> provenance.config >> provenance.objects >> provenance.history;
+  provenance.program = readText(in);
+  provenance.config = readText(in);
+  provenance.objects = readText(in);
+  provenance.history = readList(in, readText);
   if (version == 1) return;
-  views.resize(in.ReadAs<std::uint32_t>());
-  for (auto& view : views) view = readView(in);
+  views = readList(in, readView);
   weights = readWeights(in);
   if (version == 2) return;
   std::map<std::string, std::string> inserting, likely;
