@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Batches on a real Slurm: many runs, and whatever dies on the way.
+#include <chrono>
+#include <thread>
+
 #include "slurm_batch.h"
 
 namespace roomgraph::test {
@@ -142,6 +145,8 @@ TEST_F(SlurmBatch, ARequeuedJobIsSeenTwice) {
   const std::string task = active().front().substr(0, active().front().find(' '));
   said("scontrol requeue " + task);
   ASSERT_TRUE(waitUntil([] { return countOf("PENDING") == 1; }));
+  // Slurm does not launch a job in the second in which it has revoked its credential.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   said("scontrol update StartTime=now JobId=" + task);  // it would wait for two minutes
   const auto ended = program.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -56,6 +56,9 @@ mrpt::serialization::CSerializable::Ptr parsed(const std::vector<std::uint8_t>& 
     const std::string what = firstLine(error);
     if (what.find("version") != std::string::npos)
       throw InputError(file.string() + ": was written by a newer version of roomgraph (" + what + ")");
+    if (what.find("EOF") != std::string::npos)
+      throw InputError(file.string() +
+                       ": not a roomgraph map, or damaged (it is cut off, or a size in it is larger than the file)");
     throw InputError(file.string() + ": not a roomgraph map, or damaged (" + what + ")");
   }
 }

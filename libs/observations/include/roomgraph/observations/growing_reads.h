@@ -25,7 +25,7 @@ List readGrowing(mrpt::serialization::CArchive& in) {
     const std::size_t begin = out.size(), piece = std::min(left, kPiece);
     out.resize(begin + piece);
     const std::size_t bytes = in.ReadBuffer(&out[begin], piece * sizeof(Element));
-    if (bytes != piece * sizeof(Element)) throw std::runtime_error("it ends within a list");
+    if (bytes != piece * sizeof(Element)) throw std::runtime_error("EOF within a list");
     left -= piece;
   }
   return out;
