@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "configuration.h"
+#include "examination.h"
 #include "interrupts.h"
 #include "program.h"
 #include "report_defaults.h"
@@ -108,23 +109,6 @@ ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, 
   line.finish();
   places.require();  // what was cut looks like its end
   return state;
-}
-
-// What `info` would say, for the report. Whatever goes wrong with it does not concern the run.
-std::optional<std::vector<Finding>> examine(const RunOptions& options, const Options& run) {
-  Progress line(options.quiet ? nullptr : &std::cerr, "look at the recording", "%", 100);
-  std::optional<std::vector<Finding>> findings;
-  try {
-    const auto show = [&](double share) {
-      line.update(100 * share);
-      if (interrupted()) throw Interrupted("while the recording was examined");
-    };
-    findings = inspectRawlog(options.input, show, readOptionsOf(run).sensor_poses).findings;
-  } catch (const std::exception&) {
-    findings.reset();
-  }
-  line.finish();
-  return findings;
 }
 
 // A run without poses has no result, and there is a reason.
@@ -235,6 +219,8 @@ void run(const RunOptions& options) {
   extra.addTo(*slam);
 
   const Stopwatch watch;
+  std::optional<Examination> examination;
+  if (!options.no_report) examination.emplace(options.input, readOptionsOf(slam->setup().options).sensor_poses);
   const ReplayState replayed = replayWithProgress(options, reader, *slam, places);
   // The whole run goes another way from here.
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();
@@ -242,7 +228,7 @@ void run(const RunOptions& options) {
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
-  if (!options.no_report && !replayed.interrupted) origin.findings = examine(options, slam->setup().options);
+  if (examination && !replayed.interrupted) origin.findings = examination->findings(options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it

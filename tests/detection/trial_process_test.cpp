@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -41,6 +43,27 @@ TEST(TrialProcess, WhatGoesOnForeverIsEnded) {
                 },
                 {.cpu_s = 1}),
             "needed more than 1 s of processor time");
+}
+
+TEST(TrialProcess, WhatWaitsForeverIsEnded) {
+  EXPECT_EQ(fateOfTrial([] { sleep(100); }, {.wall_s = 1}), "did not come to an end within 1 s");
+}
+
+// Those of this process are not in the other one.
+TEST(TrialProcess, OpenCvHasOneThreadThereAndAsManyAsBeforeHere) {
+  const int before = cv::getNumThreads();
+  cv::setNumThreads(4);
+  const auto sum = [] {
+    std::atomic<int> all = 0;
+    cv::parallel_for_({0, 1000}, [&all](const cv::Range& range) { all += range.size(); });
+    if (all != 1000) std::abort();
+  };
+  for (int round = 0; round < 20; ++round) {
+    sum();
+    EXPECT_EQ(fateOfTrial([&] { cv::getNumThreads() == 1 ? sum() : std::abort(); }, {.wall_s = 20}), "");
+    EXPECT_EQ(cv::getNumThreads(), 4);
+  }
+  cv::setNumThreads(before);
 }
 
 TEST(TrialProcess, MemoryIsLimited) {

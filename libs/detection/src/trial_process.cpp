@@ -45,17 +45,29 @@ void limitProcess(const TrialLimits& limits) {
   setrlimit(RLIMIT_AS, &memory);
 }
 
+// OpenCV's threads are not in a forked process: whoever asks them for something there waits forever, and so does whoever
+// tells OpenCV there to do without.
+class WithoutThreads {
+ public:
+  WithoutThreads() { cv::setNumThreads(1); }
+  ~WithoutThreads() { cv::setNumThreads(before_); }
+  WithoutThreads(const WithoutThreads&) = delete;
+  WithoutThreads& operator=(const WithoutThreads&) = delete;
+
+ private:
+  int before_ = cv::getNumThreads();
+};
+
 [[noreturn]] void tryOut(const std::function<void()>& work, const TrialLimits& limits) {
   // Handlers of the program, or of a sanitizer, would report a crash as its own.
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGALRM}) std::signal(signal, SIG_DFL);
+  alarm(limits.wall_s);
   // What the library says of the file it says again in this process.
   if (const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0) {
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
   }
   limitProcess(limits);
-  // Only the thread that forked is here; others must not be waited for.
-  cv::setNumThreads(1);
   try {
     work();
   } catch (const std::exception&) {
@@ -67,6 +79,7 @@ void limitProcess(const TrialLimits& limits) {
 }  // namespace
 
 std::string fateOfTrial(const std::function<void()>& work, const TrialLimits& limits) {
+  const WithoutThreads without_threads;
   const pid_t child = fork();
   if (child < 0) return "";
   if (child == 0) tryOut(work, limits);
@@ -75,6 +88,8 @@ std::string fateOfTrial(const std::function<void()>& work, const TrialLimits& li
     if (errno != EINTR) return "";
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return "needed more than " + std::to_string(limits.cpu_s) + " s of processor time";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    return "did not come to an end within " + std::to_string(limits.wall_s) + " s";
   if (WIFSIGNALED(status))
     return "ended by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
   return WEXITSTATUS(status) == kSurvived ? ""

@@ -10,6 +10,7 @@ namespace roomgraph {
 
 struct TrialLimits {
   unsigned cpu_s = 60;                          ///< processor time, s
+  unsigned wall_s = 300;                        ///< time, s: what waits for something takes no processor time
   std::size_t memory_bytes = std::size_t{2} << 30;  ///< beyond what this process has
 };
 
