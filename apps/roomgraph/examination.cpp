@@ -2,6 +2,7 @@
 // The thread beside the replay, and what ends it.
 #include "examination.h"
 
+#include <chrono>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <system_error>
@@ -11,21 +12,27 @@
 #include "roomgraph/core/progress.h"
 
 namespace roomgraph {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(100);
+
+}  // namespace
 
 Examination::Examination(std::filesystem::path input, SensorPoses poses)
     : input_(std::move(input)), poses_(std::move(poses)) {
   if (cv::getNumThreads() < 2) return;
   try {
-    beside_ = std::async(std::launch::async, [this] { return look([](double) {}); });
+    beside_ = std::async(std::launch::async, [this] { return look([this](double share) { share_ = share; }); });
   } catch (const std::system_error&) {
     // No thread is to be had: it can wait.
   }
 }
 
 Examination::Findings Examination::findings(bool quiet) {
-  if (beside_.valid()) return beside_.get();
   Progress line(quiet ? nullptr : &std::cerr, "look at the recording", "%", 100);
-  Findings out = look([&line](double share) { line.update(100 * share); });
+  const bool beside = beside_.valid();
+  while (beside && beside_.wait_for(kLook) != std::future_status::ready) line.update(100 * share_);
+  Findings out = beside ? beside_.get() : look([&line](double share) { line.update(100 * share); });
   line.finish();
   return out;
 }

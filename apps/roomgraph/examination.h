@@ -34,6 +34,7 @@ class Examination {
   std::filesystem::path input_;
   SensorPoses poses_;
   std::atomic<bool> given_up_ = false;
+  std::atomic<double> share_ = 0;  ///< that the thread has read
   std::future<Findings> beside_;  ///< joined before the rest is gone
 };
 
