@@ -48,6 +48,7 @@ void addNetworks(Corpus& corpus) {
   test::writeTinyNetwork(folder, 2);
   corpus.add("darknet", "tiny", {folder.read("tiny.cfg"), "chair\nsofa\n", folder.read("tiny.weights")});
   corpus.add("labels", "two", "chair\nsofa\n");
+  corpus.add("score_calibration", "two", R"({"classes": {"door": {"slope": 1.9, "shift": -0.2}, "sofa": {"slope": 0.7, "shift": 1}}})");
   corpus.add("onnx", "tiny", {"chair\nsofa\ndoor\n", test::tinyOnnx()});
 }
 

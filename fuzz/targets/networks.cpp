@@ -3,6 +3,7 @@
 #include "../target.h"
 #include "network.h"
 #include "roomgraph/detection/register_classes.h"
+#include "score_calibration.h"
 
 namespace roomgraph::fuzz {
 namespace {
@@ -23,6 +24,13 @@ ROOMGRAPH_FUZZ_TARGET(darknet) {
 
 ROOMGRAPH_FUZZ_TARGET(labels) {
   readLabels(scratchFile("labels.txt", bytes).string());
+}
+
+ROOMGRAPH_FUZZ_TARGET(score_calibration) {
+  scratchFile("x.scores.json", bytes);
+  const auto scores = ScoreCalibration::beside((scratchFolder() / "x.onnx").string());
+  const double p = scores.probability("door", scores.leastScore(0.35));
+  if (!(p >= 0 && p <= 1)) std::abort();
 }
 
 }  // namespace

@@ -81,6 +81,24 @@ TEST(DetectionRecord, ReplayGivesTheSameBits) {
   }
 }
 
+// What was carried to a frame is carried there again by the replay.
+TEST(DetectionRecord, ClassesThatWereNotLookedForAreSaid) {
+  auto live = found(1);
+  live[0].carried = true;
+  const auto record = throughAFile(toRecord(frameAt(5), live, {}, {"door"}));
+  ASSERT_EQ(record.items.size(), 1u);
+  EXPECT_EQ(record.items[0].label, "chair");
+  const ObjectDatabase classes = chairsAndDoors();
+  RecordedDetector detector;
+  detector.setDatabase(classes);
+  detector.prepare();
+  detector.feed(record);
+  EXPECT_EQ(detector.detect(frameAt(5))->size(), 1u);
+  EXPECT_EQ(detector.unsought(), std::vector<std::string>{"door"});
+  EXPECT_FALSE(detector.detect(frameAt(9)));
+  EXPECT_TRUE(detector.unsought().empty());
+}
+
 TEST(DetectionRecord, StricterThresholdsOfTheRecordingAreSaid) {
   RecordedDetector detector;
   Config::fromText("[detection]\nscore_threshold = 0.2\n", "test").read("detection", detector);

@@ -6,6 +6,7 @@
 
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/detection/register_classes.h"
 #include "temporary_folder.h"
 
 namespace roomgraph {
@@ -21,6 +22,21 @@ class DarknetInput : public ::testing::Test {
   }
   const test::TemporaryFolder folder_;
 };
+
+TEST(NetworkSpecText, HasAFileAFormatAndARate) {
+  detection::registerClasses();
+  const auto spec = parseNetworkSpec("a/doors.onnx:ade20k@2.5");
+  EXPECT_EQ(spec.file, "a/doors.onnx");
+  EXPECT_EQ(spec.format, "ade20k");
+  EXPECT_EQ(spec.rate_hz, 2.5);
+  EXPECT_EQ(parseNetworkSpec("doors.onnx @ 4").file, "doors.onnx");
+  EXPECT_EQ(parseNetworkSpec("doors.onnx @ 4").rate_hz, 4);
+  const auto every = parseNetworkSpec("me@home/doors.onnx");
+  EXPECT_EQ(every.file, "me@home/doors.onnx") << "no number follows this @";
+  EXPECT_EQ(every.rate_hz, 0);
+  for (const std::string rate : {"0", "-1", "1e9", "nan"})
+    EXPECT_THROW(parseNetworkSpec("doors.onnx@" + rate), ConfigError) << rate;
+}
 
 TEST_F(DarknetInput, IsThatOfItsFirstSection) {
   EXPECT_EQ(sizeOf("[net]\nwidth=64\nheight = 32\n[convolutional]\nwidth=7\nheight=7\n"), cv::Size(64, 32));

@@ -169,6 +169,16 @@ TEST_F(RecordedDetectorTest, JsonLinesAreClippedFilteredAndSorted) {
   EXPECT_TRUE(empty->empty());
 }
 
+TEST_F(RecordedDetectorTest, JsonLinesSayWhatWasNotLookedFor) {
+  prepare("file = " + write(R"({"timestamp": 5.0, "boxes": [{"class": "sofa", "score": 0.5, "bbox": [1, 2, 30, 40], "carried": true}, )"
+                            R"({"class": "swivel_chair", "score": 0.5, "bbox": [1, 2, 30, 40]}], "unsought": ["sofa"]})"
+                            "\n"));
+  const auto found = detector_.detect(frameAt(5.0));
+  ASSERT_EQ(found->size(), 1u) << "the sofa was carried here, and is again";
+  EXPECT_EQ((*found)[0].class_name, "swivel_chair");
+  EXPECT_EQ(detector_.unsought(), std::vector<std::string>{"sofa"});
+}
+
 TEST_F(RecordedDetectorTest, TextLinesOfCocoIndices) {
   prepare("file = " +
           write("# t id x y w h score\n5.0 39 1 1 5 5 0.9\n5.0 56 16 256 220 215 0.9\n6.0 57 0 0 9 9 0.8\n"));

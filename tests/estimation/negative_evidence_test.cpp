@@ -139,6 +139,16 @@ TEST_F(Doubts, AMissFollowsBayesRuleForTheLandmarkThatWasMissed) {
   EXPECT_EQ(existence(decisions[2]), before) << "it is behind the camera";
 }
 
+TEST_F(Doubts, WhatWasNotLookedForIsNotMissed) {
+  const auto decisions = see({chairStandingAt(2.5, 0.7)});
+  const double before = existence(decisions[0]);
+  const std::string chair = chairStandingAt(2.5, 0.7).class_name;
+  mapper_.missUnseen({}, {}, viewOfAWall(), {"sofa", chair});
+  EXPECT_EQ(existence(decisions[0]), before);
+  mapper_.missUnseen({}, {}, viewOfAWall(), {"sofa"});
+  EXPECT_LT(existence(decisions[0]), before);
+}
+
 // The graph may put a landmark elsewhere; what it does not speak of stays.
 TEST_F(Doubts, EstimatesOfTheGraphAreTakenOver) {
   const auto decisions = see({chairStandingAt(2.5, 0.7), chairStandingAt(2.5, -0.7)});

@@ -56,6 +56,7 @@ CObservationDetections randomDetections(unsigned seed) {
     if (i % 3 == 0) item.mask = {3, 2, {1, 5}};
     out.items.push_back(item);
   }
+  if (seed % 2 == 0) out.unsought = {"door", "person"};
   out.items.push_back({"extremes", std::numeric_limits<double>::denorm_min(), -0.0, 1 / 3.0, 1e300,
                        std::numeric_limits<double>::epsilon()});
   return out;

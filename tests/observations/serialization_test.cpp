@@ -45,6 +45,7 @@ CObservationDetections detections() {
   out.score_threshold = 0.25f;
   out.nms_threshold = 0.5f;
   out.items = {{"chair", 0.75, 1, 2, 30.5, 40, 7}, {"door", 0.1, -3, 0, 1 / 3.0, 20, -1, {3, 2, {1, 5}}}};
+  out.unsought = {"sofa"};
   return out;
 }
 

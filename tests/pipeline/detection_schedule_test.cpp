@@ -144,5 +144,36 @@ TEST(DetectionSchedule, AnImageThatCannotBeTrackedEndsTheBoxes) {
   EXPECT_TRUE(boxes.due(still(4).t));
 }
 
+// A network for chairs that runs on every third frame beside one for people that runs on all: the chair is carried between, until
+// it is too old.
+TEST(DetectionSchedule, BoxesOfClassesThatWereNotLookedForAreCarried) {
+  DetectionSchedule boxes = schedule(1, 2);
+  boxes.detected(chairAndPerson(), still(0));
+  const std::vector<Detection> person{chairAndPerson()[1]};
+  for (int i = 1; i <= 2; ++i) {
+    const auto found = boxes.detected(person, still(i), {"swivel_chair"}, Pose3::Identity());
+    EXPECT_EQ(sourceOf(found), kDetected);
+    EXPECT_EQ(found.age, 0);
+    EXPECT_THAT(found.unsought, ElementsAre("swivel_chair"));
+    ASSERT_EQ(found.boxes.size(), 2u) << "frame " << i;
+    EXPECT_EQ(found.boxes[0].class_name, "swivel_chair") << "the better score comes first";
+    EXPECT_TRUE(found.boxes[0].carried);
+    EXPECT_GT(iou(found.boxes[0].box, chairAndPerson()[0].box), 0.98);
+    EXPECT_FALSE(found.boxes[1].carried);
+  }
+  EXPECT_EQ(boxes.detected(person, still(3), {"swivel_chair"}, Pose3::Identity()).boxes.size(), 1u) << "too old";
+  EXPECT_EQ(boxes.detected(chairAndPerson(), still(4)).boxes.size(), 2u);
+  EXPECT_EQ(boxes.detected({}, still(5)).boxes.size(), 0u) << "looked for, and not there";
+}
+
+TEST(DetectionSchedule, FramesWithoutTheDetectorCountForClassesThatItDidNotLookFor) {
+  DetectionSchedule boxes = schedule(2, 3);
+  boxes.detected(chairAndPerson(), still(0));
+  boxes.missed(still(1), Pose3::Identity());
+  EXPECT_EQ(boxes.detected({}, still(2), {"swivel_chair"}, Pose3::Identity()).boxes.size(), 1u);
+  EXPECT_EQ(boxes.missed(still(3), Pose3::Identity()).boxes.size(), 1u) << "three frames old";
+  EXPECT_EQ(boxes.detected({}, still(4), {"swivel_chair"}, Pose3::Identity()).boxes.size(), 0u) << "four frames old";
+}
+
 }  // namespace
 }  // namespace roomgraph

@@ -23,6 +23,7 @@ class AutoDetector : public Detector {
   bool idle() const override { return !networks_.hasModels() && records_.empty(); }
   Outcome<std::vector<Detection>> detect(const Frame& frame) override { return chosen().detect(frame); }
   bool foresee(const Frame& frame) override { return networks_.hasModels() && networks_.foresee(frame); }
+  std::vector<std::string> unsought() const override { return chosen().unsought(); }
   DetectorIdentity identity() const override { return chosen().identity(); }
   std::string warning() const override { return chosen().warning(); }
 

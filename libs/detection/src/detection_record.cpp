@@ -14,7 +14,7 @@
 namespace roomgraph {
 
 CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>& detections,
-                                const DetectorIdentity& identity) {
+                                const DetectorIdentity& identity, const std::vector<std::string>& unsought) {
   CObservationDetections out;
   out.timestamp = mrpt::Clock::fromDouble(frame.t);
   out.sensorLabel = "DETECTIONS";
@@ -25,7 +25,9 @@ CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>
   out.model_hash = identity.hash;
   out.score_threshold = static_cast<float>(identity.score_threshold);
   out.nms_threshold = static_cast<float>(identity.nms_threshold);
+  out.unsought = unsought;
   for (const Detection& d : detections) {
+    if (d.carried) continue;
     out.items.push_back({d.label.empty() ? d.class_name : d.label, d.score, d.box.u_min, d.box.v_min,
                          d.box.u_max, d.box.v_max, d.track.value, toRuns(d.mask)});
     if (!d.rival_label.empty())

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "detection_bytes.h"
 #include "network.h"
@@ -55,8 +56,9 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
   v.add(
       "models", models_,
       {.doc =
-           "Network files, each path[:format] with the format auto, nanodet, yolox, darknet, ade20k or that "
-           "of a plug-in. All run on each image and their boxes are merged. Darknet .weights need the .cfg "
+           "Network files, each path[:format][@rate] with the format auto, nanodet, yolox, darknet, ade20k or that "
+           "of a plug-in. All run on each image and their boxes are fused; one with a rate, as in "
+           "doors.onnx@2, on at most so many images a second, and its boxes are carried on between. Darknet .weights need the .cfg "
            "of the same name beside them.",
        .file = true});
   v.add("labels_file", labels_file_,
@@ -89,23 +91,76 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
 
 void DnnDetector::prepare() {
   networks_.clear();
+  clocks_.clear();
+  chosen_.clear();
+  unsought_.clear();
+  calibrations_.clear();
   std::vector<std::string> names, hashes;
   for (const std::string& text : models_) {
     NetworkSpec spec = parseNetworkSpec(text);
     spec.labels_file = labels_file_;
     spec.input_size_px = input_size_px_;
     networks_.push_back(std::make_shared<Network>(spec));
+    clocks_.emplace_back(spec.rate_hz);
+    calibrations_.push_back(ScoreCalibration::beside(spec.file));
     names.push_back(std::filesystem::path(spec.file).stem().string());
     hashes.push_back(fileHash(spec.file));
   }
+  mapLabels();
   identity_ = {join(names, "+"), join(hashes, "+"), score_threshold_, nms_threshold_};
+}
+
+void DnnDetector::setDatabase(const ObjectDatabase& database) {
+  database_ = &database;
+  mapLabels();
+}
+
+void DnnDetector::mapLabels() {
+  classes_.clear();
+  if (!database_) return;
+  for (const auto& network : networks_) classes_.push_back(classOfLabel(*network, *database_, segmentation_labels_));
 }
 
 DetectorIdentity DnnDetector::identity() const {
   return identity_;
 }
 
+// Of each network, whether it runs on the frame of this time; frames come in order, each once or more.
+DnnDetector::Chosen DnnDetector::dueAt(double t) {
+  const std::lock_guard one(choosing_);
+  if (const auto known = chosen_.find(t); known != chosen_.end()) return known->second;
+  Chosen out;
+  for (RateClock& clock : clocks_) {
+    out.push_back(clock.due(t));
+    if (out.back()) clock.ran(t);
+  }
+  return chosen_[t] = out;
+}
+
+void DnnDetector::forgetBefore(double t) {
+  const std::lock_guard one(choosing_);
+  chosen_.erase(chosen_.begin(), chosen_.lower_bound(t));
+}
+
+// Names of the classes that only the other networks could have found.
+std::vector<std::string> DnnDetector::unsoughtWithout(const Chosen& chosen) const {
+  std::set<int> sought, all;
+  for (std::size_t k = 0; k < classes_.size(); ++k)
+    for (const int index : classes_[k]) {
+      if (index < 0) continue;
+      all.insert(index);
+      if (chosen[k]) sought.insert(index);
+    }
+  std::vector<std::string> out;
+  for (const int index : all)
+    if (!sought.contains(index)) out.push_back(database_->models()[static_cast<std::size_t>(index)].class_name);
+  return out;
+}
+
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
+  unsought_.clear();
+  if (!frame.color.empty()) unsought_ = unsoughtWithout(dueAt(frame.t));
+  forgetBefore(frame.t);
   return recalled(
       results_, "boxes", frame.t,
       [&] {
@@ -117,6 +172,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
 
 bool DnnDetector::foresee(const Frame& frame) {
   if (frame.color.empty()) return false;
+  dueAt(frame.t);  // in the order of the frames, whoever runs the networks on this one
   if (!results_ || !results_->recalling()) foreseen_.put(frame.t, run(frame));
   return true;
 }
@@ -130,14 +186,21 @@ Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) {
   std::vector<RawBox> boxes;
   std::vector<std::string> labels;
   std::vector<Detection> others;  // of labels that no class has
-  for (const auto& network : networks_) {
-    const std::vector<int> classes = classOfLabel(*network, *database_, segmentation_labels_);
+  const Chosen chosen = dueAt(frame.t);
+  for (std::size_t k = 0; k < networks_.size(); ++k) {
+    if (!chosen[k]) continue;
+    const auto& network = networks_[k];
+    const std::vector<int>& classes = classes_[k];
     std::vector<int> wanted;
     for (int i = 0; i < static_cast<int>(classes.size()); ++i)
       if (classes[i] >= 0 || !network->segments()) wanted.push_back(i);
-    for (RawBox& raw : network->run(frame, wanted, score_threshold_)) {
+    for (RawBox& raw : network->run(frame, wanted, calibrations_[k].leastScore(score_threshold_))) {
       const std::string& label = network->labels()[raw.class_index];
       raw.class_index = classes[raw.class_index];
+      raw.network = static_cast<int>(k);
+      if (raw.class_index >= 0)
+        raw.score = calibrations_[k].probability(database_->models()[raw.class_index].class_name, raw.score);
+      if (raw.score < score_threshold_) continue;
       if (raw.class_index < 0) {
         others.push_back({.box = raw.box, .label = label, .score = raw.score});
         continue;
@@ -147,7 +210,8 @@ Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) {
     }
   }
   std::vector<Detection> detections;
-  for (const int i : suppressTwins(boxes, suppressPerClass(boxes, nms_threshold_), twin_threshold_))
+  const std::vector<int> kept = fuseNetworks(boxes, suppressPerClass(boxes, nms_threshold_), nms_threshold_);
+  for (const int i : suppressTwins(boxes, kept, twin_threshold_))
     detections.push_back({boxes[i].box,
                           database_->models()[boxes[i].class_index].class_name,
                           labels[i],

@@ -2,6 +2,7 @@
 // Parsing of network specifications, label files and Darknet .cfg files.
 #include "network_files.h"
 
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -13,8 +14,29 @@
 
 namespace roomgraph {
 
-NetworkSpec parseNetworkSpec(const std::string& text) {
+namespace {
+
+/// Takes "@rate" off the end of the text, Hz; an @ that no number follows is part of a name.
+double cutRate(std::string& text) {
+  const auto at = text.rfind('@');
+  if (at == std::string::npos) return 0;
+  const std::string number = trim(text.substr(at + 1));
+  double rate = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), rate);
+  if (error != std::errc() || end != number.data() + number.size()) return 0;
+  constexpr double kMost_hz = 1000;
+  if (!(rate > 0 && rate <= kMost_hz))
+    throw ConfigError("[detection] models: '" + text + "': a rate is a number in (0, 1000], Hz");
+  text = trim(text.substr(0, at));
+  return rate;
+}
+
+}  // namespace
+
+NetworkSpec parseNetworkSpec(const std::string& whole) {
   NetworkSpec spec;
+  std::string text = whole;
+  spec.rate_hz = cutRate(text);
   spec.file = text;
   const auto colon = text.rfind(':');
   if (colon == std::string::npos || text.find_first_of("/.", colon) != std::string::npos) return spec;

@@ -15,9 +15,10 @@ struct NetworkSpec {
   std::string format;       ///< name of a NetworkDecoder; empty: the one that recognises the output
   std::string labels_file;  ///< empty: labels.txt beside the file, or a known list
   int input_size_px = 0;    ///< 0: from the .cfg, the file's name, or by trying
+  double rate_hz = 0;       ///< frames a second on which it runs at most; 0: every one on which the detector runs
 };
 
-/// Splits "path[:format]". Throws ConfigError that lists the known formats.
+/// Splits "path[:format][@rate]". Throws ConfigError that lists the known formats.
 NetworkSpec parseNetworkSpec(const std::string& text);
 
 /// Up to the first line break.

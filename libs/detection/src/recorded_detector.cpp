@@ -58,7 +58,7 @@ void RecordedDetector::feed(const CObservationDetections& recorded) {
 
 void RecordedDetector::take(const CObservationDetections& recorded) {
   records_.emplace(mrpt::Clock::toDouble(recorded.timestamp),
-                   RecordedBoxes{recorded.image_label, detectionsOf(recorded)});
+                   RecordedBoxes{recorded.image_label, detectionsOf(recorded), recorded.unsought});
   const double recorded_threshold = static_cast<double>(recorded.score_threshold);
   identity_ = {recorded.model, recorded.model_hash, std::max(score_threshold_, recorded_threshold),
                static_cast<double>(recorded.nms_threshold)};
@@ -110,6 +110,7 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
   last_frame_t_ = frame.t;
   frame_label_ = frame.sensor_label;
   const RecordedBoxes* record = nearest(frame);
+  unsought_ = record ? record->unsought : std::vector<std::string>{};
   if (!record || !database_) {
     std::ostringstream reason;
     reason << "no recorded detections within " << tolerance_s_ << " s of the frame";
@@ -123,6 +124,8 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
     detection.box = clipped(detection.box, frame.camera.width, frame.camera.height);
     if (!(detection.score >= score_threshold_) || detection.box.empty()) continue;
     if (model) detection.class_name = model->class_name;
+    // Boxes of such a class can only have been carried to the frame, and are carried again.
+    if (std::find(unsought_.begin(), unsought_.end(), detection.class_name) != unsought_.end()) continue;
     (model ? detections : others).push_back(detection);
   }
   setRivals(detections, others, *database_);

@@ -14,6 +14,7 @@ namespace roomgraph {
 struct RecordedBoxes {
   std::string image_label;       ///< sensor label of the camera; empty: any
   std::vector<Detection> boxes;  ///< class_name is not filled in yet
+  std::vector<std::string> unsought{};  ///< classes that were not looked for
 };
 
 /// Recorded boxes by time, seconds.
@@ -21,7 +22,7 @@ using DetectionRecords = std::multimap<double, RecordedBoxes>;
 
 /// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]}, with "track" (an
 /// id) and "mask" (a grey picture as large as the image, relative to the file; then the box is the mask's)
-/// where the source has them, or text lines
+/// where the source has them, and "unsought": classes that were not looked for; or text lines
 /// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
 DetectionRecords readDetectionFile(const std::string& file);
 
@@ -45,6 +46,7 @@ class RecordedDetector : public Detector {
   /// the frame in the rawlog, when they were fed before this call.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
   /// Of the records read last: the file's name and hash, or the origin stored in the rawlog.
+  std::vector<std::string> unsought() const override { return unsought_; }
   DetectorIdentity identity() const override { return identity_; }
   /// Warns when records were made with a stricter threshold than the configured one, or none matches a frame.
   std::string warning() const override;
@@ -63,6 +65,7 @@ class RecordedDetector : public Detector {
   const ObjectDatabase* database_ = nullptr;
   DetectionRecords records_;
   DetectorIdentity identity_;
+  std::vector<std::string> unsought_;  ///< of the last frame
   std::string threshold_warning_;
   int frames_ = 0, matched_ = 0;  ///< frames in all; with a record
   double first_frame_t_ = 0, last_frame_t_ = 0;

@@ -59,6 +59,7 @@ void addJsonLine(const Json& json, const std::filesystem::path& folder, Detectio
     if (!sound(detection)) throw std::invalid_argument("box or score out of range");
     boxes.boxes.push_back(detection);
   }
+  if (json.contains("unsought")) boxes.unsought = json.at("unsought").get<std::vector<std::string>>();
   records.emplace(seconds(json.at("timestamp")), boxes);
 }
 

@@ -3,21 +3,46 @@
 #include "suppress.h"
 
 #include <algorithm>
+#include <Eigen/Core>
 #include <map>
 #include <opencv2/dnn.hpp>
+#include <tuple>
+#include <utility>
 
 namespace roomgraph {
 namespace {
 
 constexpr double kSameThing = 0.7;  // IoU of boxes with different labels
 
+// The first of the boxes, with the others' say; the box of a mask keeps its sides.
+RawBox fused(const std::vector<RawBox>& boxes, const std::vector<int>& thing) {
+  RawBox out = boxes[thing.front()];
+  double all = 0, none_right = 1;
+  Eigen::Vector4d sides = Eigen::Vector4d::Zero();
+  for (const int i : thing) {
+    const auto& [box, score] = std::tie(boxes[i].box, boxes[i].score);
+    sides += score * Eigen::Vector4d(box.u_min, box.v_min, box.u_max, box.v_max);
+    all += score;
+    none_right *= 1 - score;
+  }
+  sides /= all;
+  out.box = {sides[0], sides[1], sides[2], sides[3]};
+  out.score = 1 - none_right;
+  const auto masked = std::find_if(thing.begin(), thing.end(), [&](int i) { return !boxes[i].mask.empty(); });
+  if (masked == thing.end()) return out;
+  out.box = boxes[*masked].box;  // which the mask covers
+  out.mask = boxes[*masked].mask;
+  return out;
+}
+
 }  // namespace
 
 std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou) {
-  std::map<int, std::vector<int>> by_class;
-  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) by_class[boxes[i].class_index].push_back(i);
+  std::map<std::pair<int, int>, std::vector<int>> by_class;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
+    by_class[{boxes[i].class_index, boxes[i].network}].push_back(i);
   std::vector<int> kept;
-  for (const auto& [class_index, members] : by_class) {
+  for (const auto& [key, members] : by_class) {
     std::vector<cv::Rect2d> rects;
     std::vector<float> scores;
     for (const int i : members) {
@@ -31,6 +56,28 @@ std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_i
   }
   std::stable_sort(kept.begin(), kept.end(), [&](int a, int b) { return boxes[a].score > boxes[b].score; });
   return kept;
+}
+
+std::vector<int> fuseNetworks(std::vector<RawBox>& boxes, const std::vector<int>& kept, double max_iou) {
+  std::vector<std::vector<int>> things;  // indices, best first
+  for (const int i : kept) {
+    const auto same = std::find_if(things.begin(), things.end(), [&](const std::vector<int>& thing) {
+      const RawBox& best = boxes[thing.front()];
+      return best.class_index == boxes[i].class_index && iou(best.box, boxes[i].box) > max_iou &&
+             std::none_of(thing.begin(), thing.end(), [&](int k) { return boxes[k].network == boxes[i].network; });
+    });
+    if (same == things.end())
+      things.push_back({i});
+    else
+      same->push_back(i);
+  }
+  std::vector<int> out;
+  for (const auto& thing : things) {
+    out.push_back(thing.front());
+    if (thing.size() > 1) boxes[thing.front()] = fused(boxes, thing);
+  }
+  std::stable_sort(out.begin(), out.end(), [&](int a, int b) { return boxes[a].score > boxes[b].score; });
+  return out;
 }
 
 std::vector<int> suppressTwins(const std::vector<RawBox>& boxes, const std::vector<int>& kept,

@@ -10,8 +10,13 @@
 
 namespace roomgraph {
 
-/// Indices of the boxes that survive non-maximum suppression within their own class, best score first.
+/// Indices of the boxes that survive non-maximum suppression among those of their class and network, best score first.
 std::vector<int> suppressPerClass(const std::vector<RawBox>& boxes, double max_iou);
+
+/// Of `kept` (indices, best first) one for each thing of one class that several networks found, best first: those of different
+/// networks whose IoU with the best one is larger. That box becomes the mean of their sides, weighted by the scores, which are
+/// to be probabilities, or that of the best with a mask; its score that at least one of them is right, were they independent.
+std::vector<int> fuseNetworks(std::vector<RawBox>& boxes, const std::vector<int>& kept, double max_iou);
 
 /// Of `kept` (indices, best first) those that do not nearly coincide with a better box of another class, i.e. a second
 /// label of one object.

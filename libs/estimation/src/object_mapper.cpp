@@ -2,6 +2,7 @@
 // Association and fusion of measurements, evidence of misses and beams, merging and splitting of landmarks.
 #include "roomgraph/estimation/object_mapper.h"
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -24,6 +25,10 @@ void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)
   decision.landmark = id_today(decision.landmark);
   decision.association.landmark = id_today(decision.association.landmark);
   decision.association.posterior = renamed(decision.association.posterior, id_today);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // Features with depth; of the others only their object is stored.
@@ -111,14 +116,15 @@ void ObjectMapper::doubtByScan(std::vector<ObjectMeasurement>& measurements, con
 }
 
 void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
-                              const std::vector<Detection>& detections, const Frame& frame) {
-  searched_times_.push_back(frame.t);
+                              const std::vector<Detection>& detections, const Frame& frame,
+                              const std::vector<std::string>& unsought) {
+  searched_.push_back({frame.t, unsought});
   std::set<LandmarkId> seen;
   for (const auto& decision : decisions) seen.insert(decision.landmark);
   const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
   std::vector<LandmarkId> missed;
   for (const auto& landmark : landmarks_.landmarks())
-    if (!seen.contains(landmark.id) && shouldBeSeen(landmark, frame, world_from_camera, detections))
+    if (!seen.contains(landmark.id) && !contains(unsought, landmark.class_name) && shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks_.miss(id, frame.id);
 }
@@ -138,7 +144,10 @@ std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landma
     for (const auto& frame : frames_)
       for (const auto& decision : frame.decisions)
         if (decision.landmark == landmark.id) sighted.push_back(frame.t);
-    out.push_back(lookAt(landmark, views, searched_times_, sighted, database));
+    std::vector<double> searched;
+    for (const auto& image : searched_)
+      if (!contains(image.unsought, landmark.class_name)) searched.push_back(image.t);
+    out.push_back(lookAt(landmark, views, searched, sighted, database));
   }
   return out;
 }

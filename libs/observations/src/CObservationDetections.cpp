@@ -18,7 +18,7 @@ IMPLEMENTS_SERIALIZABLE(CObservationDetections, mrpt::obs::CObservation, roomgra
 
 namespace {
 
-// Version 0 had 32-bit boxes and no masks.
+// Version 0 had 32-bit boxes and no masks, version 1 no classes that were not looked for.
 template <class Number>
 void readItem(mrpt::serialization::CArchive& in, CObservationDetections::Item& item) {
   item.label = readText(in);
@@ -30,7 +30,7 @@ void readItem(mrpt::serialization::CArchive& in, CObservationDetections::Item& i
 }  // namespace
 
 std::uint8_t CObservationDetections::serializeGetVersion() const {
-  return 1;
+  return 2;
 }
 
 void CObservationDetections::serializeTo(mrpt::serialization::CArchive& out) const {
@@ -41,10 +41,12 @@ void CObservationDetections::serializeTo(mrpt::serialization::CArchive& out) con
     out << item.label << item.score << item.u_min << item.v_min << item.u_max << item.v_max << item.track;
     out << item.mask.width << item.mask.height << item.mask.runs;
   }
+  out.WriteAs<std::uint32_t>(unsought.size());
+  for (const auto& name : unsought) out << name;
 }
 
 void CObservationDetections::serializeFrom(mrpt::serialization::CArchive& in, std::uint8_t version) {
-  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version > 2) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   in >> timestamp;
   sensorLabel = readText(in);
   in >> sensor_pose_;
@@ -61,6 +63,8 @@ void CObservationDetections::serializeFrom(mrpt::serialization::CArchive& in, st
     item.mask.runs = readGrowing<std::vector<std::uint32_t>>(from);
     return item;
   });
+  unsought.clear();
+  if (version >= 2) unsought = readList(in, readText);
 }
 
 void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
@@ -68,6 +72,7 @@ void CObservationDetections::getDescriptionAsText(std::ostream& out) const {
   out << "Detections of " << model << (model_hash.empty() ? "" : " (" + model_hash + ")") << " on '"
       << image_label << "' " << image_width << "x" << image_height << ", score >= " << score_threshold
       << ", NMS " << nms_threshold << ": " << items.size() << " boxes\n";
+  for (const auto& name : unsought) out << "  not looked for: " << name << "\n";
   for (const auto& item : items)
     out << "  " << item.label << " " << item.score << " [" << item.u_min << ", " << item.v_min << ", "
         << item.u_max << ", " << item.v_max << "]" << (item.mask.runs.empty() ? "" : " with mask")

@@ -73,6 +73,7 @@ void fill(CObservationDetections& out, const Json& json) {
   const auto pose = json.at("sensor_pose").get<std::array<double, 6>>();
   out.setSensorPose({pose[0], pose[1], pose[2], pose[3], pose[4], pose[5]});
   for (const Json& item : json.at("items")) out.items.push_back(itemFrom(item));
+  if (json.contains("unsought")) out.unsought = json.at("unsought").get<std::vector<std::string>>();
 }
 
 }  // namespace
@@ -91,6 +92,7 @@ CObservationComment toComment(const CObservationDetections& detections) {
             {"sensor_pose", numbersOf(pose)},
             {"items", Json::array()}};
   for (const auto& item : detections.items) json["items"].push_back(toJson(item));
+  if (!detections.unsought.empty()) json["unsought"] = detections.unsought;
   CObservationComment out;
   out.timestamp = detections.timestamp;
   out.sensorLabel = detections.sensorLabel;

@@ -9,12 +9,12 @@ namespace roomgraph {
 
 void DetectionRecording::onStep(const StepReport& report) {
   if (report.image && report.detections.fresh)
-    copy_.insert(toRecord(*report.image, report.detections.boxes, detector_.identity()));
+    copy_.insert(toRecord(*report.image, report.detections.boxes, detector_.identity(), report.detections.unsought));
 }
 
 void DetectionFile::onStep(const StepReport& report) {
   if (report.image && report.detections.fresh)
-    writer_.write(toComment(toRecord(*report.image, report.detections.boxes, detector_.identity())));
+    writer_.write(toComment(toRecord(*report.image, report.detections.boxes, detector_.identity(), report.detections.unsought)));
 }
 
 }  // namespace roomgraph

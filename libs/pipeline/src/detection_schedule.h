@@ -2,9 +2,12 @@
 // DetectionSchedule: when the detector runs, and how long its boxes are carried over the frames after it.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "roomgraph/core/rate_clock.h"
 #include "roomgraph/detection/box_tracker.h"
 #include "roomgraph/pipeline/options.h"
 #include "roomgraph/pipeline/step_report.h"
@@ -16,7 +19,7 @@ namespace roomgraph {
 class DetectionClock {
  public:
   explicit DetectionClock(const DetectionStageOptions& options)
-      : every_nth_frame_(options.every_nth_frame), rate_hz_(options.rate_hz) {}
+      : every_nth_frame_(options.every_nth_frame), rate_(options.rate_hz) {}
 
   /// Whether the detector is to run on the frame of time `t`, s. One that fails is asked again on the next frame.
   bool due(double t) const;
@@ -29,8 +32,7 @@ class DetectionClock {
 
  private:
   int every_nth_frame_;
-  double rate_hz_;
-  double period_end_s_ = 0;  ///< before it, no frame is due
+  RateClock rate_;
   std::optional<int> age_;
 };
 
@@ -44,8 +46,10 @@ class DetectionSchedule {
 
   bool due(double t) const { return clock_.due(t); }
 
-  /// The detector ran on this frame; its boxes replace all carried ones.
-  FrameDetections detected(std::vector<Detection> boxes, const Frame& frame);
+  /// The detector ran on this frame; its boxes replace all carried ones, but for those of the classes in `unsought`, for which
+  /// it did not look. `previous_from_current`: as for missed().
+  FrameDetections detected(std::vector<Detection> boxes, const Frame& frame, const std::vector<std::string>& unsought = {},
+                           const std::optional<Pose3>& previous_from_current = {});
   /// It did not run, or failed. `previous_from_current`: movement of the camera since the frame at carriedFrom(),
   /// optical frames; nothing when it is not known.
   FrameDetections missed(const Frame& frame, const std::optional<Pose3>& previous_from_current);
@@ -54,10 +58,15 @@ class DetectionSchedule {
   std::optional<double> carriedFrom() const { return carried_from_; }
 
  private:
+  std::optional<std::vector<Detection>> carriedTo(const Frame& frame,
+                                                  const std::optional<Pose3>& previous_from_current);
+  void count(const std::vector<std::string>& unsought, int age);
+
   DetectionStageOptions options_;
   DetectionClock clock_;
   BoxTracker tracker_;
   std::optional<double> carried_from_;
+  std::map<std::string, int> unsought_for_;  ///< frames since the detector looked for a class, where it last did not
 };
 
 }  // namespace roomgraph

@@ -39,6 +39,7 @@ ordered_json detectionsJson(const StepReport& report) {
         {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
     if (detection.carried) line["boxes"].back()["carried"] = true;
   }
+  if (!report.detections.unsought.empty()) line["unsought"] = report.detections.unsought;
   return line;
 }
 

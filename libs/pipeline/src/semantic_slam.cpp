@@ -158,7 +158,9 @@ FrameDetections SemanticSlam::detect(const Frame& frame) {
   const auto timing = times_.measure("detection");
   if (detection_schedule_->due(frame.t)) {
     const auto found = detector->detect(frame);
-    if (found) return detection_schedule_->detected(withoutBroken(*found, counts_.reasons), frame);
+    if (found)
+      return detection_schedule_->detected(withoutBroken(*found, counts_.reasons), frame, detector->unsought(),
+                                           cameraMovement(frame));
     ++counts_.reasons["detection: " + found.reason()];
   }
   return detection_schedule_->missed(frame, cameraMovement(frame));
@@ -211,7 +213,7 @@ std::vector<ObjectDecision> SemanticSlam::associate(const Frame& frame,
                                                     const FrameDetections& detections) {
   const auto timing = times_.measure("association");
   auto decisions = objects_.associate(measurements, frame, features, estimator_.drift());
-  if (detections.fresh) objects_.missUnseen(decisions, detections.boxes, frame);
+  if (detections.fresh) objects_.missUnseen(decisions, detections.boxes, frame, detections.unsought);
   return decisions;
 }
 

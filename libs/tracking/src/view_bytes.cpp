@@ -8,6 +8,8 @@
 
 #include <stdexcept>
 
+#include "roomgraph/observations/growing_reads.h"
+
 namespace roomgraph::tracking {
 
 using mrpt::serialization::archiveFrom;
@@ -41,13 +43,13 @@ std::string bytesOf(const LocatedView& view) {
 
 LocatedView locatedView(const std::string& bytes) {
   LocatedView view;
-  std::vector<float> pixels;
-  std::vector<std::uint32_t> points, in_view;
-  std::vector<double> pose, covariance;
   mrpt::io::CMemoryStream memory;
   memory.assignMemoryNotOwn(bytes.data(), bytes.size());
   auto in = archiveFrom(memory);
-  in >> pixels >> view.features.depth >> points >> in_view >> pose >> covariance;
+  const auto pixels = readGrowing<std::vector<float>>(in);
+  view.features.depth = readGrowing<std::vector<float>>(in);
+  const auto points = readGrowing<std::vector<std::uint32_t>>(in), in_view = readGrowing<std::vector<std::uint32_t>>(in);
+  const auto pose = readGrowing<std::vector<double>>(in), covariance = readGrowing<std::vector<double>>(in);
   in >> view.inliers >> view.matches >> view.reference >> view.reference_inliers;
   if (pixels.size() != 2 * points.size() || view.features.depth.size() != points.size() || pose.size() != kPoseNumbers ||
       covariance.size() != kCovarianceNumbers)

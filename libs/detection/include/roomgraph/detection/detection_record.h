@@ -10,9 +10,9 @@
 namespace roomgraph {
 
 /// The detections of a frame as a record of a rawlog: replayed with RecordedDetector it gives the
-/// same detections, bit for bit.
+/// same detections, bit for bit. Boxes that were carried to this frame are left out: the replay carries them, too.
 CObservationDetections toRecord(const Frame& frame, const std::vector<Detection>& detections,
-                                const DetectorIdentity& identity);
+                                const DetectorIdentity& identity, const std::vector<std::string>& unsought = {});
 /// The boxes of a record; class_name is empty: it follows from the label and the object database.
 std::vector<Detection> detectionsOf(const CObservationDetections& record);
 

@@ -34,6 +34,9 @@ class Detector : public Stage {
   /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
   /// ("no colour image", "no record at this time"). The caller decides on which frames the detector runs.
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
+  /// Classes of the database that the last detect() did not look for, as their network runs on fewer frames: boxes of the frames
+  /// before may be carried on, and that none was found says nothing.
+  virtual std::vector<std::string> unsought() const { return {}; }
   /// A frame on which detect() will be called: it may find its boxes now and keep them until then. Called after prepare(), in
   /// the order of the frames, beside all other calls, or not at all; the outcome is the same. Returns false when nothing
   /// will be found in it.

@@ -35,6 +35,7 @@ struct RawBox {
   int class_index = -1;
   double score = 0;
   cv::Mat mask;  ///< CV_8UC1 (0 / 255) over the box at the network's own resolution, or empty
+  int network = 0;  ///< of several, which one found it; decoders leave it alone
 };
 
 /// Outputs of a network for one image.

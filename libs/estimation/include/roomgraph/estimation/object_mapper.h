@@ -47,9 +47,10 @@ class ObjectMapper {
   void doubtByScan(std::vector<ObjectMeasurement>& measurements, const Frame& frame,
                    const ObjectDatabase& database) const;
 
-  /// Lowers the existence of landmarks in good view where the detector, on this frame, found nothing.
+  /// Lowers the existence of landmarks in good view where the detector, on this frame, found nothing; not of the classes in
+  /// `unsought`, for which it did not look.
   void missUnseen(const std::vector<ObjectDecision>& decisions, const std::vector<Detection>& detections,
-                  const Frame& frame);
+                  const Frame& frame, const std::vector<std::string>& unsought = {});
 
   /// Updates the existence of the landmarks that a scan crosses, by how much of their classes is solid; scans
   /// from one place count once.
@@ -110,7 +111,11 @@ class ObjectMapper {
   std::optional<Pose3> last_rays_from_;
   std::optional<Scan> latest_scan_;  ///< without returns on people
   std::unique_ptr<SpaceMemory> space_;
-  std::vector<double> searched_times_;  ///< of the images that the detector saw
+  struct Searched {
+    double t = 0;
+    std::vector<std::string> unsought;  ///< classes that were not looked for
+  };
+  std::vector<Searched> searched_;  ///< images that the detector saw
 };
 
 }  // namespace roomgraph

@@ -35,6 +35,8 @@ class CObservationDetections : public mrpt::obs::CObservation, public mrpt::open
   std::string model_hash;  ///< of the weights file; empty when there is none
   float score_threshold = 0, nms_threshold = 0;
   std::vector<Item> items;
+  /// Classes that no network looked for in this image, as theirs runs on fewer of them: that none is here says nothing.
+  std::vector<std::string> unsought;
 
   void getSensorPose(mrpt::poses::CPose3D& out) const override { out = sensor_pose_; }
   void setSensorPose(const mrpt::poses::CPose3D& pose) override { sensor_pose_ = pose; }

@@ -19,6 +19,7 @@ struct FrameDetections {
   bool fresh = false;    ///< the detector ran on this frame
   bool carried = false;  ///< it did not: the boxes were tracked from the frames before
   int age = 0;           ///< frames since the detector ran; 0: on this one, or never
+  std::vector<std::string> unsought{};  ///< classes that it did not look for when it ran on this frame
 
   /// Whether anything is known of the objects in this frame (even that there are none).
   bool current() const { return fresh || carried; }
