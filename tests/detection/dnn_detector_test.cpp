@@ -18,6 +18,22 @@
 #include "tiny_onnx.h"
 
 namespace roomgraph {
+
+/// Finds the same door in every image, and counts them.
+class CountingDecoder : public NetworkDecoder {
+  DEFINE_MRPT_OBJECT(CountingDecoder, roomgraph)
+ public:
+  static inline int runs = 0;
+  std::string name() const override { return "counting"; }
+  Preprocessing preprocessing() const override { return {}; }
+  bool recognises(const NetworkOutputs&, int) const override { return true; }
+  std::vector<RawBox> decode(const NetworkOutputs&, const DecodingTask&) const override {
+    ++runs;
+    return {{.box = {1, 1, 20, 30}, .class_index = 0, .score = 0.9}};
+  }
+};
+IMPLEMENTS_MRPT_OBJECT(CountingDecoder, NetworkDecoder, roomgraph)
+
 namespace {
 
 using ::testing::AllOf;
@@ -129,6 +145,25 @@ TEST_F(DnnDetectorTest, ANetworkWithARateRunsOnFewerImages) {
   EXPECT_THAT(looks(12, false), ::testing::ElementsAre(0, 5, 10));
   prepare(models);
   EXPECT_THAT(looks(12, true), ::testing::ElementsAre(0, 5, 10)) << "looked at before their turn";
+}
+
+TEST_F(DnnDetectorTest, ANetworkThatIsNotDueDoesNotRun) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process of its own: this one keeps its registry
+  write("labels.txt", "door\nx\ny\n");
+  const std::string file = write("doors.onnx", test::tinyOnnx());
+  const auto times_run = [&] {
+    mrpt::rtti::registerClass(CLASS_ID(CountingDecoder));
+    prepare("models = " + file + ":counting@2\ninput_size_px = 32");
+    CountingDecoder::runs = 0;
+    for (int i = 0; i < 12; ++i) {
+      Frame image = frame(i);
+      image.t = 100 + 0.1 * i;
+      const auto found = detector_.detect(image);
+      if (!found || found->size() != (detector_.unsought().empty() ? 1u : 0u)) std::_Exit(99);
+    }
+    std::_Exit(CountingDecoder::runs);
+  };
+  EXPECT_EXIT(times_run(), ::testing::ExitedWithCode(3), "") << "at 0, .5 and 1 s";
 }
 
 TEST_F(DnnDetectorTest, BrokenModelFilesAreNamed) {
