@@ -8,6 +8,7 @@ Each folder holds a rawlog and boxes.jsonl, as `roomgraph simulate` writes them.
 its class is .5 or more. The logits of a class's scores are stretched and shifted to fit that (Platt 1999); classes with fewer
 than 20 right boxes are left out. The program uses the file where it lies beside the network. Probabilities hold for scenes such as those in the
 recordings: of rendered ones they are no word on a real camera.
+Needs python3-numpy.
 """
 import argparse
 import collections
