@@ -8,17 +8,15 @@ Each folder holds a rawlog and boxes.jsonl, as `roomgraph simulate` writes them.
 its class is .5 or more. The logits of a class's scores are stretched and shifted to fit that (Platt 1999); classes with fewer
 than 20 right boxes are left out. The program uses the file where it lies beside the network. Probabilities hold for scenes such as those in the
 recordings: of rendered ones they are no word on a real camera.
-Needs python3-numpy.
 """
 import argparse
 import collections
 import json
+import math
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-
-import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 LEAST_SCORE, LEAST_RIGHT, SAME = 0.05, 20, 0.5
@@ -44,17 +42,24 @@ def judged(found, true):
 
 def fitted(scores, right, steps=100):
     """(slope, shift) of the logistic regression on logits, with the prior of one of each that Platt recommends."""
-    x, y = np.log(scores / (1 - scores)), np.asarray(right, float)
-    y = np.where(y > 0, (y.sum() + 1) / (y.sum() + 2), 1 / ((1 - y).sum() + 2))
-    line = np.array([1.0, 0.0])
-    rows = np.stack([x, np.ones_like(x)], 1)
+    logits, good = [math.log(s / (1 - s)) for s in scores], sum(right)
+    wanted = {True: (good + 1) / (good + 2), False: 1 / (len(right) - good + 2)}
+    slope, shift = 1.0, 0.0
     for _ in range(steps):  # Newton's method
-        p = 1 / (1 + np.exp(-rows @ line))
-        step = np.linalg.solve(rows.T @ (rows * (p * (1 - p))[:, None]) + 1e-6 * np.eye(2), rows.T @ (p - y))
-        line = line - step
-        if np.abs(step).max() < 1e-9:
+        g0 = g1 = 0.0
+        h00 = h11 = 1e-6
+        h01 = 0.0
+        for x, is_right in zip(logits, right):
+            p = 1 / (1 + math.exp(-max(-500.0, min(500.0, slope * x + shift))))
+            off, weight = p - wanted[bool(is_right)], p * (1 - p)
+            g0, g1 = g0 + off * x, g1 + off
+            h00, h01, h11 = h00 + weight * x * x, h01 + weight * x, h11 + weight
+        determinant = h00 * h11 - h01 * h01
+        step = (h11 * g0 - h01 * g1) / determinant, (h00 * g1 - h01 * g0) / determinant
+        slope, shift = slope - step[0], shift - step[1]
+        if max(map(abs, step)) < 1e-9:
             break
-    return line
+    return slope, shift
 
 
 def lines_of(file, key):
@@ -96,12 +101,12 @@ def main():
             print(f"{folder}: {sum(map(len, rows.values()))} boxes so far", file=sys.stderr)
     classes = {}
     for kind, judgements in sorted(rows.items()):
-        scores, right = (np.array(column, float) for column in zip(*judgements))
-        if right.sum() < LEAST_RIGHT:
-            print(f"{kind}: {int(right.sum())} right boxes of {len(right)} are too few", file=sys.stderr)
+        scores, right = zip(*judgements)
+        if sum(right) < LEAST_RIGHT:
+            print(f"{kind}: {sum(right)} right boxes of {len(right)} are too few", file=sys.stderr)
             continue
-        slope, shift = fitted(np.clip(scores, 1e-9, 1 - 1e-9), right)
-        classes[kind] = {"slope": round(float(slope), 4), "shift": round(float(shift), 4), "boxes": len(right), "right": int(right.sum())}
+        slope, shift = fitted([min(max(score, 1e-9), 1 - 1e-9) for score in scores], right)
+        classes[kind] = {"slope": round(slope, 4), "shift": round(shift, 4), "boxes": len(right), "right": sum(right)}
     output = arguments.output or arguments.network.with_suffix(".scores.json")
     output.write_text(json.dumps({"network": arguments.network.name, "recordings": [f.name for f in arguments.recordings], "classes": classes}, indent=1) + "\n")
     print(output)
