@@ -20,12 +20,13 @@ namespace fs = std::filesystem;
 // What is carried between detections is carried again when they are replayed.
 const std::set<std::string> kNotOfDetections{"detection.track_boxes", "detection.max_carried_frames"};
 
-// A network has files of its name beside it (weights, description), and perhaps its labels.
+// A network has files of its name beside it (weights, description, calibration of its scores), and perhaps its labels.
 void addWithCompanions(const fs::path& file, std::set<fs::path>& out) {
   out.insert(file);
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
-    const bool companion = entry.path().stem() == file.stem() || entry.path().filename() == "labels.txt";
+    const std::string name = entry.path().filename().string();
+    const bool companion = name.starts_with(file.stem().string() + ".") || name == "labels.txt";
     if (companion && entry.is_regular_file(error)) out.insert(entry.path());
   }
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "roomgraph/core/trim.h"
+
 namespace roomgraph {
 namespace {
 
@@ -19,14 +21,25 @@ std::optional<T> readAs(const std::string& text) {
   return value;
 }
 
+// The name, and what is left of it without a format and a rate at its end, as in net.onnx:yolox@5.
+void add(const std::filesystem::path& folder, std::string name, std::vector<std::filesystem::path>& files) {
+  files.push_back(folder / name);
+  for (const char separator : {'@', ':'}) {
+    const auto end = name.rfind(separator);
+    if (end == std::string::npos || end == 0) continue;
+    name = trim(name.substr(0, end));
+    if (!name.empty()) files.push_back(folder / name);
+  }
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> mentionedFiles(const Config& config) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : config.entries()) {
     const auto names = readAs<std::vector<std::string>>(entry.value).value_or(std::vector<std::string>());
-    for (const auto& name : names) files.push_back(entry.folder / name);
-    if (const auto text = readAs<std::string>(entry.value)) files.push_back(entry.folder / *text);
+    for (const auto& name : names) add(entry.folder, name, files);
+    if (const auto text = readAs<std::string>(entry.value)) add(entry.folder, *text, files);
   }
   return files;
 }

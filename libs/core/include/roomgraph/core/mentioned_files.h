@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// The entries' values, and the items of lists, as file names.
+/// The entries' values, and the items of lists, as file names; of those that end in a format or a rate (net.onnx:yolox@5) also without.
 std::vector<std::filesystem::path> mentionedFiles(const Config& config);
 
 }  // namespace roomgraph
