@@ -20,6 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LEAST_SCORE, LEAST_RIGHT, SAME = 0.05, 20, 0.5
+LONGEST_STEP, MOST_SLOPE, MOST_SHIFT = 1.0, 100, 100
 
 
 def iou(a, b):
@@ -56,6 +57,8 @@ def fitted(scores, right, steps=100):
             h00, h01, h11 = h00 + weight * x * x, h01 + weight * x, h11 + weight
         determinant = h00 * h11 - h01 * h01
         step = (h11 * g0 - h01 * g1) / determinant, (h00 * g1 - h01 * g0) / determinant
+        shorter = min(1, LONGEST_STEP / max(*map(abs, step), 1e-12))  # far from the end, Newton's steps may lead away from it
+        step = step[0] * shorter, step[1] * shorter
         slope, shift = slope - step[0], shift - step[1]
         if max(map(abs, step)) < 1e-9:
             break
@@ -106,6 +109,9 @@ def main():
             print(f"{kind}: {sum(right)} right boxes of {len(right)} are too few", file=sys.stderr)
             continue
         slope, shift = fitted([min(max(score, 1e-9), 1 - 1e-9) for score in scores], right)
+        if not (0.001 <= slope < MOST_SLOPE and abs(shift) < MOST_SHIFT):
+            print(f"{kind}: its scores do not tell right boxes from wrong ones (slope {slope:.3g}, shift {shift:.3g})", file=sys.stderr)
+            continue
         classes[kind] = {"slope": round(slope, 4), "shift": round(shift, 4), "boxes": len(right), "right": sum(right)}
     output = arguments.output or arguments.network.with_suffix(".scores.json")
     output.write_text(json.dumps({"network": arguments.network.name, "recordings": [f.name for f in arguments.recordings], "classes": classes}, indent=1) + "\n")

@@ -132,8 +132,8 @@ TEST(Config, MentionedFilesAreTextsAndItems) {
   const auto config = Config::fromText("[s]\ntext = \"a #1, b\"\nlist = c, \"d, e\"\n");
   const auto files = mentionedFiles(config);
   EXPECT_THAT(files, ::testing::IsSupersetOf<std::filesystem::path>({"a #1, b", "c", "d, e"}));
-  const auto networks = mentionedFiles(Config::fromText("[s]\nlist = me@home/a.onnx:yolox @ 5, b.onnx@2\n"));
-  EXPECT_THAT(networks, ::testing::IsSupersetOf<std::filesystem::path>({"me@home/a.onnx", "b.onnx"}));
+  const auto networks = mentionedFiles(Config::fromText("[s]\nlist = me@home/a.onnx:yolox @ 5, b.onnx@2, me@home/c.onnx:yolox\n"));
+  EXPECT_THAT(networks, ::testing::IsSupersetOf<std::filesystem::path>({"me@home/a.onnx", "b.onnx", "me@home/c.onnx"}));
 }
 
 class Files : public Configurable {

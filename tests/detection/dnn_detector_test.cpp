@@ -158,7 +158,9 @@ TEST_F(DnnDetectorTest, ANetworkThatIsNotDueDoesNotRun) {
     for (int i = 0; i < 12; ++i) {
       Frame image = frame(i);
       image.t = 100 + 0.1 * i;
+      const bool due = detector_.due(image);
       const auto found = detector_.detect(image);
+      if (due != detector_.unsought().empty()) std::_Exit(98);
       if (!found || found->size() != (detector_.unsought().empty() ? 1u : 0u)) std::_Exit(99);
     }
     std::_Exit(CountingDecoder::runs);

@@ -72,6 +72,13 @@ TEST(FuseNetworks, BoxesOfOneNetworkStayApart) {
   EXPECT_EQ(boxes[0].score, 0.5);
 }
 
+TEST(FuseNetworks, ASecondPartOfAThingIsNoThing) {
+  // The second network splits what the first one found.
+  std::vector<RawBox> boxes{raw(0, 0.9, 0, 0), raw(20, 0.6, 0, 1), raw(-30, 0.5, 0, 1)};
+  EXPECT_THAT(fuseNetworks(boxes, {0, 1, 2}, 0.5), ElementsAre(0));
+  EXPECT_NEAR(boxes[0].score, 1 - 0.1 * 0.4, 1e-12);
+}
+
 TEST(FuseNetworks, WhatTwoSayMayOvertakeWhatOneSays) {
   std::vector<RawBox> boxes{raw(0, 0.6, 0, 0), raw(300, 0.5, 0, 0), raw(300, 0.4, 0, 1)};
   EXPECT_THAT(fuseNetworks(boxes, {0, 1, 2}, 0.5), ElementsAre(1, 0));

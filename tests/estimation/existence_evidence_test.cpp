@@ -57,7 +57,7 @@ class Evidence : public ::testing::Test {
   Evidence() : poses_(standing()) { poses_.add(0, Pose3::Identity()); }
 
   ExistenceEvidence of(const std::vector<Landmark>& landmarks) const {
-    return existenceEvidence(landmarks, frames_, poses_, memory_.posed(poses_), database()).at(0);
+    return existenceEvidence(landmarks, frames_, poses_, memory_.posed(poses_), database(), searched_).at(0);
   }
 
   // This image alone is remembered.
@@ -69,6 +69,7 @@ class Evidence : public ::testing::Test {
   KeyPoses poses_;
   SpaceMemory memory_;
   std::vector<ObjectFrame> frames_;
+  std::vector<SearchedImage> searched_;
 };
 
 TEST_F(Evidence, OfSightingsByHand) {
@@ -162,6 +163,9 @@ TEST_F(Evidence, BoxesThatAnUnseenLandmarkCoversAreContested) {
   frames_ = {frameWith(0, 0, {behind, before}), frameWith(1, 0.1, {behind}), frameWith(2, 0.2, {behind}),
              frameWith(3, 0.3, {behind})};
   EXPECT_NEAR(of({behind, before}).contested, 0.75, 1e-12);
+  searched_ = {{0, {}}, {0.1, {"chair"}}, {0.2, {"door"}}, {0.3, {}}};
+  EXPECT_NEAR(of({behind, before}).contested, 0.5, 1e-12) << "in one of them nobody looked for chairs";
+  searched_.clear();
   before.observations = 9;
   EXPECT_NEAR(of({behind, before}).contested, 0, 1e-12) << "by a landmark that was seen less";
   before = landmarkOf(2, "chair", 3, 1);
@@ -227,6 +231,11 @@ TEST_F(Evidence, DetectedFromTwoOfThreePlaces) {
   EXPECT_NEAR(of({chair}).detected, std::log(1.0 / 4), 1e-12);
   frames_ = {frameWith(0, 0, {chair}), frameWith(1, 10.2, {chair}), frameWith(2, 10.3, {chair})};
   EXPECT_NEAR(of({chair}).detected, std::log(3.0 / 2), 1e-12);
+  searched_ = {{0, {}}, {10, {}}, {19.9, {"chair"}}, {20, {"chair"}}};
+  EXPECT_NEAR(of({chair}).detected, std::log(3.0), 1e-12) << "at the third place nobody looked for chairs";
+  searched_.push_back({20.2, {}});
+  EXPECT_NEAR(of({chair}).detected, std::log(3.0 / 2), 1e-12) << "in an image of the same moment somebody did";
+  searched_.clear();
   frames_.push_back(frameWith(3, 19.5, {chair}));
   EXPECT_NEAR(of({chair}).detected, std::log(3.0 / 2), 1e-12) << "half a second earlier is another view";
   EXPECT_NEAR(of({behind_the_wall}).detected, 0, 1e-12) << "never in good view";

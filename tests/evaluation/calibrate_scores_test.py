@@ -38,6 +38,11 @@ class Fitted(unittest.TestCase):
         self.assertAlmostEqual(slope, 1.8, delta=0.06)
         self.assertAlmostEqual(shift, -0.7, delta=0.06)
 
+    def test_boxes_that_are_all_right_end_somewhere(self):
+        slope, shift = calibrate_scores.fitted([0.999] * 20 + [0.9999] * 15, [True] * 35)
+        for score in (0.999, 0.9999):  # Platt's prior: one right box more, and one wrong one
+            self.assertAlmostEqual(logistic(slope * math.log(score / (1 - score)) + shift), 36 / 37, delta=0.02)
+
     def test_scores_that_say_nothing_become_the_share_of_right_boxes(self):
         right = [i % 4 == 0 for i in range(1000)]
         slope, shift = calibrate_scores.fitted([0.3, 0.3, 0.7, 0.7, 0.7, 0.7, 0.3, 0.3] * 125, right)

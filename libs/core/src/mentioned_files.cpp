@@ -26,7 +26,7 @@ void add(const std::filesystem::path& folder, std::string name, std::vector<std:
   files.push_back(folder / name);
   for (const char separator : {'@', ':'}) {
     const auto end = name.rfind(separator);
-    if (end == std::string::npos || end == 0) continue;
+    if (end == std::string::npos || end == 0 || name.find('/', end) != std::string::npos) continue;
     name = trim(name.substr(0, end));
     if (!name.empty()) files.push_back(folder / name);
   }

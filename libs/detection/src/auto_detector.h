@@ -22,6 +22,7 @@ class AutoDetector : public Detector {
   /// No network, and no recorded boxes so far.
   bool idle() const override { return !networks_.hasModels() && records_.empty(); }
   Outcome<std::vector<Detection>> detect(const Frame& frame) override { return chosen().detect(frame); }
+  bool due(const Frame& frame) override { return chosen().due(frame); }
   bool foresee(const Frame& frame) override { return networks_.hasModels() && networks_.foresee(frame); }
   std::vector<std::string> unsought() const override { return chosen().unsought(); }
   DetectorIdentity identity() const override { return chosen().identity(); }

@@ -58,8 +58,8 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
       {.doc =
            "Network files, each path[:format][@rate] with the format auto, nanodet, yolox, darknet, ade20k or that "
            "of a plug-in. All run on each image and their boxes are fused; one with a rate, as in "
-           "doors.onnx@2, on at most so many images a second, and its boxes are carried on between. Darknet .weights need the .cfg "
-           "of the same name beside them.",
+           "doors.onnx@2, on at most so many images a second; boxes of classes that only it finds are carried on between, over "
+           "max_carried_frames at most. Darknet .weights need the .cfg of the same name beside them.",
        .file = true});
   v.add("labels_file", labels_file_,
         {.doc = "File with one label per line. Empty: labels.txt beside each network, or without that the "
@@ -79,7 +79,7 @@ void DnnDetector::declareParameters(ParameterVisitor& v) {
         {.doc = "Detections with a smaller score are left out.", .min = 0.01, .max = 1});
   v.add(
       "nms_threshold", nms_threshold_,
-      {.doc = "Of two boxes of one class whose IoU is larger only the better is kept.", .min = 0, .max = 1});
+      {.doc = "Of two boxes of one class whose IoU is larger only the better is kept; those of several networks are fused.", .min = 0, .max = 1});
   v.add(
       "twin_threshold", twin_threshold_,
       {.doc =
@@ -157,9 +157,20 @@ std::vector<std::string> DnnDetector::unsoughtWithout(const Chosen& chosen) cons
   return out;
 }
 
+// Others fail, and take no network's turn.
+bool DnnDetector::usable(const Frame& frame) {
+  return !frame.color.empty() && frame.color.type() == CV_8UC3;
+}
+
+bool DnnDetector::due(const Frame& frame) {
+  if (!usable(frame) || networks_.empty()) return true;
+  const Chosen chosen = dueAt(frame.t);
+  return std::find(chosen.begin(), chosen.end(), 1) != chosen.end();
+}
+
 Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
   unsought_.clear();
-  if (!frame.color.empty()) unsought_ = unsoughtWithout(dueAt(frame.t));
+  if (usable(frame)) unsought_ = unsoughtWithout(dueAt(frame.t));
   forgetBefore(frame.t);
   return recalled(
       results_, "boxes", frame.t,
@@ -171,7 +182,7 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
 }
 
 bool DnnDetector::foresee(const Frame& frame) {
-  if (frame.color.empty()) return false;
+  if (!usable(frame)) return false;
   dueAt(frame.t);  // in the order of the frames, whoever runs the networks on this one
   if (!results_ || !results_->recalling()) foreseen_.put(frame.t, run(frame));
   return true;
@@ -181,7 +192,7 @@ Outcome<std::vector<Detection>> DnnDetector::run(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
   const std::lock_guard one(running_);
   if (networks_.empty() || !database_) return Result::failure(kNoNetwork);
-  if (frame.color.empty() || frame.color.type() != CV_8UC3) return Result::failure("no colour image");
+  if (!usable(frame)) return Result::failure("no colour image");
 
   std::vector<RawBox> boxes;
   std::vector<std::string> labels;

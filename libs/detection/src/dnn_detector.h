@@ -27,6 +27,8 @@ class DnnDetector : public Detector {
   void prepare() override;
   /// The networks run only when their boxes of that frame are not in the result store.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  /// Not when every network has a rate, and the turn of none has come.
+  bool due(const Frame& frame) override;
   std::vector<std::string> unsought() const override { return unsought_; }
   bool foresee(const Frame& frame) override;
   void setResultStore(ResultStore& store) override { results_ = &store; }
@@ -38,6 +40,7 @@ class DnnDetector : public Detector {
   using Chosen = std::vector<char>;  ///< of each network, whether it runs
   Outcome<std::vector<Detection>> run(const Frame& frame);
   void mapLabels();
+  static bool usable(const Frame& frame);
   Chosen dueAt(double t);
   void forgetBefore(double t);
   std::vector<std::string> unsoughtWithout(const Chosen& chosen) const;

@@ -63,13 +63,13 @@ std::vector<int> fuseNetworks(std::vector<RawBox>& boxes, const std::vector<int>
   for (const int i : kept) {
     const auto same = std::find_if(things.begin(), things.end(), [&](const std::vector<int>& thing) {
       const RawBox& best = boxes[thing.front()];
-      return best.class_index == boxes[i].class_index && iou(best.box, boxes[i].box) > max_iou &&
-             std::none_of(thing.begin(), thing.end(), [&](int k) { return boxes[k].network == boxes[i].network; });
+      return best.network != boxes[i].network && best.class_index == boxes[i].class_index &&
+             iou(best.box, boxes[i].box) > max_iou;
     });
     if (same == things.end())
       things.push_back({i});
-    else
-      same->push_back(i);
+    else if (std::none_of(same->begin(), same->end(), [&](int k) { return boxes[k].network == boxes[i].network; }))
+      same->push_back(i);  // else its network has said so already, by a better box
   }
   std::vector<int> out;
   for (const auto& thing : things) {

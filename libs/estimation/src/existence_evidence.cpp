@@ -80,13 +80,35 @@ double coveredShare(const Box2& box, const Landmark& landmark, const Pose3& came
   return intersection(box, projected->visible).area() / box.area();
 }
 
+// First image that is not before `t`.
+std::vector<SearchedImage>::const_iterator firstFrom(const std::vector<SearchedImage>& searched, double t) {
+  return std::lower_bound(searched.begin(), searched.end(), t, [](const SearchedImage& image, double from) { return image.t < from; });
+}
+
+// That of time `t`; one in which everything was looked for where it is not known.
+SearchedImage imageAt(const std::vector<SearchedImage>& searched, double t) {
+  const auto image = firstFrom(searched, t);
+  return image != searched.end() && image->t == t ? *image : SearchedImage{};
+}
+
+// Of the times `views` those near which the landmark's class was looked for, or nothing was searched.
+std::vector<double> lookedForIn(std::vector<double> views, const Landmark& landmark, const std::vector<SearchedImage>& searched) {
+  std::erase_if(views, [&](double t) {
+    const auto first = firstFrom(searched, t - kSameMoment_s), last = firstFrom(searched, t + kSameMoment_s);
+    return first != last && std::all_of(first, last, [&](const auto& image) { return image.without(landmark.class_name); });
+  });
+  return views;
+}
+
 // Landmarks that may explain boxes of others, as they have none of their own in this frame.
-std::vector<const Landmark*> unseenHere(const std::vector<Landmark>& landmarks, const ObjectFrame& frame) {
+std::vector<const Landmark*> unseenHere(const std::vector<Landmark>& landmarks, const ObjectFrame& frame,
+                                        const SearchedImage& image) {
   std::set<LandmarkId> here;
   for (const auto& decision : frame.decisions) here.insert(decision.landmark);
   std::vector<const Landmark*> out;
   for (const auto& landmark : landmarks)
-    if (!here.contains(landmark.id) && landmark.observations >= kEstablished) out.push_back(&landmark);
+    if (!here.contains(landmark.id) && landmark.observations >= kEstablished && !image.without(landmark.class_name))
+      out.push_back(&landmark);
   return out;
 }
 
@@ -138,14 +160,15 @@ using GoodViews = std::map<LandmarkId, std::vector<double>>;  // times, sorted, 
 
 std::map<LandmarkId, SightingSums> sumsBySightings(const std::vector<Landmark>& landmarks,
                                                    const ObjectFrames& frames,
-                                                   const KeyPoses& poses, const GoodViews& good_views) {
+                                                   const KeyPoses& poses, const GoodViews& good_views,
+                                                   const std::vector<SearchedImage>& searched) {
   std::map<LandmarkId, const Landmark*> known;
   for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
   std::map<LandmarkId, SightingSums> out;
   for (const auto& frame : frames) {
     const Pose3 world_from_camera = poses.at(frame.t) * frame.robot_from_camera;
     const Pose3 camera_from_world = world_from_camera.inverse();
-    const auto others = unseenHere(landmarks, frame);
+    const auto others = unseenHere(landmarks, frame, imageAt(searched, frame.t));
     for (const auto& decision : frame.decisions) {
       const auto found = known.find(decision.landmark);
       if (found == known.end()) continue;
@@ -208,10 +231,11 @@ double detectionLogOdds(const std::set<double>& sighting_times, const std::vecto
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
                                                  const ObjectFrames& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
-                                                 const ObjectDatabase& database) {
+                                                 const ObjectDatabase& database,
+                                                 const std::vector<SearchedImage>& searched) {
   GoodViews good_views;
-  for (const auto& landmark : landmarks) good_views[landmark.id] = views.timesInGoodView(landmark);
-  auto sums = sumsBySightings(landmarks, frames, poses, good_views);
+  for (const auto& landmark : landmarks) good_views[landmark.id] = lookedForIn(views.timesInGoodView(landmark), landmark, searched);
+  auto sums = sumsBySightings(landmarks, frames, poses, good_views, searched);
   const double sure_score = sureScore(frames);
   std::vector<ExistenceEvidence> out;
   for (const auto& landmark : landmarks) {

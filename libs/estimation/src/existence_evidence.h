@@ -11,11 +11,12 @@
 namespace roomgraph {
 
 /// One for each landmark, in order. `views`: of the same run, with the poses that the landmarks were
-/// estimated with.
+/// estimated with. `searched`: images that the detector saw, in order; of such as it did not look for a landmark's class in, no miss counts.
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
                                                  const ObjectFrames& frames,
                                                  const KeyPoses& poses, const PosedViews& views,
-                                                 const ObjectDatabase& database);
+                                                 const ObjectDatabase& database,
+                                                 const std::vector<SearchedImage>& searched = {});
 
 /// What images and scans saw of the place of a landmark of an earlier map. `searched`: times of the images
 /// that a detector saw, `sighted`: of those with the landmark in them, both in order.

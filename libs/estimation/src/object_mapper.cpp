@@ -27,10 +27,6 @@ void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)
   decision.association.posterior = renamed(decision.association.posterior, id_today);
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 // Features with depth; of the others only their object is stored.
 std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& decisions,
                                             const std::vector<FeatureTrack>& features) {
@@ -124,7 +120,7 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
   std::vector<LandmarkId> missed;
   for (const auto& landmark : landmarks_.landmarks())
-    if (!seen.contains(landmark.id) && !contains(unsought, landmark.class_name) && shouldBeSeen(landmark, frame, world_from_camera, detections))
+    if (!seen.contains(landmark.id) && !searched_.back().without(landmark.class_name) && shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks_.miss(id, frame.id);
 }
@@ -146,7 +142,7 @@ std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landma
         if (decision.landmark == landmark.id) sighted.push_back(frame.t);
     std::vector<double> searched;
     for (const auto& image : searched_)
-      if (!contains(image.unsought, landmark.class_name)) searched.push_back(image.t);
+      if (!image.without(landmark.class_name)) searched.push_back(image.t);
     out.push_back(lookAt(landmark, views, searched, sighted, database));
   }
   return out;
@@ -159,7 +155,7 @@ void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot, const
 std::vector<Candidate> ObjectMapper::candidates(const ObjectDatabase& database,
                                                 const ExistenceModel* model) const {
   const auto& landmarks = landmarks_.landmarks();
-  const auto evidence = existenceEvidence(landmarks, frames_, poses_, space_->posed(poses_), database);
+  const auto evidence = existenceEvidence(landmarks, frames_, poses_, space_->posed(poses_), database, searched_);
   std::vector<Candidate> out;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     out.push_back({landmarks[i], evidence[i]});

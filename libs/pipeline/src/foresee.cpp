@@ -16,7 +16,7 @@ void SemanticSlam::foresee(const Record& record) {
 
 void SemanticSlam::foreseeDetections(const Frame& frame) {
   const auto& detector = setup_->stages.detector;
-  if (detector && foreseen_detections_->due(frame.t) && detector->foresee(frame))
+  if (detector && foreseen_detections_->due(frame.t) && detector->due(frame) && detector->foresee(frame))
     foreseen_detections_->ran(frame.t);
   else
     foreseen_detections_->missed();

@@ -156,7 +156,7 @@ FrameDetections SemanticSlam::detect(const Frame& frame) {
   const auto& detector = setup_->stages.detector;
   if (!detector || detector->idle()) return {};
   const auto timing = times_.measure("detection");
-  if (detection_schedule_->due(frame.t)) {
+  if (detection_schedule_->due(frame.t) && detector->due(frame)) {
     const auto found = detector->detect(frame);
     if (found)
       return detection_schedule_->detected(withoutBroken(*found, counts_.reasons), frame, detector->unsought(),

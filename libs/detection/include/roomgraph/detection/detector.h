@@ -34,6 +34,12 @@ class Detector : public Stage {
   /// Detections of classes in the database, boxes clipped to the image, best first; or why there are none
   /// ("no colour image", "no record at this time"). The caller decides on which frames the detector runs.
   virtual Outcome<std::vector<Detection>> detect(const Frame& frame) = 0;
+  /// Whether detect() would look for anything in this frame. When not, it need not be called, and nothing was looked for. Asked
+  /// in the order of the frames.
+  virtual bool due(const Frame& frame) {
+    (void)frame;
+    return true;
+  }
   /// Classes of the database that the last detect() did not look for, as their network runs on fewer frames: boxes of the frames
   /// before may be carried on, and that none was found says nothing.
   virtual std::vector<std::string> unsought() const { return {}; }

@@ -2,14 +2,27 @@
 // The frames of a run in which objects were measured; copies share them until one of them changes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "roomgraph/estimation/object_decision.h"
 
 namespace roomgraph {
+
+/// An image that the detector saw.
+struct SearchedImage {
+  double t = 0;                       ///< s
+  std::vector<std::string> unsought;  ///< classes that it did not look for
+
+  /// Whether it did not look for this class.
+  bool without(const std::string& class_name) const {
+    return std::find(unsought.begin(), unsought.end(), class_name) != unsought.end();
+  }
+};
 
 /// In order of time. A copy for another thread costs little; what is changed since is changed in one's own only.
 class ObjectFrames {

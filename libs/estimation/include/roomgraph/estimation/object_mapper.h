@@ -111,11 +111,7 @@ class ObjectMapper {
   std::optional<Pose3> last_rays_from_;
   std::optional<Scan> latest_scan_;  ///< without returns on people
   std::unique_ptr<SpaceMemory> space_;
-  struct Searched {
-    double t = 0;
-    std::vector<std::string> unsought;  ///< classes that were not looked for
-  };
-  std::vector<Searched> searched_;  ///< images that the detector saw
+  std::vector<SearchedImage> searched_;  ///< images that the detector saw, in order
 };
 
 }  // namespace roomgraph
