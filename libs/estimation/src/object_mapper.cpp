@@ -120,7 +120,8 @@ void ObjectMapper::missUnseen(const std::vector<ObjectDecision>& decisions,
   const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
   std::vector<LandmarkId> missed;
   for (const auto& landmark : landmarks_.landmarks())
-    if (!seen.contains(landmark.id) && !searched_.back().without(landmark.class_name) && shouldBeSeen(landmark, frame, world_from_camera, detections))
+    if (!seen.contains(landmark.id) && !searched_.back().without(landmark.class_name) &&
+        shouldBeSeen(landmark, frame, world_from_camera, detections))
       missed.push_back(landmark.id);
   for (const auto id : missed) landmarks_.miss(id, frame.id);
 }
