@@ -9,6 +9,7 @@ last layer's weights. Writes room_detector.onnx, labels.txt and room_detector.pt
 """
 import argparse
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -18,27 +19,13 @@ import data
 import evaluate
 from network import RoomDetector, STRIDES, cells, folded
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "bench"))
+from calibrate_scores import fitted  # noqa: E402  (found by the line above)
+
 
 def mean_weights(each):
     """Of networks that one began where the other ended (Izmailov et al. 2018); whole numbers are the last one's."""
     return {k: torch.stack([w[k].float() for w in each]).mean(0) if v.dtype.is_floating_point else v for k, v in each[-1].items()}
-
-
-def platt(logits, right, steps=200):
-    """(slope, shift) of the logistic regression, with the prior of one of each that Platt recommends."""
-    x, y = np.asarray(logits, float), np.asarray(right, float)
-    y = np.where(y > 0, (y.sum() + 1) / (y.sum() + 2), 1 / ((1 - y).sum() + 2))
-    slope, shift = 1.0, 0.0
-    for _ in range(steps):  # Newton's method
-        p = 1 / (1 + np.exp(-(slope * x + shift)))
-        w = p * (1 - p)
-        gradient = np.array([np.sum((p - y) * x), np.sum(p - y)])
-        hessian = np.array([[np.sum(w * x * x) + 1e-6, np.sum(w * x)], [np.sum(w * x), np.sum(w) + 1e-6]])
-        step = np.linalg.solve(hessian, gradient)
-        slope, shift = slope - step[0], shift - step[1]
-        if np.abs(step).max() < 1e-8:
-            break
-    return slope, shift
 
 
 def calibrated(model, views):
@@ -59,7 +46,7 @@ def calibrated(model, views):
         if len(right) < 20 or right.all() or not right.any():
             continue
         logits = np.log(scores / (1 - scores))
-        slope, shift = platt(logits, right)
+        slope, shift = fitted(scores, right)
         if slope < 0.2:
             continue
         for layer in model.output:

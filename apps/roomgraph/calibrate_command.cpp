@@ -23,6 +23,7 @@ struct CalibrateArguments {
   std::vector<std::filesystem::path> recordings;
   std::filesystem::path output, json, rawlog, apply;
   std::vector<std::string> poses;
+  std::string board;
   std::optional<int> jpeg_quality;
   ReadOptions read;
   bool quiet = false;
@@ -142,7 +143,9 @@ void runCalibrate(CalibrateArguments& arguments) {
   StageProgress progress(arguments.quiet);
   if (!arguments.apply.empty()) return correct(arguments, arguments.apply, progress);
   if (arguments.output.empty()) throw ConfigError("-o names the calibration file to write");
-  const auto report = calibrate(arguments.recordings, arguments.read,
+  std::optional<Board> board;
+  if (!arguments.board.empty()) board = parseBoard(arguments.board, "--board");
+  const auto report = calibrate(arguments.recordings, arguments.read, board,
                                 [&](const std::string& what, double share) { progress.update(what, share); });
   progress.finish();
   writeFileAtomically(arguments.output, calibrationText(report));
@@ -174,6 +177,9 @@ void addCalibrateCommand(CLI::App& app) {
                    "recorded one; "
                    "may be repeated")
       ->allow_extra_args(false);
+  command->add_option("--board", a->board,
+                      "chessboard that stands still in the pictures, used besides walls and floor: inner corners along a "
+                      "row and along a column, edge of a square in m, e.g. 9x6x0.04");
   command->add_option("--camera", a->read.rgbd_label, "label of the RGB-D camera (default: the first)");
   command->add_option("--lidar", a->read.lidar_label, "label of the lidar (default: the first)");
   command->add_option("--odometry", a->read.odometry_label,
@@ -183,6 +189,7 @@ void addCalibrateCommand(CLI::App& app) {
       "Examples:\n"
       "  roomgraph calibrate lab.rawlog -o calibration.ini\n"
       "  roomgraph run lab.rawlog -o out/lab --calibration calibration.ini\n"
+      "  roomgraph calibrate board.rawlog -o calibration.ini --board 9x6x0.04\n"
       "  roomgraph calibrate monday.rawlog tuesday.rawlog -o calibration.ini --json calibration.json\n"
       "  roomgraph calibrate lab.rawlog -o calibration.ini --rawlog lab_corrected.rawlog\n"
       "  roomgraph calibrate other.rawlog --apply calibration.ini --rawlog other_corrected.rawlog\n"

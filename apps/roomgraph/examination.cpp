@@ -18,8 +18,8 @@ constexpr auto kLook = std::chrono::milliseconds(100);
 
 }  // namespace
 
-Examination::Examination(std::filesystem::path input, SensorPoses poses)
-    : input_(std::move(input)), poses_(std::move(poses)) {
+Examination::Examination(std::filesystem::path input, SensorPoses poses, double until_s)
+    : input_(std::move(input)), poses_(std::move(poses)), until_s_(until_s) {
   if (cv::getNumThreads() < 2) return;
   try {
     beside_ = std::async(std::launch::async, [this] { return look([this](double share) { share_ = share; }); });
@@ -43,7 +43,7 @@ Examination::Findings Examination::look(const std::function<void(double)>& progr
       progress(share);
       if (given_up_ || interrupted()) throw Interrupted("while the recording was examined");
     };
-    return inspectRawlog(input_, watch, poses_).findings;
+    return inspectRawlog(input_, watch, poses_, until_s_).findings;
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -13,13 +13,14 @@
 
 namespace roomgraph {
 
-/// Reads the recording of a run once more and looks for what is wrong with it: beside the replay, when the program may use
+/// Reads the recording of a run once more, as far as the run goes, and looks for what is wrong with it: beside the replay, when the program may use
 /// two threads, else when it is asked.
 class Examination {
  public:
   using Findings = std::optional<std::vector<Finding>>;
 
-  Examination(std::filesystem::path input, SensorPoses poses);
+  /// `until_s`: seconds from its beginning, 0: to its end.
+  Examination(std::filesystem::path input, SensorPoses poses, double until_s);
   /// One that nobody waits for any more ends soon.
   ~Examination() { given_up_ = true; }
   Examination(const Examination&) = delete;
@@ -33,6 +34,7 @@ class Examination {
 
   std::filesystem::path input_;
   SensorPoses poses_;
+  double until_s_;
   std::atomic<bool> given_up_ = false;
   std::atomic<double> share_ = 0;  ///< that the thread has read
   std::future<Findings> beside_;  ///< joined before the rest is gone

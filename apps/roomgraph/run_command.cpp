@@ -191,12 +191,17 @@ void release(std::unique_ptr<SemanticSlam>& slam) {
   malloc_trim(0);
 }
 
+Configuration configurationOf(const RunOptions& options) {
+  Configuration out = readConfiguration(options.config, options.overrides);
+  if (!options.calibration.empty()) useCalibration(out.config, options.calibration);
+  for (const auto& pose : options.poses) placeSensor(out.config, pose);
+  return out;
+}
+
 void run(const RunOptions& options) {
   shareHeap();
   const ThreadLimit limit(options.threads);
-  Configuration configuration = readConfiguration(options.config, options.overrides);
-  if (!options.calibration.empty()) useCalibration(configuration.config, options.calibration);
-  for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
+  Configuration configuration = configurationOf(options);
   check(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
   RawlogReader reader(options.input, readOptionsOf(setup->options));
@@ -220,7 +225,8 @@ void run(const RunOptions& options) {
 
   const Stopwatch watch;
   std::optional<Examination> examination;
-  if (!options.no_report) examination.emplace(options.input, readOptionsOf(slam->setup().options).sensor_poses);
+  if (!options.no_report)
+    examination.emplace(options.input, readOptionsOf(slam->setup().options).sensor_poses, options.span.until_s);
   const ReplayState replayed = replayWithProgress(options, reader, *slam, places);
   // The whole run goes another way from here.
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();

@@ -20,7 +20,9 @@ DriveNoise usualNoise() {
           .wheels_m = 0.01,
           .wheels_rad = 0.02,
           .step_rad = 0.002,
-          .step_m = 0.004};
+          .step_m = 0.004,
+          .board_rad = 0.004,
+          .board_m = 0.002};
 }
 
 double tolerance(int parameter) {
@@ -129,6 +131,49 @@ TEST(EstimateCalibration, TheFloorAloneGivesHeightPitchAndRoll) {
     EXPECT_NEAR(estimate.after[i], truth[i], 0.05 * tolerance(i))
         << parameterTraits()[static_cast<std::size_t>(i)].name;
   EXPECT_EQ(estimate.after[kCameraX], task.before[kCameraX]);
+}
+
+// Without walls, floor or visual odometry: where the camera sits but for its height, and depth, which is measured against the
+// board's known size.
+TEST(EstimateCalibration, ABoardAloneFixesAllButTheHeight) {
+  MadeUpDrive drive({.seconds = 60, .views = false, .steps = false, .board = true});
+  auto task = drive.task();
+  task.evidence[0].scans.clear();
+  const ParameterVector truth = trueParameters();
+  const auto estimate = estimateCalibration(task);
+  EXPECT_GT(estimate.measurements.at("pairs of views of the board"), 10);
+  EXPECT_GT(estimate.measurements.at("depths of the board"), 10);
+  for (const int i :
+       {kCameraX, kCameraY, kCameraYaw, kCameraPitch, kCameraRoll, kCameraTime, kDepthScale, kDepthBias}) {
+    EXPECT_TRUE(is(estimate, i, Knowledge::kFixed)) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_NEAR(estimate.after[i], truth[i], 0.05 * tolerance(i))
+        << parameterTraits()[static_cast<std::size_t>(i)].name;
+  }
+  EXPECT_TRUE(is(estimate, kCameraZ, Knowledge::kUnfixed)) << "a board moves alike seen from any height";
+  EXPECT_EQ(estimate.after[kCameraZ], task.before[kCameraZ]);
+}
+
+TEST(EstimateCalibration, ErrorsWithABoardAreWhatTheCovarianceSays) {
+  constexpr int kSeeds = 8;
+  const ParameterVector truth = trueParameters();
+  const std::vector<int> of_camera{kCameraX, kCameraY, kCameraZ, kCameraYaw, kCameraPitch, kCameraRoll, kDepthScale, kDepthBias};
+  ParameterVector squares = ParameterVector::Zero();
+  double ratio = 0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    MadeUpDrive with({.seconds = 40, .board = true, .noise = usualNoise(), .seed = seed});
+    MadeUpDrive without({.seconds = 40, .noise = usualNoise(), .seed = seed});
+    const auto estimate = estimateCalibration(with.task());
+    for (const int i : of_camera) {
+      const double off = estimate.after[i] - truth[i];
+      squares[i] += off * off / estimate.covariance(i, i) / kSeeds;
+    }
+    ratio += estimate.sigma(kDepthBias) / estimateCalibration(without.task()).sigma(kDepthBias) / kSeeds;
+  }
+  for (const int i : of_camera) {  // limits as above
+    EXPECT_GT(squares[i], 0.1) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_LT(squares[i], 3.3) << parameterTraits()[static_cast<std::size_t>(i)].name;
+  }
+  EXPECT_LT(ratio, 0.95) << "a board is worth something besides walls and floor";
 }
 
 TEST(EstimateCalibration, NothingSaysNothing) {

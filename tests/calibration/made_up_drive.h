@@ -17,11 +17,12 @@ struct DriveNoise {
          depth_per_m2 = 0;              ///< standard deviations; the last times squared depth
   double wheels_m = 0, wheels_rad = 0;  ///< per root of a metre, per root of a radian
   double step_rad = 0, step_m = 0;
+  double board_rad = 0, board_m = 0;
 };
 
 struct DriveOptions {
   double seconds = 30;
-  bool turns = true, lidar = true, wheels = true, views = true, steps = true;
+  bool turns = true, lidar = true, wheels = true, views = true, steps = true, board = false;
   DriveNoise noise;
   unsigned seed = 1;
 };
@@ -66,6 +67,7 @@ class MadeUpDrive {
     if (options_.wheels) addWheels(out);
     if (options_.views) addViews(out);
     if (options_.steps) addSteps(out);
+    if (options_.board) addBoards(out);
     return out;
   }
   CalibrationTask task(const ParameterVector& before = wrongParameters()) {
@@ -199,6 +201,33 @@ class MadeUpDrive {
       moved.translation() += Eigen::Vector3d(normal(n.step_m), normal(n.step_m), normal(n.step_m));
       moved.linear() *= expSO3({normal(n.step_rad), normal(n.step_rad), normal(n.step_rad)});
       out.steps.push_back({t - truth_[kCameraTime], t + kSpacing_s - truth_[kCameraTime], moved, kDepth_m});
+    }
+  }
+
+  // A board of 9 by 6 corners, 4 cm apart, before the wall at y = -3; seen as a whole from up to 4 m.
+  void addBoards(RecordingEvidence& out) {
+    Pose3 mounted = Pose3::Identity(), world_from_board = Pose3::Identity();
+    mounted.linear() = cameraRotation(truth_.data());
+    mounted.translation() = cameraPlace(truth_.data());
+    world_from_board.linear() << -1, 0, 0, 0, 0, -1, 0, -1, 0;
+    world_from_board.translation() << -1, -2.9, 0.5;
+    for (double t = 0.5; t < options_.seconds - 0.5; t += 0.25) {
+      const Pose3 board = (toPose3(robotAt(t)) * mounted).inverse() * world_from_board;
+      BoardView view{t - truth_[kCameraTime], board, 0.003, 0.002, DepthPatch{}};
+      bool whole = true;
+      for (int row = 0; row < 6; ++row)
+        for (int column = 0; column < 9; ++column) {
+          const Eigen::Vector3d corner = board * Eigen::Vector3d(0.04 * (column - 4), 0.04 * (row - 2.5), 0);
+          const Eigen::Vector3d ray = corner / corner.z();
+          whole &= corner.z() > 0.4 && corner.z() < 4 && std::abs(ray.x()) < 0.56 && std::abs(ray.y()) < 0.44;
+          view.depth->point += recorded(corner.z()) * ray / 54;
+          view.depth->ray += ray / 54;
+        }
+      if (!whole) continue;
+      const auto& n = options_.noise;
+      view.camera_from_board.translation() += Eigen::Vector3d(normal(n.board_m), normal(n.board_m), normal(n.board_m));
+      view.camera_from_board.linear() *= expSO3({normal(n.board_rad), normal(n.board_rad), normal(n.board_rad)});
+      out.boards.push_back(view);
     }
   }
 

@@ -217,6 +217,15 @@ TEST(SensorCosts, DerivativesAreThoseOfFiniteDifferences) {
   expectDerivatives(ceres::AutoDiffCostFunction<CameraStepCost, 6, kParameterCount>(
                         new CameraStepCost{&evidence.lidar[0], evidence.steps[4], 0.02, 0.1, 0.1}),
                     {wrong});
+  MadeUpDrive before_board({.seconds = 20, .board = true});
+  const auto boards = before_board.evidence();
+  ASSERT_GE(boards.boards.size(), 2u);
+  expectDerivatives(
+      ceres::AutoDiffCostFunction<BoardCost, 6, kParameterCount>(
+          new BoardCost{&boards.lidar[0], boards.boards.front(), boards.boards.back(), 0.02, 0.1, 0.1}),
+      {wrong});
+  expectDerivatives(
+      ceres::AutoDiffCostFunction<BoardDepthCost, 1, kParameterCount>(new BoardDepthCost{boards.boards[1], 0.01}), {wrong});
   const WheelMovement movement = movementOf(evidence, 40, 64);
   expectDerivatives(ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(
                         new WheelMoveCost{movement, 0.02, 0.1, 0.1}),
@@ -246,6 +255,16 @@ TEST(SensorCosts, AreZeroAtTheTruth) {
     std::array<double, 6> off{};
     CameraStepCost{&evidence.lidar[0], step, p[kCameraTime], 1, 1}(p.data(), off.data());
     for (const double value : off) EXPECT_NEAR(value, 0, 1e-3);
+  }
+  MadeUpDrive before_board({.seconds = 20, .board = true});
+  const auto boards = before_board.evidence();
+  for (const auto& view : boards.boards) {
+    std::array<double, 6> off{};
+    BoardCost{&boards.lidar[0], boards.boards.front(), view, p[kCameraTime], 1, 1}(p.data(), off.data());
+    for (const double value : off) EXPECT_NEAR(value, 0, 2e-3);
+    double depth = 0;
+    BoardDepthCost{view, 1}(p.data(), &depth);
+    EXPECT_NEAR(depth, 0, 1e-9);
   }
   for (std::size_t i = 10; i + 34 < evidence.wheels[0].size(); i += 6)
     for (const double value : movementOf(evidence, i, i + 24).difference(p.data(), p[kWheelTime]))

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "data_folder.h"
@@ -244,6 +245,24 @@ TEST_F(Doctor, WholeFile) {
   EXPECT_THAT(inspectRawlog(folder_.file("cut.rawlog")).findings,
               Contains(findingOf(Severity::kWarning, "ends in the middle")));
   EXPECT_THROW(inspectRawlog(folder_.file("none.rawlog")), InputError);
+}
+
+// What a run of the first seconds does not replay is not read for it either.
+TEST_F(Doctor, LooksAtTheFirstSecondsWhenAskedTo) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 100; ++i) objects.push_back(makeScan(10 + 0.1 * i));
+  auto tilted = makeScan(20);
+  tilted->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0, 0);
+  objects.push_back(tilted);
+  writeRawlog(folder_.file("x.rawlog"), objects);
+  std::vector<double> shares;
+  const auto report = inspectRawlog(folder_.file("x.rawlog"), [&](double share) { shares.push_back(share); }, {}, 3);
+  EXPECT_NEAR(report.duration(), 3, 0.5) << "up to the first record after it, and those that wait to be compared";
+  EXPECT_DOUBLE_EQ(shares.back(), 1);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_THAT(report.findings, Not(Contains(findingOf(Severity::kNote, "pose on the robot changes"))));
+  EXPECT_THAT(inspectRawlog(folder_.file("x.rawlog"), nullptr, {}, 30).findings,
+              Contains(findingOf(Severity::kNote, "pose on the robot changes")));
 }
 
 TEST_F(Doctor, ActionFormat) {

@@ -117,6 +117,19 @@ TEST_F(DnnDetectorTest, AModelAtWhichOpenCvCrashesIsNamed) {
               AllOf(HasSubstr("damaged.onnx: not a network that OpenCV can load: it ended by signal 8")));
 }
 
+TEST_F(DnnDetectorTest, TheCalibrationOfItsScoresIsPartOfWhatANetworkIs) {
+  write("labels.txt", "chair\nsofa\ndoor\n");
+  const std::string models = "models = " + write("net.onnx", test::tinyOnnx()) + "\ninput_size_px = 32";
+  std::vector<std::string> hashes;
+  for (const char* shift : {"", "0", "1"}) {
+    if (*shift) write("net.scores.json", std::string(R"({"classes": {"door": {"slope": 1, "shift": )") + shift + "}}}");
+    prepare(models);
+    hashes.push_back(detector_.identity().hash);
+  }
+  EXPECT_EQ(hashes[1].substr(0, hashes[0].size() + 1), hashes[0] + "~");
+  EXPECT_NE(hashes[1], hashes[2]);
+}
+
 // Images come at 10 Hz; what is not looked for is what only the network with a rate finds.
 TEST_F(DnnDetectorTest, ANetworkWithARateRunsOnFewerImages) {
   fs::create_directories(folder_ / "chairs");

@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "errors_of.h"
 #include "roomgraph/core/config.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/observations/detection_comment.h"
@@ -116,6 +117,22 @@ TEST_F(RecordedDetectorTest, LabelsOfNoClassAreRivals) {
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 1u);
   EXPECT_FLOAT_EQ(static_cast<float>((*found)[0].rival_score), 0.95F);
+}
+
+TEST_F(RecordedDetectorTest, RivalsOfAFileAreRivals) {
+  const auto with = [this](const std::string& rival) {
+    prepare("file = " + write(R"({"timestamp": 10, "boxes": [{"class": "swivel_chair", "score": 0.8, "bbox": [10, 20, 110, 220], "rival": )" +
+                              rival + R"(}, {"class": "sofa", "score": 0.7, "bbox": [200, 20, 310, 220]}]})"));
+  };
+  with(R"({"label": "printer", "score": 0.6})");
+  const auto found = detector_.detect(frameAt(10));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 2u);
+  EXPECT_EQ((*found)[0].rival_label, "printer");
+  EXPECT_EQ((*found)[0].rival_score, 0.6);
+  EXPECT_EQ((*found)[1].rival_score, 0);
+  for (const std::string rival : {R"({"label": "printer", "score": 2})", R"({"score": 0.6})", "7"})
+    EXPECT_THAT(test::messageOf<InputError>([&] { with(rival); }), HasSubstr("boxes:1")) << rival;
 }
 
 TEST_F(RecordedDetectorTest, NearestRecordWinsBeforeOrAfterTheFrame) {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "program.h"
+#include "rated_networks.h"
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
@@ -34,9 +35,11 @@ void expectSameFiles(const std::filesystem::path& a, const std::filesystem::path
 }
 
 // The files of three runs, one of them with one thread and one with four, are the same bits; returns their folder.
-std::filesystem::path expectSameBits(const TemporaryFolder& folder, const std::filesystem::path& recording) {
+std::filesystem::path expectSameBits(const TemporaryFolder& folder, const std::filesystem::path& recording,
+                                     const std::vector<std::string>& options = {}) {
   const auto run = [&](const std::string& output, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run", recording.string(), "-o", folder.file(output).string(), "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     const CallResult result = call(folder.path(), arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -62,6 +65,20 @@ TEST(Repeat, SameObjectsWhateverTheThreads) {
   const auto landmarks = nlohmann::json::parse(contentOf(out / "landmarks.json")).at("landmarks");
   EXPECT_GE(landmarks.size(), 3u) << "its recorded boxes were used";
   EXPECT_GT(linesOf(contentOf(out / "associations.jsonl")).size(), 30u);
+}
+
+// Each network's turn depends on the times of images alone; recorded, its boxes give the same map.
+TEST(Repeat, SameBoxesOfNetworksWithRatesWhateverTheThreads) {
+  TemporaryFolder folder;
+  const auto room = std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog";
+  const auto out = expectSameBits(folder, room, ratedNetworks(folder.path()));
+  EXPECT_NE(contentOf(out / "detections.jsonl").find("\"unsought\":[\"door\"]"), std::string::npos)
+      << "images on which nobody looked for doors";
+  const CallResult again = call(folder.path(), {"run", room.string(), "-o", folder.file("again").string(), "--quiet", "--set",
+                                                "detection.file=\"" + (out / "detections.jsonl").string() + "\""});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const char* name : {"landmarks.json", "trajectory.tum", "associations.jsonl", "live.tum"})
+    EXPECT_TRUE(contentOf(out / name) == contentOf(folder.file("again") / name)) << name << " differs";
 }
 
 // Names of files that mean something in an INI file come back from the run's own config.

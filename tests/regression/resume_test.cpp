@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "program.h"
+#include "rated_networks.h"
 #include "temporary_folder.h"
 #include "tiny_recording.h"
 
@@ -135,6 +136,14 @@ TEST_F(Resume, KilledAtRandomMomentsWithRecordedBoxes) {
     killAtRandom(folder, words(out), out, undisturbed_time, seed, 4);
     expectSame(whole, resultsIn(out));
   }
+}
+
+TEST_F(Resume, KilledAtRandomMomentsWithNetworksOfDifferentRates) {
+  fs::copy_file(fs::path(ROOMGRAPH_SOURCE_DIR) / "rawlogs" / "tiny_room.rawlog", recording);
+  const auto networks = ratedNetworks(folder.path());
+  const Files whole = undisturbed(networks);
+  EXPECT_GE(killAtRandom(folder, words(out, networks), out, undisturbed_time, 6, 3), 1);
+  expectSame(whole, resultsIn(out));
 }
 
 TEST_F(Resume, TwiceAndWithOtherThreads) {

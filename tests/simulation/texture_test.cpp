@@ -25,9 +25,25 @@ TEST(Texture, EveryPatternIsASquarePictureThatDoesNotChange) {
     const Material material{pattern, kBlueish, 1, 3};
     const cv::Mat picture = textureOf(material);
     EXPECT_EQ(picture.type(), CV_8UC3) << pattern;
-    EXPECT_EQ(picture.rows, picture.cols) << pattern;
+    EXPECT_TRUE(picture.rows == picture.cols || pattern == "chessboard") << pattern;
     EXPECT_EQ(cv::norm(picture, textureOf(material), cv::NORM_INF), 0) << pattern;
   }
+}
+
+TEST(Texture, TheChessboardHasNineBySixInnerCorners) {
+  const cv::Mat picture = textureOf({"chessboard", {0.9, 0.9, 0.9}, 1, 0});
+  EXPECT_EQ(4 * picture.rows, 3 * picture.cols) << "12 by 9 squares";
+  const int square = picture.cols / 12;
+  int corners = 0;
+  for (int row = 1; row < 9; ++row)
+    for (int column = 1; column < 12; ++column) {
+      const auto dark = [&](int r, int c) {
+        return picture.at<cv::Vec3b>(r * square + square / 2, c * square + square / 2)[0] < 100;
+      };
+      const bool here = dark(row, column), left = dark(row, column - 1);
+      corners += here != left && dark(row - 1, column) != here && dark(row - 1, column - 1) != left;
+    }
+  EXPECT_EQ(corners, 9 * 6);
 }
 
 TEST(Texture, SurfacesHaveTheMaterialsColour) {

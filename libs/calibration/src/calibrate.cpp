@@ -7,7 +7,6 @@
 #include "estimate_calibration.h"
 #include "read_evidence.h"
 #include "roomgraph/core/errors.h"
-#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
@@ -38,12 +37,10 @@ std::bitset<kParameterCount> heldOf(const SensorsBefore& sensors) {
   const bool lidar = sensors.robot_from_lidar.has_value(), wheels = sensors.wheels;
   if (!lidar || !wheels) hold(kLidarX, kLidarYaw);
   if (!lidar || !wheels) hold(kWheelTime, kWheelTime);
-  if (!lidar) hold(kDepthScale, kDepthScale);  // it would shrink with the camera's height
+  if (!lidar && !sensors.board) hold(kDepthScale, kDepthScale);  // it would shrink with the camera's height
   if (!wheels) hold(kWheelScale, kHeadingDrift);
-  if (!sensors.depth) {
-    hold(kCameraX, kCameraTime);
-    hold(kDepthScale, kDepthBias);
-  }
+  if (!sensors.depth) hold(kDepthScale, kDepthBias);
+  if (!sensors.depth && !sensors.board) hold(kCameraX, kCameraTime);
   if (!lidar) {  // the floor alone
     hold(kWheelScale, kHeadingDrift);
     hold(kCameraX, kCameraY);
@@ -95,15 +92,9 @@ Calibration calibrationOf(const SensorsBefore& sensors, const CalibrationEstimat
   return out;
 }
 
-// What the model leaves out does not scatter: a floor that is not quite even, depth that is rounded.
 void addModelErrors(CalibrationEstimate& estimate) {
-  constexpr double kLength_m = 0.001, kAngle_rad = 0.02 * kDegree, kTime_s = 0.0002, kShare = 0.0005;
   for (int i = 0; i < kParameterCount; ++i) {
-    const std::string unit = parameterTraits()[static_cast<std::size_t>(i)].unit;
-    const double sigma = unit == "m"     ? kLength_m
-                         : unit == "rad" ? kAngle_rad
-                         : unit == "s"   ? kTime_s
-                                         : kShare;
+    const double sigma = parameterTraits()[static_cast<std::size_t>(i)].model_error;
     if (estimate.covariance(i, i) > 0) estimate.covariance(i, i) += sigma * sigma;
   }
 }
@@ -111,16 +102,20 @@ void addModelErrors(CalibrationEstimate& estimate) {
 }  // namespace
 
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
-                            const CalibrationProgress& progress) {
+                            const std::optional<Board>& board, const CalibrationProgress& progress) {
   CalibrationReport out;
   CalibrationTask task;
   for (const auto& recording : recordings)
-    task.evidence.push_back(readEvidence(recording, read, out.sensors, [&](double share) {
+    task.evidence.push_back(readEvidence(recording, read, board, out.sensors, [&](double share) {
       if (progress) progress("read " + recording.filename().string(), share);
     }));
   if (!out.sensors.robot_from_camera && !out.sensors.robot_from_lidar)
     throw InputError(recordings.front().string() +
                      ": no camera with depth and no lidar: nothing to calibrate");
+  if (board && !out.sensors.board)
+    throw InputError(recordings.front().string() + ": no image shows a whole chessboard of " +
+                     std::to_string(board->columns) + " by " + std::to_string(board->rows) +
+                     " inner corners, sharp and with a white edge around it");
   task.before = startOf(out.sensors);
   task.held = heldOf(out.sensors);
   if (out.sensors.robot_from_lidar) task.lidar_z_m = out.sensors.robot_from_lidar->translation().z();

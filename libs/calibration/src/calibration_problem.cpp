@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/order_statistics.h"
@@ -19,6 +20,8 @@ constexpr double kRobust = 2.5;        // standard deviations
 constexpr double kPathMargin_s = 0.3;  // as much as times may move while solving
 constexpr double kShortWheels_s = 0.3, kLongWheels_s = 1.2, kStandsStill = 0.02;  // the last in m + rad
 constexpr double kTurnSigma_rad = 0.002, kMoveSigma_m = 0.004;  // of visual odometry between two images
+constexpr double kBoardTurn_rad = 0.002, kBoardPlace_m = 0.003;  // of the lidar's path between two images
+constexpr double kBoardTurned_rad = 0.1, kBoardMoved_m = 0.15, kBoardLongest_s = 20;
 constexpr std::size_t kLeastResiduals = 8;                      // of fewer the scatter says nothing
 constexpr double kBin_s = 0.5;                                  // of gradients that are added up
 constexpr int kLags = 4;                                        // bins over which errors may hang together
@@ -56,6 +59,20 @@ std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, co
   return out;
 }
 
+// Each view with the first later one that shows the board clearly elsewhere. Such a pair says where the camera sits, as the
+// same board from the same place would not.
+std::vector<std::pair<const BoardView*, const BoardView*>> boardPairs(const std::vector<BoardView>& views) {
+  std::vector<std::pair<const BoardView*, const BoardView*>> out;
+  for (auto a = views.begin(); a != views.end(); ++a)
+    for (auto b = a + 1; b != views.end() && b->t - a->t < kBoardLongest_s; ++b) {
+      const Pose3 moved = a->camera_from_board * b->camera_from_board.inverse();
+      if (moved.translation().norm() < kBoardMoved_m && rotationAngle(moved) < kBoardTurned_rad) continue;
+      out.emplace_back(&*a, &*b);
+      break;
+    }
+  return out;
+}
+
 }  // namespace
 
 CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseFactors& noise,
@@ -81,6 +98,7 @@ CalibrationProblem::CalibrationProblem(const CalibrationTask& task, const NoiseF
     addWheels(task.evidence[i], index);
     addViews(task.evidence[i], index, gate);
     addSteps(task.evidence[i], index);
+    addBoards(task.evidence[i], index);
   }
 }
 
@@ -128,6 +146,26 @@ void CalibrationProblem::addSteps(const RecordingEvidence& recording, int index)
         index, step.t_b,
         {NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraTurn, NoiseKind::kCameraMove,
          NoiseKind::kCameraMove, NoiseKind::kCameraMove});
+  }
+}
+
+void CalibrationProblem::addBoards(const RecordingEvidence& recording, int index) {
+  for (const BoardView& view : recording.boards)
+    if (view.depth)
+      add(new ceres::AutoDiffCostFunction<BoardDepthCost, 1, kParameterCount>(new BoardDepthCost{
+              view, sigma(NoiseKind::kBoardDepth, std::hypot(view.sigma_m, patchSigma(view.depth->point.z())))}),
+          index, view.t, {NoiseKind::kBoardDepth});
+  const double offset = parameters_[kCameraTime];
+  for (const auto& [a, b] : boardPairs(recording.boards)) {
+    const PlanarPath* path = pathAt(recording.lidar, a->t + offset, kPathMargin_s);
+    if (!path || !path->covers(b->t + offset, kPathMargin_s)) continue;
+    const double turn = std::hypot(a->sigma_rad, b->sigma_rad, kBoardTurn_rad);
+    const double place = std::hypot(a->sigma_m, b->sigma_m, kBoardPlace_m);
+    add(new ceres::AutoDiffCostFunction<BoardCost, 6, kParameterCount>(
+            new BoardCost{path, *a, *b, offset, sigma(NoiseKind::kBoardTurn, turn), sigma(NoiseKind::kBoardPlace, place)}),
+        index, b->t,
+        {NoiseKind::kBoardTurn, NoiseKind::kBoardTurn, NoiseKind::kBoardTurn, NoiseKind::kBoardPlace,
+         NoiseKind::kBoardPlace, NoiseKind::kBoardPlace});
   }
 }
 

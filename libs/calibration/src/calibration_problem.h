@@ -57,6 +57,7 @@ class CalibrationProblem {
   void addWheels(const RecordingEvidence& recording, int index);
   void addViews(const RecordingEvidence& recording, int index, const MatchGate& gate);
   void addSteps(const RecordingEvidence& recording, int index);
+  void addBoards(const RecordingEvidence& recording, int index);
   void add(ceres::CostFunction* cost, int recording, double t, std::vector<NoiseKind> kinds);
   double sigma(NoiseKind kind, double nominal) const {
     return nominal * noise_[static_cast<std::size_t>(kind)];

@@ -13,6 +13,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kHalfWindow_s = 0.12;
+constexpr double kLongestStep_s = 0.9;  // from one view of a board to the next
 
 TurnRate ratesOf(const std::vector<PlanarPath>& paths) {
   return [&paths](double t) -> std::optional<double> {
@@ -20,6 +21,18 @@ TurnRate ratesOf(const std::vector<PlanarPath>& paths) {
     if (!path) return std::nullopt;
     return (path->at(t + kHalfWindow_s)[2] - path->at(t - kHalfWindow_s)[2]) / (2 * kHalfWindow_s);
   };
+}
+
+// By visual odometry, or where a camera has no depth for that by a board.
+std::vector<CameraStep> cameraSteps(const RecordingEvidence& recording) {
+  if (!recording.steps.empty()) return recording.steps;
+  std::vector<CameraStep> out;
+  const auto& views = recording.boards;
+  for (std::size_t i = 1; i < views.size(); ++i)
+    if (views[i].t - views[i - 1].t < kLongestStep_s)
+      out.push_back({views[i - 1].t, views[i].t,
+                     views[i - 1].camera_from_board * views[i].camera_from_board.inverse()});
+  return out;
 }
 
 // About the robot's vertical axis; linear between the middles of steps.
@@ -47,7 +60,7 @@ std::bitset<kParameterCount> addCoarseOffsets(const CalibrationTask& task, Param
     const auto& reference = recording.lidar;
     if (reference.empty()) continue;
     const double from = reference.front().time(0), to = reference.back().time(reference.back().size() - 1);
-    if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(recording.steps, values), from, to))
+    if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(cameraSteps(recording), values), from, to))
       camera.push_back(*offset);
     if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(recording.wheels), from, to))
       wheels.push_back(*offset);

@@ -76,8 +76,10 @@ void report(const CalibrationProblem& problem, const NoiseFactors& noise, Calibr
                       {"floor patches", problem.count(NoiseKind::kFloor)},
                       {"camera movements", problem.count(NoiseKind::kCameraTurn)},
                       {"wheel movements", problem.count(NoiseKind::kWheelForward)}};
-  const char* const names[kNoiseKinds] = {"wall",           "floor",       "camera turn", "camera movement",
-                                          "wheels forward", "wheels side", "wheels turn"};
+  if (const int pairs = problem.count(NoiseKind::kBoardTurn)) out.measurements["pairs of views of the board"] = pairs;
+  if (const int depths = problem.count(NoiseKind::kBoardDepth)) out.measurements["depths of the board"] = depths;
+  const char* const names[kNoiseKinds] = {"wall",        "floor",       "camera turn", "camera movement", "wheels forward",
+                                          "wheels side", "wheels turn", "board turn",  "board place",     "board depth"};
   for (std::size_t k = 0; k < kNoiseKinds; ++k) out.noise[names[k]] = noise[k];
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "planar_path.h"
@@ -53,6 +54,14 @@ struct CameraStep {
   double depth_m = 1;                  ///< of what was seen, median
 };
 
+/// A chessboard in one image.
+struct BoardView {
+  double t = 0;                                 ///< s
+  Pose3 camera_from_board = Pose3::Identity();  ///< optical frame; origin in the board's middle, z normal to it
+  double sigma_rad = 0, sigma_m = 0;            ///< nominal, of its turn and of its middle, per axis
+  std::optional<DepthPatch> depth;              ///< measured on it
+};
+
 /// The evidence of one recording. Paths: an unbroken stretch each. Those of the lidar are of its horizontal
 /// frame (its planar pose on the robot, as recorded) in the scan matcher's.
 struct RecordingEvidence {
@@ -60,6 +69,7 @@ struct RecordingEvidence {
   std::vector<WallScan> scans;
   std::vector<DepthView> views;
   std::vector<CameraStep> steps;
+  std::vector<BoardView> boards;  ///< of one that stands still
 };
 
 }  // namespace roomgraph

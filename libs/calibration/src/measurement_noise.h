@@ -8,8 +8,19 @@
 namespace roomgraph {
 
 /// Kinds of residuals whose scatter is estimated.
-enum class NoiseKind { kWall, kFloor, kCameraTurn, kCameraMove, kWheelForward, kWheelSide, kWheelTurn };
-inline constexpr std::size_t kNoiseKinds = 7;
+enum class NoiseKind {
+  kWall,
+  kFloor,
+  kCameraTurn,
+  kCameraMove,
+  kWheelForward,
+  kWheelSide,
+  kWheelTurn,
+  kBoardTurn,
+  kBoardPlace,
+  kBoardDepth
+};
+inline constexpr std::size_t kNoiseKinds = 10;
 /// On nominal standard deviations.
 using NoiseFactors = std::array<double, kNoiseKinds>;
 

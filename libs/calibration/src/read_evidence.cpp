@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "board_view.h"
 #include "depth_view.h"
 #include "roomgraph/core/class_registry.h"
 #include "roomgraph/core/config.h"
@@ -45,8 +46,8 @@ std::shared_ptr<Interface> makeStage(const std::string& name, const std::string&
 
 class EvidenceReader {
  public:
-  EvidenceReader(const std::filesystem::path& file, SensorsBefore& sensors)
-      : file_(file), sensors_(sensors) {}
+  EvidenceReader(const std::filesystem::path& file, const std::optional<Board>& board, SensorsBefore& sensors)
+      : file_(file), board_(board), sensors_(sensors) {}
 
   void add(const Scan& scan) {
     keep(sensors_.robot_from_lidar, scan.robot_from_lidar, sensors_.lidar_label, scan.sensor_label, "lidar");
@@ -69,11 +70,13 @@ class EvidenceReader {
   void add(const Frame& frame) {
     keep(sensors_.robot_from_camera, frame.robot_from_camera, sensors_.camera_label, frame.sensor_label,
          "camera");
+    const bool is_new = isNewView(frame.t);
+    if (is_new && board_) addBoard(frame);
     if (!frame.hasDepth()) return;
     sensors_.depth = true;
     tracker_->track(frame, {});
     if (const auto depth = medianDepth(frame)) depths_.emplace_back(frame.t, *depth);
-    if (isNewView(frame.t)) addView(frame);
+    if (is_new) addView(frame);
   }
 
   void add(const std::shared_ptr<CObservationDetections>&) {}
@@ -129,6 +132,13 @@ class EvidenceReader {
         makeDepthView(frame, ground ? std::optional<Plane>(ground->plane) : std::nullopt, band));
   }
 
+  void addBoard(const Frame& frame) {
+    const auto view = findBoard(frame, *board_);
+    if (!view) return;
+    sensors_.board = true;
+    evidence_.boards.push_back(*view);
+  }
+
   void addSteps(const Trajectory& camera) {
     std::size_t a = 0;
     for (std::size_t b = 1; b < camera.size(); ++b) {
@@ -145,6 +155,7 @@ class EvidenceReader {
   }
 
   const std::filesystem::path& file_;
+  const std::optional<Board>& board_;
   SensorsBefore& sensors_;
   RecordingEvidence evidence_;
   std::shared_ptr<ScanMatcher> matcher_ = makeStage<ScanMatcher>("SubmapScanMatcher", "lidar");
@@ -168,12 +179,13 @@ Pose3 depthPoseOf(const std::filesystem::path& file, const std::string& label) {
 }  // namespace
 
 RecordingEvidence readEvidence(const std::filesystem::path& recording, const ReadOptions& read,
-                               SensorsBefore& sensors, const std::function<void(double)>& progress) {
+                               const std::optional<Board>& board, SensorsBefore& sensors,
+                               const std::function<void(double)>& progress) {
   lidar::registerClasses();
   tracking::registerClasses();
   proposals::registerClasses();
   RawlogReader reader(recording, read);
-  EvidenceReader evidence(recording, sensors);
+  EvidenceReader evidence(recording, board, sensors);
   while (auto record = reader.next()) {
     std::visit([&](const auto& value) { evidence.add(value); }, *record);
     if (progress) progress(reader.progress());

@@ -13,6 +13,7 @@ namespace roomgraph {
 /// Reads a recording once. `sensors` says what former recordings had and is completed. Throws as calibrate()
 /// does.
 RecordingEvidence readEvidence(const std::filesystem::path& recording, const ReadOptions& read,
-                               SensorsBefore& sensors, const std::function<void(double)>& progress);
+                               const std::optional<Board>& board, SensorsBefore& sensors,
+                               const std::function<void(double)>& progress);
 
 }  // namespace roomgraph

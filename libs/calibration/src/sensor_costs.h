@@ -91,9 +91,30 @@ struct FloorCost {
   }
 };
 
+/// Movement of the robot by the lidar between two times of images. Of the time offset only the angle depends, as in
+/// WheelMoveCost.
+template <class T>
+PlanarValues<T> movementBetweenImages(const T* p, const PlanarPath& lidar, double t_a, double t_b, double offset_s) {
+  const PlanarValues<double> before = lidar.at(t_a + offset_s), after = lidar.at(t_b + offset_s);
+  PlanarValues<T> moved = planarBetween(PlanarValues<T>{T(before[0]), T(before[1]), T(before[2])},
+                                        PlanarValues<T>{T(after[0]), T(after[1]), T(after[2])});
+  moved[2] = lidar.at(T(t_b + p[kCameraTime]))[2] - lidar.at(T(t_a + p[kCameraTime]))[2];
+  return robotMovement(p, moved);
+}
+
+/// Six residuals: of a turn, which should be none, and of a gap, which should be none either.
+template <class T>
+void weigh(const Matrix3T<T>& turn, const Vector3T<T>& gap, double sigma_rad, double sigma_m, T* residuals) {
+  ceres::RotationMatrixToAngleAxis(turn.data(), residuals);
+  for (int k = 0; k < 3; ++k) {
+    residuals[k] /= sigma_rad;
+    residuals[3 + k] = gap[k] / sigma_m;
+  }
+}
+
 /// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
 /// of the robot by the lidar. Turn (3), then movement (3), in the
-/// earlier camera's frame. Only the angle depends on the time offset, as in WheelMoveCost.
+/// earlier camera's frame.
 struct CameraStepCost {
   const PlanarPath* reference;
   CameraStep step;
@@ -102,13 +123,7 @@ struct CameraStepCost {
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    const PlanarValues<double> before = reference->at(step.t_a + offset_s),
-                               after = reference->at(step.t_b + offset_s);
-    PlanarValues<T> robot = planarBetween(PlanarValues<T>{T(before[0]), T(before[1]), T(before[2])},
-                                          PlanarValues<T>{T(after[0]), T(after[1]), T(after[2])});
-    robot[2] =
-        reference->at(T(step.t_b + p[kCameraTime]))[2] - reference->at(T(step.t_a + p[kCameraTime]))[2];
-    robot = robotMovement(p, robot);
+    const PlanarValues<T> robot = movementBetweenImages(p, *reference, step.t_a, step.t_b, offset_s);
     const Matrix3T<T> mounted = cameraRotation(p);
     const Vector3T<T> place = cameraPlace(p), moved(robot[0], robot[1], T(0));
     const Matrix3T<T> turn = Eigen::AngleAxis<T>(robot[2], Vector3T<T>::UnitZ()).toRotationMatrix();
@@ -117,12 +132,47 @@ struct CameraStepCost {
     const T scale = p[kDepthScale] + p[kDepthBias] / step.depth_m;
     const Vector3T<T> gap =
         mounted.transpose() * (turn * place + moved - place) - scale * step.a_from_b.translation().cast<T>();
-    T angles[3];
-    ceres::RotationMatrixToAngleAxis(off.data(), angles);
-    for (int k = 0; k < 3; ++k) {
-      residuals[k] = angles[k] / sigma_rad;
-      residuals[3 + k] = gap[k] / sigma_m;
-    }
+    weigh(off, gap, sigma_rad, sigma_m, residuals);
+    return true;
+  }
+};
+
+/// A board that stands still, seen in two images: where the later one shows it against where the robot's movement by the
+/// lidar has it from the earlier one. Turn (3), then its middle (3), in the later camera's frame.
+struct BoardCost {
+  const PlanarPath* lidar;
+  BoardView before, after;
+  double offset_s;  ///< found so far
+  double sigma_rad, sigma_m;
+
+  template <class T>
+  bool operator()(const T* p, T* residuals) const {
+    const PlanarValues<T> robot = movementBetweenImages(p, *lidar, before.t, after.t, offset_s);
+    const Matrix3T<T> mounted = cameraRotation(p);
+    const Vector3T<T> place = cameraPlace(p), moved(robot[0], robot[1], T(0));
+    const Matrix3T<T> turned_back =
+        Eigen::AngleAxis<T>(-robot[2], Vector3T<T>::UnitZ()).toRotationMatrix();
+    const Vector3T<T> on_robot = mounted * before.camera_from_board.translation().cast<T>() + place;
+    const Vector3T<T> gap = mounted.transpose() * (turned_back * (on_robot - moved) - place) -
+                            after.camera_from_board.translation().cast<T>();
+    const Matrix3T<T> off = after.camera_from_board.linear().transpose().cast<T>() * mounted.transpose() *
+                            turned_back * mounted * before.camera_from_board.linear().cast<T>();
+    weigh(off, gap, sigma_rad, sigma_m, residuals);
+    return true;
+  }
+};
+
+/// Distance of the depth measured on a board from the plane that its corners say it has.
+struct BoardDepthCost {
+  BoardView view;  ///< with depth
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* p, T* residuals) const {
+    const Eigen::Vector3d normal = view.camera_from_board.linear().col(2);
+    const Vector3T<T> seen =
+        p[kDepthScale] * view.depth->point.cast<T>() + p[kDepthBias] * view.depth->ray.cast<T>();
+    residuals[0] = (normal.cast<T>().dot(seen) - normal.dot(view.camera_from_board.translation())) / sigma_m;
     return true;
   }
 };

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "roomgraph/core/markup.h"
+
 namespace roomgraph {
 namespace {
 
@@ -30,23 +32,6 @@ svg { display: block; margin-top: .15rem; } svg line { stroke: var(--muted); } s
 svg .middle { stroke: var(--accent); stroke-width: 2; }
 )";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 // Names of folders may hold anything.
 std::string linkText(const std::string& path) {
   std::string out;
@@ -69,7 +54,7 @@ std::string rowHtml(const std::vector<std::string>& cells, const char* tag, cons
 
 std::string tableHtml(const std::vector<std::string>& heads, const std::string& rows) {
   std::vector<std::string> columns;
-  for (const auto& head : heads) columns.push_back(escaped(head));
+  for (const auto& head : heads) columns.push_back(escapedForMarkup(head));
   return "<div class=\"scroll\"><table>\n" + rowHtml(columns, "th") + rows + "</table></div>\n";
 }
 
@@ -99,9 +84,9 @@ std::string spreadHtml(const Comparison& comparison) {
         least = std::min(least, variant.spread.least);
         largest = std::max(largest, variant.spread.largest);
       }
-    std::vector<std::string> cells{escaped(texts.rows[r][0])};
+    std::vector<std::string> cells{escapedForMarkup(texts.rows[r][0])};
     for (std::size_t v = 0; v < comparison.variants.size(); ++v)
-      cells.push_back(escaped(texts.rows[r][v + 1]) +
+      cells.push_back(escapedForMarkup(texts.rows[r][v + 1]) +
                       boxPlot(comparison.rows[r].variants[v].spread, least, largest));
     rows += rowHtml(cells, "td");
   }
@@ -113,10 +98,10 @@ std::string differencesHtml(const Comparison& comparison) {
   if (texts.rows.empty()) return "";
   std::string rows;
   for (auto cells : texts.rows) {
-    for (auto& cell : cells) cell = escaped(cell);
+    for (auto& cell : cells) cell = escapedForMarkup(cell);
     rows += rowHtml(cells, "td");
   }
-  return "<h2>Differences from " + escaped(comparison.variants.front()) +
+  return "<h2>Differences from " + escapedForMarkup(comparison.variants.front()) +
          "</h2>\n<p>Input by input. The interval is that of the median (order statistics); p is Wilcoxon's "
          "signed-rank test, "
          "two-sided; Holm's correction counts all tests of this table. Inputs that differ only in their seed "
@@ -129,8 +114,8 @@ std::string failuresHtml(const std::vector<RunLine>& runs) {
   std::string rows;
   for (const auto& run : runs)
     if (run.status != "complete")
-      rows += "<tr><td>" + escaped(run.name) + "</td><td class=\"bad\">" + escaped(run.status) +
-              "</td><td class=\"wide\">" + escaped(run.reason) + "</td></tr>\n";
+      rows += "<tr><td>" + escapedForMarkup(run.name) + "</td><td class=\"bad\">" + escapedForMarkup(run.status) +
+              "</td><td class=\"wide\">" + escapedForMarkup(run.reason) + "</td></tr>\n";
   return rows.empty() ? "" : "<h2>Without a result</h2>\n" + tableHtml({"run", "status", "reason"}, rows);
 }
 
@@ -141,14 +126,14 @@ std::string runsHtml(const std::vector<RunLine>& runs, const PagePlaces& places)
     const auto link = [&](const char* file, const std::string& text) {
       return std::filesystem::exists(places.runs / run.name / file)
                  ? "<a href=\"" + linkText(places.link + "/" + run.name + "/" + file) + "\">" +
-                       escaped(text) + "</a>"
-                 : escaped(text);
+                       escapedForMarkup(text) + "</a>"
+                 : escapedForMarkup(text);
     };
     char wall[40];
     std::snprintf(wall, sizeof wall, "%.1f s", run.wall_s);
     rows += rowHtml(
-        {link("report.html", run.name), escaped(run.input), run.seed ? std::to_string(*run.seed) : "",
-         escaped(run.variant), escaped(run.status), wall, escaped(run.revision), link("run.log", "log")},
+        {link("report.html", run.name), escapedForMarkup(run.input), run.seed ? std::to_string(*run.seed) : "",
+         escapedForMarkup(run.variant), escapedForMarkup(run.status), wall, escapedForMarkup(run.revision), link("run.log", "log")},
         "td");
   }
   const std::string more = runs.size() > kListedRuns ? "<p>The first " + std::to_string(kListedRuns) +
@@ -177,9 +162,9 @@ std::string headHtml(const std::string& title, const std::vector<RunLine>& runs,
     counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + status;
   std::string revisions;
   for (const auto& revision : all.revisions) revisions += (revisions.empty() ? "" : ", ") + revision;
-  return "<h1>" + escaped(title) + "</h1>\n<p>" + std::to_string(runs.size()) + " runs: " + escaped(counts) +
+  return "<h1>" + escapedForMarkup(title) + "</h1>\n<p>" + std::to_string(runs.size()) + " runs: " + escapedForMarkup(counts) +
          "; " + std::to_string(all.inputs) + " inputs, " + std::to_string(all.variants.size()) +
-         " variants; program " + escaped(revisions.empty() ? "-" : revisions) + "</p>\n";
+         " variants; program " + escapedForMarkup(revisions.empty() ? "-" : revisions) + "</p>\n";
 }
 
 }  // namespace
@@ -192,7 +177,7 @@ std::string batchPage(const Catalogue& catalogue, const ComparisonChoice& choice
       "<h2>All inputs</h2>\n<p>Median (quartiles) over inputs and seeds, with the number of inputs in front "
       "where fewer have the "
       "figure; * where the difference from " +
-      escaped(all.variants.empty() ? "the baseline" : all.variants.front()) +
+      escapedForMarkup(all.variants.empty() ? "the baseline" : all.variants.front()) +
       " is significant (below).</p>\n" + spreadHtml(all);
   body += differencesHtml(all);
   if (all.groups.size() > 1)
@@ -200,14 +185,14 @@ std::string batchPage(const Catalogue& catalogue, const ComparisonChoice& choice
       ComparisonChoice part = choice;
       part.group = group;
       part.baseline.clear();
-      body += "<h2>" + escaped(group) + "</h2>\n" + spreadHtml(compareVariants(catalogue, part));
+      body += "<h2>" + escapedForMarkup(group) + "</h2>\n" + spreadHtml(compareVariants(catalogue, part));
     }
   body += failuresHtml(runs) + runsHtml(runs, places);
   return std::string(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
              "content=\"width=device-width, initial-scale=1\">\n<meta http-equiv=\"Content-Security-Policy\" "
              "content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>") +
-         escaped(places.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body +
+         escapedForMarkup(places.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" + body +
          "</body>\n</html>\n";
 }
 

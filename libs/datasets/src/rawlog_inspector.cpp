@@ -77,6 +77,9 @@ class Inspector {
     if (out.first_time > out.last_time) out.first_time = out.last_time = 0;
   }
 
+  /// From the first record to the latest one that was looked at.
+  double seconds() const { return first_ ? latest_ - *first_ : 0; }
+
  private:
   using Waiting = StampQueue<CObservation::Ptr>;
 
@@ -161,6 +164,7 @@ class Inspector {
     entry.times.add(t);
     if (!t) return;
     entry.places.push_back({index_, *t});
+    if (!first_) first_ = *t;
     largest_step_back_ = std::max(largest_step_back_, latest_ - *t);
     latest_ = std::max(latest_, *t);
   }
@@ -229,6 +233,7 @@ class Inspector {
   OdometrySum sum_;
   Trajectory odometry_;
   int paired_ = 0, single_ = 0, index_ = 0;
+  std::optional<double> first_;
   double latest_ = -std::numeric_limits<double>::infinity(), largest_step_back_ = 0;
 };
 
@@ -246,7 +251,7 @@ const char* toString(Severity severity) {
 }
 
 RawlogReport inspectRawlog(const std::filesystem::path& file, const std::function<void(double)>& progress,
-                           const SensorPoses& poses) {
+                           const SensorPoses& poses, double until_s) {
   RecordSource source(file);
   checkLabels(file, {.sensor_poses = poses});
   Inspector inspector(file, poses);
@@ -258,7 +263,9 @@ RawlogReport inspectRawlog(const std::filesystem::path& file, const std::functio
       inspector.add(item->object);
     else
       ++report.skipped[item->reason];
-    if (progress) progress(source.progress());
+    const double of_span = until_s > 0 ? inspector.seconds() / until_s : 0;
+    if (progress) progress(std::min(1.0, std::max(of_span, source.progress())));
+    if (of_span > 1) break;
   }
   inspector.finish();
   inspector.report(report);

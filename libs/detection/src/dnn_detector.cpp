@@ -105,6 +105,7 @@ void DnnDetector::prepare() {
     calibrations_.push_back(ScoreCalibration::beside(spec.file));
     names.push_back(std::filesystem::path(spec.file).stem().string());
     hashes.push_back(fileHash(spec.file));
+    if (const std::string& scores = calibrations_.back().hash(); !scores.empty()) hashes.back() += "~" + scores;
   }
   mapLabels();
   identity_ = {join(names, "+"), join(hashes, "+"), score_threshold_, nms_threshold_};
@@ -183,7 +184,6 @@ Outcome<std::vector<Detection>> DnnDetector::detect(const Frame& frame) {
 
 bool DnnDetector::foresee(const Frame& frame) {
   if (!usable(frame)) return false;
-  dueAt(frame.t);  // in the order of the frames, whoever runs the networks on this one
   if (!results_ || !results_->recalling()) foreseen_.put(frame.t, run(frame));
   return true;
 }

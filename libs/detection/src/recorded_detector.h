@@ -22,7 +22,7 @@ using DetectionRecords = std::multimap<double, RecordedBoxes>;
 
 /// Reads JSON lines {"timestamp", "boxes": [{"class", "score", "bbox": [u0, v0, u1, v1]}]}, with "track" (an
 /// id) and "mask" (a grey picture as large as the image, relative to the file; then the box is the mask's)
-/// where the source has them, and "unsought": classes that were not looked for; or text lines
+/// where the source has them, "rival" ({"label", "score"}: what of no class the box was taken for as well), and "unsought": classes that were not looked for; or text lines
 /// `timestamp cocoID x y w h score`, whichever the file holds. Throws InputError with file, line and cause.
 DetectionRecords readDetectionFile(const std::string& file);
 

@@ -9,6 +9,7 @@
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/text_file.h"
+#include "roomgraph/detection/detection_record.h"
 
 namespace roomgraph {
 namespace {
@@ -42,6 +43,7 @@ ScoreCalibration ScoreCalibration::beside(const std::string& network) {
   } catch (const std::exception& error) {
     throw InputError(file + ": no calibration of scores: " + error.what());
   }
+  out.hash_ = fileHash(file);
   return out;
 }
 

@@ -20,12 +20,15 @@ class ScoreCalibration {
   double probability(const std::string& class_name, double score) const;
   /// Boxes with a smaller score have a smaller probability than `probability`, whatever their class.
   double leastScore(double probability) const;
+  /// fileHash() of its file; empty where there is none.
+  const std::string& hash() const { return hash_; }
 
  private:
   struct Line {
     double slope = 1, shift = 0;
   };
   std::map<std::string, Line> lines_;
+  std::string hash_;
 };
 
 }  // namespace roomgraph

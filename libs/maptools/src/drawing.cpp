@@ -3,6 +3,7 @@
 #include "drawing.h"
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/markup.h"
 #include "roomgraph/maptools/grid_outlines.h"
 #include "text_numbers.h"
 
@@ -10,23 +11,6 @@ namespace roomgraph {
 namespace {
 
 constexpr double kEdge_m = 0.4, kPathStep_m = 0.05, kPathGap_m = 1, kFloorTolerance_m = 0.03;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -93,7 +77,7 @@ void SvgDrawing::area(const std::vector<Polygon2>& polygons, const std::string& 
 void SvgDrawing::polygon(const Polygon2& corners, const std::string& attributes, const std::string& title) {
   text_ += "<polygon " + attributes + " points=\"";
   for (std::size_t i = 0; i < corners.size(); ++i) text_ += (i ? " " : "") + point(corners[i]);
-  text_ += title.empty() ? "\"/>\n" : "\"><title>" + escaped(title) + "</title></polygon>\n";
+  text_ += title.empty() ? "\"/>\n" : "\"><title>" + escapedForMarkup(title) + "</title></polygon>\n";
 }
 
 void SvgDrawing::polyline(const Polygon2& points, const std::string& attributes) {
@@ -108,7 +92,7 @@ void SvgDrawing::text(const Eigen::Vector2d& at, double size_m, const std::strin
   const auto comma = place.find(',');
   text_ += "<text text-anchor=\"middle\" x=\"" + place.substr(0, comma) + "\" y=\"" +
            place.substr(comma + 1) + "\" font-size=\"" + decimals(size_m) + "\" " + attributes + ">" +
-           escaped(words) + "</text>\n";
+           escapedForMarkup(words) + "</text>\n";
 }
 
 void SvgDrawing::scaleBar() {

@@ -38,6 +38,8 @@ ordered_json detectionsJson(const StepReport& report) {
     line["boxes"].push_back(
         {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
     if (detection.carried) line["boxes"].back()["carried"] = true;
+    if (!detection.rival_label.empty())
+      line["boxes"].back()["rival"] = {{"label", detection.rival_label}, {"score", detection.rival_score}};
   }
   if (!report.detections.unsought.empty()) line["unsought"] = report.detections.unsought;
   return line;

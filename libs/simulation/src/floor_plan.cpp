@@ -85,7 +85,7 @@ void poster(MeshBuilder& mesh, const Room& room, const Poster& poster) {
   mesh.frame(wallFrame(room, poster.side, poster.at_m));
   const double x = 0.02, w = poster.width_m / 2, low = poster.z_m - poster.height_m / 2,
                high = low + poster.height_m;
-  mesh.use({"poster", {0.93, 0.93, 0.9}, 1, poster.variant});
+  mesh.use({poster.pattern, {0.93, 0.93, 0.9}, 1, poster.variant});
   mesh.quad({V(x, -w, low), V(x, w, low), V(x, w, high), V(x, -w, high)}, true);
   mesh.frame(Pose3::Identity());
 }

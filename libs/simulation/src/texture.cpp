@@ -165,6 +165,19 @@ cv::Mat cardboard(const Material& m, Random& random) {
   return out;
 }
 
+/// 9 by 6 inner corners within a white edge as wide as a square: a picture of 12 by 9 squares.
+cv::Mat chessboard(const Material& m) {
+  constexpr int kColumns = 12, kRows = 9, kSquare = 16;
+  cv::Mat out(kRows * kSquare, kColumns * kSquare, CV_8UC3, bgr(m.rgb));
+  for (int row = 1; row + 1 < kRows; ++row)
+    for (int column = 1; column + 1 < kColumns; ++column)
+      if ((row + column) % 2 == 0)
+        cv::rectangle(out, {column * kSquare, row * kSquare, kSquare, kSquare}, {25, 25, 25}, cv::FILLED);
+  return out;
+}
+
+constexpr const char* kChessboard = "chessboard";  // has no painter: the variants of the others hang on their number
+
 using Painter = std::function<cv::Mat(const Material&, Random&)>;
 
 const std::map<std::string, Painter>& painters() {
@@ -182,6 +195,7 @@ const std::vector<std::string>& texturePatterns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> out;
     for (const auto& [name, painter] : painters()) out.push_back(name);
+    out.emplace_back(kChessboard);
     return out;
   }();
   return names;
@@ -189,6 +203,7 @@ const std::vector<std::string>& texturePatterns() {
 
 cv::Mat textureOf(const Material& material) {
   if (material.picture) return *material.picture;
+  if (material.pattern == kChessboard) return chessboard(material);
   const auto painter = painters().find(material.pattern);
   if (painter == painters().end())
     throw ConfigError("unknown surface pattern '" + material.pattern + "': one of " +

@@ -11,7 +11,8 @@ namespace roomgraph {
 /// Names of the patterns that textureOf() knows.
 const std::vector<std::string>& texturePatterns();
 
-/// Procedural picture of a material, square, BGR 8 bit, the same on every call; patterns that repeat tile
+/// Procedural picture of a material, BGR 8 bit, square but for the chessboard (9 by 6 inner corners in 12 by 9 squares), the
+/// same on every call; patterns that repeat tile
 /// seamlessly. Texels are not finer than about 5 mm (the renderer has no mip maps). Throws ConfigError on an
 /// unknown pattern.
 cv::Mat textureOf(const Material& material);

@@ -57,13 +57,16 @@ WorldJson roomJson(const Room& room) {
     if (!doorway.mesh_file.empty()) item["mesh"] = doorway.mesh_file;
     out["doorways"].push_back(item);
   }
-  for (const auto& poster : room.posters)
-    out["posters"].push_back({{"side", wordOf(kSideWords, poster.side)},
-                              {"at_m", neat(poster.at_m)},
-                              {"z_m", neat(poster.z_m)},
-                              {"width_m", neat(poster.width_m)},
-                              {"height_m", neat(poster.height_m)},
-                              {"variant", poster.variant}});
+  for (const auto& poster : room.posters) {
+    WorldJson item{{"side", wordOf(kSideWords, poster.side)},
+                   {"at_m", neat(poster.at_m)},
+                   {"z_m", neat(poster.z_m)},
+                   {"width_m", neat(poster.width_m)},
+                   {"height_m", neat(poster.height_m)},
+                   {"variant", poster.variant}};
+    if (poster.pattern != Poster{}.pattern) item["pattern"] = poster.pattern;
+    out["posters"].push_back(item);
+  }
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/calibration/board.h"
 #include "roomgraph/calibration/estimate.h"
 #include "roomgraph/datasets/calibration_file.h"
 #include "roomgraph/datasets/rawlog_reader.h"
@@ -20,7 +21,7 @@ struct SensorsBefore {
   std::optional<Pose3> robot_from_lidar,
       robot_from_camera;                       ///< the latter of the colour camera, optical axes
   Pose3 robot_from_depth = Pose3::Identity();  ///< MRPT's sensorPose of the camera's records, x forward
-  bool depth = false, wheels = false;
+  bool depth = false, wheels = false, board = false;  ///< whether there is any; a board: in an image
 };
 
 struct CalibrationReport {
@@ -34,10 +35,11 @@ struct CalibrationReport {
 using CalibrationProgress = std::function<void(const std::string& what, double share)>;
 
 /// Reads the recordings, which must be of the same sensors in the same places. `read`: chosen sensors, and
-/// poses to begin with. Throws InputError or ConfigError like RawlogReader, InputError when a recording has
-/// other sensors or moves them on the robot, RunError when nothing in the recordings says anything.
-/// `progress` may throw to end it.
+/// poses to begin with. `board`: a chessboard to look for, which stands still in each recording. Throws InputError or
+/// ConfigError like RawlogReader, InputError when a recording has other sensors, moves them on the robot, or when none shows
+/// the board, RunError when nothing in the recordings says anything. `progress` may throw to end it.
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
+                            const std::optional<Board>& board = std::nullopt,
                             const CalibrationProgress& progress = nullptr);
 
 /// The calibration as the INI file that readCalibration() takes, with standard deviations in comments.

@@ -39,6 +39,9 @@ struct ParameterTraits {
   const char* unit;
   /// Standard deviation from which on a parameter counts as unknown, in the vector's units.
   double unknown_from;
+  /// Standard deviation of what the model leaves out and does not scatter, in the vector's units: a floor that is not quite
+  /// even, depth that comes in steps, wheels that slip once or twice.
+  double model_error;
 };
 
 /// By ParameterIndex.

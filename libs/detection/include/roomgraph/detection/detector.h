@@ -17,7 +17,7 @@ namespace roomgraph {
 /// Origin of detections, by which it is decided whether recorded ones may be used again.
 struct DetectorIdentity {
   std::string model;  ///< names of the networks, joined by "+"; or what made the recording
-  std::string hash;   ///< of the weights files (fileHash(), joined by "+"); empty when there are none
+  std::string hash;   ///< of the weights files (fileHash(), joined by "+", after each "~" and that of its scores file); empty: no files
   double score_threshold = 0, nms_threshold = 0;
 };
 

@@ -33,6 +33,7 @@ struct Poster {
   Side side = Side::kNorth;
   double at_m = 0, z_m = 1.5, width_m = 0.8, height_m = 1.0;
   int variant = 0;
+  std::string pattern = "poster";  ///< see texture.h
 };
 
 struct Room {
