@@ -41,13 +41,13 @@ def calibrated(model, views):
                     rows[kind] += evaluate.judged(found, truth[truth[:, data.KIND] >= 0].numpy(), kind)
     table = {}
     for kind, name in enumerate(data.CLASSES):
-        scores = np.array([s for s, _ in rows[kind]])
+        scores = np.clip([s for s, _ in rows[kind]], 1e-9, 1 - 1e-9)
         right = np.array([r for _, r in rows[kind]])
         if len(right) < 20 or right.all() or not right.any():
             continue
         logits = np.log(scores / (1 - scores))
         slope, shift = fitted(scores, right)
-        if slope < 0.2:
+        if not slope >= 0.2:
             continue
         for layer in model.output:
             layer.weight.data[kind] *= slope

@@ -23,7 +23,7 @@ const std::string kSummary =
     R"({"version": "0.1", "interrupted": "no", "frames": 3, "seconds": 1.5, "timings": {"association": {"calls": 3, "total_ms": 4.5, "max_ms": 2}},
  "skipped": {"CObservationIMU: not used": 2}, "per_class": {"sofa": {"correct": 1, "f1": 0.5}}, "list": [1, 2]})";
 const std::string kDetections =
-    R"({"timestamp": 1000.1, "boxes": [{"class": "chair", "score": 0.75, "bbox": [10.5, 20, 110, 220.25], "track": 3}]})"
+    R"({"timestamp": 1000.1, "boxes": [{"class": "chair", "score": 0.75, "bbox": [10.5, 20, 110, 220.25], "track": 3, "rival": {"label": "printer", "score": 0.5}}], "unsought": ["door"]})"
     "\n"
     R"({"timestamp": 1000.2, "boxes": [{"class": "sofa", "score": 0.5, "bbox": [1, 2, 3, 4], "mask": "mask.png"}]})"
     "\n";

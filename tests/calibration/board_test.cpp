@@ -22,15 +22,15 @@ struct Seen {
 };
 
 // A square of the board, or its white edge as wide as one; nothing beyond that.
-std::optional<double> brightnessAt(double x, double y) {
-  const double column = x / kBoard.square_m + 0.5 * (kBoard.columns + 1), row = y / kBoard.square_m + 0.5 * (kBoard.rows + 1);
-  if (column < -1 || row < -1 || column > kBoard.columns + 2 || row > kBoard.rows + 2) return std::nullopt;
-  if (column < 0 || row < 0 || column > kBoard.columns + 1 || row > kBoard.rows + 1) return 230;
+std::optional<double> brightnessAt(const Board& board, double x, double y) {
+  const double column = x / board.square_m + 0.5 * (board.columns + 1), row = y / board.square_m + 0.5 * (board.rows + 1);
+  if (column < -1 || row < -1 || column > board.columns + 2 || row > board.rows + 2) return std::nullopt;
+  if (column < 0 || row < 0 || column > board.columns + 1 || row > board.rows + 1) return 230;
   return (static_cast<int>(column) + static_cast<int>(row)) % 2 == 0 ? 25 : 230;
 }
 
 // Every pixel is the mean of 5 by 5 rays; its depth is that of its middle.
-Frame picture(const Seen& seen) {
+Frame picture(const Seen& seen, const Board& board = kBoard) {
   constexpr int kRays = 5;
   Frame out;
   out.t = 12.5;
@@ -46,7 +46,7 @@ Frame picture(const Seen& seen) {
       for (int i = 0; i < kRays * kRays; ++i) {
         const Eigen::Vector3d ray = out.camera.ray(u + (i % kRays - 2) / 5.0, v + (i / kRays - 2) / 5.0);
         const Eigen::Vector3d on_board = board_from_camera * (distance / normal.dot(ray) * ray);
-        sum += brightnessAt(on_board.x(), on_board.y()).value_or(120) / (kRays * kRays);
+        sum += brightnessAt(board, on_board.x(), on_board.y()).value_or(120) / (kRays * kRays);
       }
       out.gray.at<uchar>(v, u) = cv::saturate_cast<uchar>(sum);
       const double z = distance / normal.dot(out.camera.ray(u, v));
@@ -72,18 +72,61 @@ TEST(FindBoard, IsWhereItWasPainted) {
     ASSERT_TRUE(view);
     EXPECT_EQ(view->t, 12.5);
     const Pose3 off = view->camera_from_board.inverse() * seen.camera_from_board;
-    EXPECT_LT(off.translation().norm(), std::max(0.0005, 3 * view->sigma_m));
-    EXPECT_LT(rotationAngle(off), std::max(0.001, 3 * view->sigma_rad));
-    EXPECT_LT(view->sigma_m, 0.004);
-    EXPECT_LT(view->sigma_rad, 0.02);
+    const double place = std::sqrt(view->place_covariance.trace()), turn = std::sqrt(view->turn_covariance.trace());
+    EXPECT_LT(off.translation().norm(), std::max(0.0005, 2 * place));
+    EXPECT_LT(rotationAngle(off), std::max(0.001, 2 * turn));
+    EXPECT_LT(place, 0.004);
+    EXPECT_LT(turn, 0.03);
   }
 }
 
-TEST(FindBoard, UpsideDownItIsTheSameBoard) {
-  const auto view = findBoard(picture(turned(10, 5, 180, {0, 0, 1})), kBoard);
-  ASSERT_TRUE(view);
-  EXPECT_GT(view->camera_from_board.linear()(0, 0), 0.9) << "rows run to the right";
-  EXPECT_GT(view->camera_from_board.linear()(2, 2), 0.9);
+TEST(FindBoard, KnowsWhichWayIsUpByTheColourOfItsFirstSquare) {
+  for (const double roll : {0.0, 50.0, 90.0, 135.0, 180.0, 230.0, 300.0}) {
+    const Seen seen = turned(10, 5, roll, {0, 0, 1});
+    const auto view = findBoard(picture(seen), kBoard);
+    ASSERT_TRUE(view) << roll;
+    EXPECT_LT(rotationAngle(view->camera_from_board.inverse() * seen.camera_from_board), 0.02) << roll;
+  }
+}
+
+// One with even numbers along both edges has two right ways up.
+TEST(FindBoard, RowsRunToTheRightWhereBothWaysAreTheSame) {
+  const Board even{8, 6, 0.04};
+  for (const double roll : {10.0, 190.0}) {
+    const auto view = findBoard(picture(turned(0, 5, roll, {0, 0, 1}), even), even);
+    ASSERT_TRUE(view) << roll;
+    EXPECT_GT(view->camera_from_board.linear()(0, 0), 0.9) << roll;
+  }
+}
+
+// Errors of many pictures with noise against the covariance that each states, axis by axis.
+TEST(FindBoard, CovariancesAreThoseOfNoise) {
+  const Seen seen = turned(20, 10, 5, {0.1, 0, 1.5});
+  const Frame clean = picture(seen);
+  Eigen::Vector3d turns = Eigen::Vector3d::Zero(), places = Eigen::Vector3d::Zero();
+  constexpr int kPictures = 30;
+  std::optional<BoardView> view;
+  for (int i = 0; i < kPictures; ++i) {
+    Frame noisy = clean;
+    cv::Mat noise(clean.gray.size(), CV_16S), sum;
+    cv::RNG(static_cast<std::uint64_t>(i + 1)).fill(noise, cv::RNG::NORMAL, 0, 4);
+    clean.gray.convertTo(sum, CV_16S);
+    sum += noise;
+    sum.convertTo(noisy.gray, CV_8U);
+    view = findBoard(noisy, kBoard);
+    ASSERT_TRUE(view);
+    const Pose3 off = view->camera_from_board.inverse() * seen.camera_from_board;
+    turns += logSO3(off.linear()).cwiseAbs2() / kPictures;
+    places += (view->camera_from_board.translation() - seen.camera_from_board.translation()).cwiseAbs2() / kPictures;
+  }
+  // Noise is not that of a corner by .2 px; its shares on the axes are what is compared, and that it is no larger.
+  const Eigen::Vector3d turn = turns.cwiseQuotient(view->turn_covariance.diagonal()),
+                        place = places.cwiseQuotient(view->place_covariance.diagonal());
+  EXPECT_LT(turn.maxCoeff() / turn.minCoeff(), 6) << turn.transpose();
+  EXPECT_LT(place.maxCoeff() / place.minCoeff(), 6) << place.transpose();
+  EXPECT_GT(view->turn_covariance(0, 0) / view->turn_covariance(2, 2), 20) << "tilt is known least";
+  EXPECT_LT(turn.maxCoeff(), 1.5);
+  EXPECT_LT(place.maxCoeff(), 1.5);
 }
 
 // Of depths scale z + bias = true, the patch lies on the board once it is corrected.

@@ -17,7 +17,7 @@ struct DriveNoise {
          depth_per_m2 = 0;              ///< standard deviations; the last times squared depth
   double wheels_m = 0, wheels_rad = 0;  ///< per root of a metre, per root of a radian
   double step_rad = 0, step_m = 0;
-  double board_rad = 0, board_m = 0;
+  double board_rad = 0, board_m = 0;  ///< of its tilt and its distance; a fifth of that about its normal and aside
 };
 
 struct DriveOptions {
@@ -213,7 +213,9 @@ class MadeUpDrive {
     world_from_board.translation() << -1, -2.9, 0.5;
     for (double t = 0.5; t < options_.seconds - 0.5; t += 0.25) {
       const Pose3 board = (toPose3(robotAt(t)) * mounted).inverse() * world_from_board;
-      BoardView view{t - truth_[kCameraTime], board, 0.003, 0.002, DepthPatch{}};
+      BoardView view{.t = t - truth_[kCameraTime], .camera_from_board = board, .depth = DepthPatch{}};
+      view.turn_covariance.diagonal() << 1e-5, 1e-5, 4e-7;
+      view.place_covariance.diagonal() << 2e-7, 2e-7, 5e-6;
       bool whole = true;
       for (int row = 0; row < 6; ++row)
         for (int column = 0; column < 9; ++column) {
@@ -225,8 +227,9 @@ class MadeUpDrive {
         }
       if (!whole) continue;
       const auto& n = options_.noise;
-      view.camera_from_board.translation() += Eigen::Vector3d(normal(n.board_m), normal(n.board_m), normal(n.board_m));
-      view.camera_from_board.linear() *= expSO3({normal(n.board_rad), normal(n.board_rad), normal(n.board_rad)});
+      view.camera_from_board.translation() +=
+          Eigen::Vector3d(normal(n.board_m / 5), normal(n.board_m / 5), normal(n.board_m));
+      view.camera_from_board.linear() *= expSO3({normal(n.board_rad), normal(n.board_rad), normal(n.board_rad / 5)});
       out.boards.push_back(view);
     }
   }

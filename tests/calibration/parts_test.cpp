@@ -220,9 +220,10 @@ TEST(SensorCosts, DerivativesAreThoseOfFiniteDifferences) {
   MadeUpDrive before_board({.seconds = 20, .board = true});
   const auto boards = before_board.evidence();
   ASSERT_GE(boards.boards.size(), 2u);
+  const Eigen::Matrix3d skewed = (Eigen::Matrix3d() << 9, 0, 0, 3, 7, 0, -2, 1, 12).finished();
   expectDerivatives(
       ceres::AutoDiffCostFunction<BoardCost, 6, kParameterCount>(
-          new BoardCost{&boards.lidar[0], boards.boards.front(), boards.boards.back(), 0.02, 0.1, 0.1}),
+          new BoardCost{&boards.lidar[0], boards.boards.front(), boards.boards.back(), 0.02, skewed, skewed}),
       {wrong});
   expectDerivatives(
       ceres::AutoDiffCostFunction<BoardDepthCost, 1, kParameterCount>(new BoardDepthCost{boards.boards[1], 0.01}), {wrong});
@@ -260,7 +261,8 @@ TEST(SensorCosts, AreZeroAtTheTruth) {
   const auto boards = before_board.evidence();
   for (const auto& view : boards.boards) {
     std::array<double, 6> off{};
-    BoardCost{&boards.lidar[0], boards.boards.front(), view, p[kCameraTime], 1, 1}(p.data(), off.data());
+    const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+    BoardCost{&boards.lidar[0], boards.boards.front(), view, p[kCameraTime], unit, unit}(p.data(), off.data());
     for (const double value : off) EXPECT_NEAR(value, 0, 2e-3);
     double depth = 0;
     BoardDepthCost{view, 1}(p.data(), &depth);

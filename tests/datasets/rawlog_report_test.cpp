@@ -265,6 +265,20 @@ TEST_F(Doctor, LooksAtTheFirstSecondsWhenAskedTo) {
               Contains(findingOf(Severity::kNote, "pose on the robot changes")));
 }
 
+// Both sensors are looked at for three seconds, whatever their clocks say, and so is an end that comes before.
+TEST_F(Doctor, TheFirstSecondsAreThoseOfEverySensor) {
+  std::vector<Object> objects;
+  for (int i = 0; i < 100; ++i) {
+    objects.push_back(makeScan(10 + 0.1 * i));
+    objects.push_back(makeImages(110 + 0.1 * i));
+  }
+  writeRawlog(folder_.file("x.rawlog"), objects);
+  const auto report = inspectRawlog(folder_.file("x.rawlog"), nullptr, {}, 3);
+  ASSERT_EQ(report.sensors.size(), 2u);
+  for (const auto& sensor : report.sensors) EXPECT_NEAR(sensor.count, 31, 5);
+  EXPECT_THAT(report.findings, Contains(findingOf(Severity::kError, "its clock is 100.0 s apart")));
+}
+
 TEST_F(Doctor, ActionFormat) {
   const auto report = inspect({makeAction(-1, 1, 0, 0), makeSensoryFrame({makeScan(1)}),
                                makeAction(2, 1, 0, 0.5), makeSensoryFrame({makeScan(2.1)})});

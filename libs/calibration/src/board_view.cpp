@@ -2,7 +2,7 @@
 // Corners of a chessboard, its pose with covariance, and the depth that was measured on it.
 #include "board_view.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -18,10 +18,21 @@ constexpr double kMostResidual_px = 1;  // root mean square
 constexpr double kLeastDepths = 0.6;    // share of the pixels on the board
 constexpr double kOffBoard_m = 0.15, kOffBoardShare = 0.1;  // depth that far from the board is of something else
 
-// A board looks the same upside down: its rows are taken to run to the right, or down when they are upright.
-void orient(std::vector<cv::Point2f>& corners, int columns) {
-  const cv::Point2f along = corners[static_cast<std::size_t>(columns - 1)] - corners[0];
-  const bool forward = std::abs(along.x) >= std::abs(along.y) ? along.x > 0 : along.y > 0;
+double brightnessBetween(const cv::Mat& gray, const cv::Point2f& a, const cv::Point2f& b) {
+  const cv::Point2f middle = (a + b) / 2;
+  return gray.at<uchar>(std::clamp(cvRound(middle.y), 0, gray.rows - 1), std::clamp(cvRound(middle.x), 0, gray.cols - 1));
+}
+
+// The first square is dark. A board with an odd number of corners along one edge and an even one along the other has a light
+// one at its other end; one that looks the same upside down is taken to have rows that run to the right, or down when they are
+// upright.
+void orient(std::vector<cv::Point2f>& corners, const Board& board, const cv::Mat& gray) {
+  const auto columns = static_cast<std::size_t>(board.columns);
+  const cv::Point2f along = corners[columns - 1] - corners[0];
+  bool forward = std::abs(along.x) >= std::abs(along.y) ? along.x > 0 : along.y > 0;
+  if ((board.columns + board.rows) % 2 == 1)
+    forward = brightnessBetween(gray, corners[0], corners[columns + 1]) <
+              brightnessBetween(gray, corners[corners.size() - 1], corners[corners.size() - columns - 2]);
   if (!forward) std::reverse(corners.begin(), corners.end());
 }
 
@@ -29,10 +40,13 @@ std::vector<cv::Point2f> cornersIn(const cv::Mat& gray, const Board& board) {
   std::vector<cv::Point2f> corners;
   if (!cv::findChessboardCornersSB(gray, {board.columns, board.rows}, corners, cv::CALIB_CB_NORMALIZE_IMAGE)) return {};
   double nearest = 1e9;
+  const auto columns = static_cast<std::size_t>(board.columns);
   for (std::size_t i = 1; i < corners.size(); ++i) nearest = std::min(nearest, cv::norm(corners[i] - corners[i - 1]));
+  for (std::size_t i = columns; i < corners.size(); ++i)
+    nearest = std::min(nearest, cv::norm(corners[i] - corners[i - columns]));
   const int half = std::clamp(static_cast<int>(nearest / 3), 2, 8);  // not as far as the next corners
   cv::cornerSubPix(gray, corners, {half, half}, {-1, -1}, {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 30, 0.01});
-  orient(corners, board.columns);
+  orient(corners, board, gray);
   return corners;
 }
 
@@ -77,14 +91,24 @@ std::optional<DepthPatch> depthOn(const Frame& frame, const Board& board, const 
   return out;
 }
 
-// Of the board's turn (rad) and of its middle (m), each per axis: from the derivatives of its corners' pixels.
-void setSigmas(const cv::Mat& derivatives, BoardView& out) {
-  Eigen::MatrixXd jacobian;
-  cv::cv2eigen(derivatives.colRange(0, 6), jacobian);
-  const Eigen::Matrix<double, 6, 6> information = jacobian.transpose() * jacobian / (kCorner_px * kCorner_px);
-  const Eigen::Matrix<double, 6, 6> covariance = information.inverse();
-  out.sigma_rad = std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
-  out.sigma_m = std::sqrt(covariance.bottomRightCorner<3, 3>().trace() / 3);
+// From the derivatives of the corners' pixels by a small turn in the board's frame and by the place of its middle.
+void setCovariances(const std::vector<cv::Point3f>& points, const PinholeCamera& camera, BoardView& out) {
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const cv::Point3f& corner : points) {
+    const Eigen::Vector3d on_board(corner.x, corner.y, corner.z), p = out.camera_from_board * on_board;
+    Eigen::Matrix<double, 3, 6> moved;
+    for (int k = 0; k < 3; ++k)
+      moved.col(k) = out.camera_from_board.linear() * Eigen::Vector3d::Unit(k).cross(on_board);
+    moved.rightCols<3>().setIdentity();
+    Eigen::Matrix<double, 2, 3> pixel;
+    pixel << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()),  //
+        0, camera.fy / p.z(), -camera.fy * p.y() / (p.z() * p.z());
+    const Eigen::Matrix<double, 2, 6> derivatives = pixel * moved / kCorner_px;
+    information += derivatives.transpose() * derivatives;
+  }
+  const Eigen::Matrix<double, 6, 6> covariance = information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+  out.turn_covariance = covariance.topLeftCorner<3, 3>();
+  out.place_covariance = covariance.bottomRightCorner<3, 3>();
 }
 
 }  // namespace
@@ -98,8 +122,7 @@ std::optional<BoardView> findBoard(const Frame& frame, const Board& board) {
   cv::Vec3d turn, place;
   if (!cv::solvePnP(points, corners, camera, cv::noArray(), turn, place)) return std::nullopt;
   std::vector<cv::Point2f> projected;
-  cv::Mat derivatives;
-  cv::projectPoints(points, turn, place, camera, cv::noArray(), projected, derivatives);
+  cv::projectPoints(points, turn, place, camera, cv::noArray(), projected);
   if (cv::norm(projected, corners, cv::NORM_L2) > kMostResidual_px * std::sqrt(static_cast<double>(corners.size())))
     return std::nullopt;
   BoardView out;
@@ -110,7 +133,7 @@ std::optional<BoardView> findBoard(const Frame& frame, const Board& board) {
   cv::cv2eigen(rotation, linear);
   out.camera_from_board.linear() = linear;
   out.camera_from_board.translation() = Eigen::Vector3d(place[0], place[1], place[2]);
-  setSigmas(derivatives, out);
+  setCovariances(points, frame.camera, out);
   out.depth = depthOn(frame, board, corners, out.camera_from_board);
   return out;
 }

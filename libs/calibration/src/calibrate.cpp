@@ -37,7 +37,7 @@ std::bitset<kParameterCount> heldOf(const SensorsBefore& sensors) {
   const bool lidar = sensors.robot_from_lidar.has_value(), wheels = sensors.wheels;
   if (!lidar || !wheels) hold(kLidarX, kLidarYaw);
   if (!lidar || !wheels) hold(kWheelTime, kWheelTime);
-  if (!lidar && !sensors.board) hold(kDepthScale, kDepthScale);  // it would shrink with the camera's height
+  if (!lidar && !sensors.board_depth) hold(kDepthScale, kDepthScale);  // it would shrink with the camera's height
   if (!wheels) hold(kWheelScale, kHeadingDrift);
   if (!sensors.depth) hold(kDepthScale, kDepthBias);
   if (!sensors.depth && !sensors.board) hold(kCameraX, kCameraTime);
@@ -59,6 +59,8 @@ std::string frameOf(const SensorsBefore& sensors) {
     return "without wheel odometry, the lidar's recorded place says where the robot's frame is; the clock is "
            "that of the "
            "lidar";
+  if (sensors.board_depth)
+    return "without lidar the floor says height, pitch and roll of the camera, and the board depth";
   return "without lidar only the floor says something: height, pitch and roll of the "
          "camera";
 }
@@ -113,9 +115,9 @@ CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings
     throw InputError(recordings.front().string() +
                      ": no camera with depth and no lidar: nothing to calibrate");
   if (board && !out.sensors.board)
-    throw InputError(recordings.front().string() + ": no image shows a whole chessboard of " +
-                     std::to_string(board->columns) + " by " + std::to_string(board->rows) +
-                     " inner corners, sharp and with a white edge around it");
+    throw InputError(recordings.front().string() + (recordings.size() > 1 ? " and the others" : "") +
+                     ": no image shows a whole chessboard of " + std::to_string(board->columns) + " by " +
+                     std::to_string(board->rows) + " inner corners, sharp and with a white edge around it");
   task.before = startOf(out.sensors);
   task.held = heldOf(out.sensors);
   if (out.sensors.robot_from_lidar) task.lidar_z_m = out.sensors.robot_from_lidar->translation().z();

@@ -6,9 +6,9 @@
 #include <ceres/normal_prior.h>
 #include <glog/logging.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/order_statistics.h"
@@ -28,6 +28,12 @@ constexpr int kLags = 4;                                        // bins over whi
 
 double sigmaOf(const WallMatch& match) {
   return std::hypot(match.wall_sigma_m, patchSigma(match.patch.point.z()));
+}
+
+// Of the distance between the depth on a board and its plane.
+double depthSigma(const BoardView& view) {
+  const Eigen::Vector3d normal = view.camera_from_board.linear().col(2);
+  return std::hypot(std::sqrt(normal.dot(view.place_covariance * normal)), patchSigma(view.depth->point.z()));
 }
 
 double lengthOf(const WheelMovement& movement) {
@@ -59,18 +65,39 @@ std::vector<WheelMovement> wheelMovements(const RecordingEvidence& recording, co
   return out;
 }
 
-// Each view with the first later one that shows the board clearly elsewhere. Such a pair says where the camera sits, as the
-// same board from the same place would not.
-std::vector<std::pair<const BoardView*, const BoardView*>> boardPairs(const std::vector<BoardView>& views) {
-  std::vector<std::pair<const BoardView*, const BoardView*>> out;
-  for (auto a = views.begin(); a != views.end(); ++a)
-    for (auto b = a + 1; b != views.end() && b->t - a->t < kBoardLongest_s; ++b) {
+struct BoardPair {
+  const PlanarPath* lidar;
+  const BoardView *before, *after;
+};
+
+// Each view with the first later one that shows the board clearly elsewhere, and with the one that shows it farthest from
+// there: such pairs say where the camera sits, as the same board from the same place would not.
+std::vector<BoardPair> boardPairs(const RecordingEvidence& recording, double offset_s) {
+  std::vector<BoardPair> out;
+  const auto& views = recording.boards;
+  for (auto a = views.begin(); a != views.end(); ++a) {
+    const PlanarPath* path = pathAt(recording.lidar, a->t + offset_s, kPathMargin_s);
+    const BoardView *first = nullptr, *farthest = nullptr;
+    double most = 1;
+    for (auto b = a + 1; path && b != views.end() && b->t - a->t < kBoardLongest_s; ++b) {
+      if (!path->covers(b->t + offset_s, kPathMargin_s)) break;
       const Pose3 moved = a->camera_from_board * b->camera_from_board.inverse();
-      if (moved.translation().norm() < kBoardMoved_m && rotationAngle(moved) < kBoardTurned_rad) continue;
-      out.emplace_back(&*a, &*b);
-      break;
+      const double far = moved.translation().norm() / kBoardMoved_m + rotationAngle(moved) / kBoardTurned_rad;
+      if (far < most) continue;
+      if (!first) first = &*b;
+      most = far;
+      farthest = &*b;
     }
+    if (first) out.push_back({path, &*a, first});
+    if (farthest != first) out.push_back({path, &*a, farthest});
+  }
   return out;
+}
+
+// The root of the information of a sum of errors with these covariances.
+Eigen::Matrix3d rootInformation(const Eigen::Matrix3d& covariance, double factor) {
+  const Eigen::Matrix3d lower = covariance.llt().matrixL();
+  return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity()) / factor;
 }
 
 }  // namespace
@@ -153,16 +180,20 @@ void CalibrationProblem::addBoards(const RecordingEvidence& recording, int index
   for (const BoardView& view : recording.boards)
     if (view.depth)
       add(new ceres::AutoDiffCostFunction<BoardDepthCost, 1, kParameterCount>(new BoardDepthCost{
-              view, sigma(NoiseKind::kBoardDepth, std::hypot(view.sigma_m, patchSigma(view.depth->point.z())))}),
+              view, sigma(NoiseKind::kBoardDepth, depthSigma(view))}),
           index, view.t, {NoiseKind::kBoardDepth});
   const double offset = parameters_[kCameraTime];
-  for (const auto& [a, b] : boardPairs(recording.boards)) {
-    const PlanarPath* path = pathAt(recording.lidar, a->t + offset, kPathMargin_s);
-    if (!path || !path->covers(b->t + offset, kPathMargin_s)) continue;
-    const double turn = std::hypot(a->sigma_rad, b->sigma_rad, kBoardTurn_rad);
-    const double place = std::hypot(a->sigma_m, b->sigma_m, kBoardPlace_m);
+  const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+  for (const auto& [path, a, b] : boardPairs(recording, offset)) {
+    const Eigen::Matrix3d b_from_a = b->camera_from_board.linear() * a->camera_from_board.linear().transpose();
+    const Eigen::Matrix3d turn =
+        a->turn_covariance + b->turn_covariance + kBoardTurn_rad * kBoardTurn_rad * unit;
+    const double path_m = std::hypot(kBoardPlace_m, kBoardTurn_rad * b->camera_from_board.translation().norm());
+    const Eigen::Matrix3d place =
+        b_from_a * a->place_covariance * b_from_a.transpose() + b->place_covariance + path_m * path_m * unit;
     add(new ceres::AutoDiffCostFunction<BoardCost, 6, kParameterCount>(
-            new BoardCost{path, *a, *b, offset, sigma(NoiseKind::kBoardTurn, turn), sigma(NoiseKind::kBoardPlace, place)}),
+            new BoardCost{path, *a, *b, offset, rootInformation(turn, sigma(NoiseKind::kBoardTurn, 1)),
+                          rootInformation(place, sigma(NoiseKind::kBoardPlace, 1))}),
         index, b->t,
         {NoiseKind::kBoardTurn, NoiseKind::kBoardTurn, NoiseKind::kBoardTurn, NoiseKind::kBoardPlace,
          NoiseKind::kBoardPlace, NoiseKind::kBoardPlace});

@@ -23,11 +23,8 @@ TurnRate ratesOf(const std::vector<PlanarPath>& paths) {
   };
 }
 
-// By visual odometry, or where a camera has no depth for that by a board.
-std::vector<CameraStep> cameraSteps(const RecordingEvidence& recording) {
-  if (!recording.steps.empty()) return recording.steps;
+std::vector<CameraStep> stepsOf(const std::vector<BoardView>& views) {
   std::vector<CameraStep> out;
-  const auto& views = recording.boards;
   for (std::size_t i = 1; i < views.size(); ++i)
     if (views[i].t - views[i - 1].t < kLongestStep_s)
       out.push_back({views[i - 1].t, views[i].t,
@@ -60,8 +57,13 @@ std::bitset<kParameterCount> addCoarseOffsets(const CalibrationTask& task, Param
     const auto& reference = recording.lidar;
     if (reference.empty()) continue;
     const double from = reference.front().time(0), to = reference.back().time(reference.back().size() - 1);
-    if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(cameraSteps(recording), values), from, to))
+    // A board where visual odometry, which needs depth, does not say it.
+    for (const auto& steps : {recording.steps, stepsOf(recording.boards)}) {
+      const auto offset = turnRateOffset(ratesOf(reference), ratesOf(steps, values), from, to);
+      if (!offset) continue;
       camera.push_back(*offset);
+      break;
+    }
     if (const auto offset = turnRateOffset(ratesOf(reference), ratesOf(recording.wheels), from, to))
       wheels.push_back(*offset);
   }

@@ -58,7 +58,8 @@ struct CameraStep {
 struct BoardView {
   double t = 0;                                 ///< s
   Pose3 camera_from_board = Pose3::Identity();  ///< optical frame; origin in the board's middle, z normal to it
-  double sigma_rad = 0, sigma_m = 0;            ///< nominal, of its turn and of its middle, per axis
+  Eigen::Matrix3d turn_covariance = Eigen::Matrix3d::Zero();   ///< rad^2, nominal; small turns in the board's frame
+  Eigen::Matrix3d place_covariance = Eigen::Matrix3d::Zero();  ///< m^2, nominal; of its middle, in the optical frame
   std::optional<DepthPatch> depth;              ///< measured on it
 };
 

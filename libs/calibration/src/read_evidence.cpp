@@ -70,13 +70,12 @@ class EvidenceReader {
   void add(const Frame& frame) {
     keep(sensors_.robot_from_camera, frame.robot_from_camera, sensors_.camera_label, frame.sensor_label,
          "camera");
-    const bool is_new = isNewView(frame.t);
-    if (is_new && board_) addBoard(frame);
+    if (board_ && isNewView(frame.t, board_seen_)) addBoard(frame);
     if (!frame.hasDepth()) return;
     sensors_.depth = true;
     tracker_->track(frame, {});
     if (const auto depth = medianDepth(frame)) depths_.emplace_back(frame.t, *depth);
-    if (is_new) addView(frame);
+    if (isNewView(frame.t, view_seen_)) addView(frame);
   }
 
   void add(const std::shared_ptr<CObservationDetections>&) {}
@@ -105,19 +104,22 @@ class EvidenceReader {
                        "' on the robot changes: only sensors that are fixed to the robot can be calibrated");
   }
 
+  // When and where something was looked at last.
+  struct Looked {
+    std::optional<double> t;
+    Pose2 lidar, wheels;
+  };
+
   // Where the robot stands still, one view says what many say.
-  bool isNewView(double t) {
-    if (view_t_ && t < *view_t_ + kViewSpacing_s) return false;
+  bool isNewView(double t, Looked& last) const {
+    if (last.t && t < *last.t + kViewSpacing_s) return false;
     const auto moved = [](const Pose2& before, const Pose2& now) {
       const Pose2 step = before.inverse() * now;
       return std::hypot(step.x, step.y) > kViewSpacing_m || std::abs(step.yaw) > kViewSpacing_rad;
     };
     const bool known = !evidence_.lidar.empty() || !evidence_.wheels.empty();
-    if (view_t_ && known && !moved(view_lidar_, lidar_now_) && !moved(view_wheels_, wheels_now_))
-      return false;
-    view_t_ = t;
-    view_lidar_ = lidar_now_;
-    view_wheels_ = wheels_now_;
+    if (last.t && known && !moved(last.lidar, lidar_now_) && !moved(last.wheels, wheels_now_)) return false;
+    last = {t, lidar_now_, wheels_now_};
     return true;
   }
 
@@ -136,6 +138,7 @@ class EvidenceReader {
     const auto view = findBoard(frame, *board_);
     if (!view) return;
     sensors_.board = true;
+    sensors_.board_depth = sensors_.board_depth || view->depth;
     evidence_.boards.push_back(*view);
   }
 
@@ -162,8 +165,8 @@ class EvidenceReader {
   std::shared_ptr<RgbdOdometry> tracker_ = makeStage<RgbdOdometry>("FeatureOdometry", "tracking");
   std::shared_ptr<GroundDetector> ground_ = makeStage<GroundDetector>("DepthGroundDetector", "ground");
   int lidar_segment_ = 0;
-  Pose2 lidar_now_, wheels_now_, view_lidar_, view_wheels_;
-  std::optional<double> view_t_;
+  Pose2 lidar_now_, wheels_now_;
+  Looked view_seen_, board_seen_;
   std::vector<std::pair<double, double>> depths_;  ///< time, median depth
 };
 

@@ -102,14 +102,15 @@ PlanarValues<T> movementBetweenImages(const T* p, const PlanarPath& lidar, doubl
   return robotMovement(p, moved);
 }
 
-/// Six residuals: of a turn, which should be none, and of a gap, which should be none either.
+/// Six residuals: of a turn, which should be none, and of a gap, which should be none either, times the roots of their
+/// information.
 template <class T>
-void weigh(const Matrix3T<T>& turn, const Vector3T<T>& gap, double sigma_rad, double sigma_m, T* residuals) {
-  ceres::RotationMatrixToAngleAxis(turn.data(), residuals);
-  for (int k = 0; k < 3; ++k) {
-    residuals[k] /= sigma_rad;
-    residuals[3 + k] = gap[k] / sigma_m;
-  }
+void weigh(const Matrix3T<T>& turn, const Vector3T<T>& gap, const Eigen::Matrix3d& per_rad, const Eigen::Matrix3d& per_m,
+           T* residuals) {
+  Vector3T<T> angles;
+  ceres::RotationMatrixToAngleAxis(turn.data(), angles.data());
+  Eigen::Map<Eigen::Matrix<T, 6, 1>> out(residuals);
+  out << per_rad.cast<T>() * angles, per_m.cast<T>() * gap;
 }
 
 /// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
@@ -132,18 +133,19 @@ struct CameraStepCost {
     const T scale = p[kDepthScale] + p[kDepthBias] / step.depth_m;
     const Vector3T<T> gap =
         mounted.transpose() * (turn * place + moved - place) - scale * step.a_from_b.translation().cast<T>();
-    weigh(off, gap, sigma_rad, sigma_m, residuals);
+    const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+    weigh(off, gap, unit / sigma_rad, unit / sigma_m, residuals);
     return true;
   }
 };
 
 /// A board that stands still, seen in two images: where the later one shows it against where the robot's movement by the
-/// lidar has it from the earlier one. Turn (3), then its middle (3), in the later camera's frame.
+/// lidar has it from the earlier one. Turn (3) in the board's frame, then its middle (3) in the later camera's.
 struct BoardCost {
   const PlanarPath* lidar;
   BoardView before, after;
-  double offset_s;  ///< found so far
-  double sigma_rad, sigma_m;
+  double offset_s;                  ///< found so far
+  Eigen::Matrix3d per_rad, per_m;  ///< roots of information
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
@@ -157,7 +159,7 @@ struct BoardCost {
                             after.camera_from_board.translation().cast<T>();
     const Matrix3T<T> off = after.camera_from_board.linear().transpose().cast<T>() * mounted.transpose() *
                             turned_back * mounted * before.camera_from_board.linear().cast<T>();
-    weigh(off, gap, sigma_rad, sigma_m, residuals);
+    weigh(off, gap, per_rad, per_m, residuals);
     return true;
   }
 };

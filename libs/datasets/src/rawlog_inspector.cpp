@@ -77,8 +77,16 @@ class Inspector {
     if (out.first_time > out.last_time) out.first_time = out.last_time = 0;
   }
 
-  /// From the first record to the latest one that was looked at.
-  double seconds() const { return first_ ? latest_ - *first_ : 0; }
+  /// By its own clock, of that sensor in use of which least was looked at; 0 without one.
+  double leastSeconds() const {
+    std::optional<double> out;
+    for (const auto& entry : sensors_)
+      if (entry->report.used && !entry->places.empty()) {
+        const double seconds = entry->places.back().t - entry->places.front().t;
+        out = std::min(out.value_or(seconds), seconds);
+      }
+    return out.value_or(0);
+  }
 
  private:
   using Waiting = StampQueue<CObservation::Ptr>;
@@ -164,7 +172,6 @@ class Inspector {
     entry.times.add(t);
     if (!t) return;
     entry.places.push_back({index_, *t});
-    if (!first_) first_ = *t;
     largest_step_back_ = std::max(largest_step_back_, latest_ - *t);
     latest_ = std::max(latest_, *t);
   }
@@ -233,7 +240,6 @@ class Inspector {
   OdometrySum sum_;
   Trajectory odometry_;
   int paired_ = 0, single_ = 0, index_ = 0;
-  std::optional<double> first_;
   double latest_ = -std::numeric_limits<double>::infinity(), largest_step_back_ = 0;
 };
 
@@ -263,7 +269,7 @@ RawlogReport inspectRawlog(const std::filesystem::path& file, const std::functio
       inspector.add(item->object);
     else
       ++report.skipped[item->reason];
-    const double of_span = until_s > 0 ? inspector.seconds() / until_s : 0;
+    const double of_span = until_s > 0 ? inspector.leastSeconds() / until_s : 0;
     if (progress) progress(std::min(1.0, std::max(of_span, source.progress())));
     if (of_span > 1) break;
   }

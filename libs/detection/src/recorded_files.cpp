@@ -43,11 +43,11 @@ void readMask(const std::filesystem::path& file, Detection& detection) {
   detection.mask = mask(box) > 0;
 }
 
-// What else the detector took the box for: a box of its own, as it was one of the network's.
-void addRival(const Json& rival, const Box2& box, RecordedBoxes& boxes) {
-  Detection detection{.box = box, .label = rival.at("label").get<std::string>(), .score = rival.at("score").get<double>()};
-  if (!sound(detection)) throw std::invalid_argument("score of a rival out of range");
-  boxes.boxes.push_back(detection);
+void readRival(const Json& rival, Detection& detection) {
+  detection.rival_label = rival.at("label").get<std::string>();
+  detection.rival_score = rival.at("score").get<double>();
+  if (!(detection.rival_score >= 0 && detection.rival_score <= 1))
+    throw std::invalid_argument("score of a rival out of range");
 }
 
 void addJsonLine(const Json& json, const std::filesystem::path& folder, DetectionRecords& records) {
@@ -64,8 +64,8 @@ void addJsonLine(const Json& json, const std::filesystem::path& folder, Detectio
     }
     if (item.contains("track")) detection.track = TrackId{integerOf<std::int64_t>(item.at("track"))};
     if (!sound(detection)) throw std::invalid_argument("box or score out of range");
+    if (item.contains("rival")) readRival(item.at("rival"), detection);
     boxes.boxes.push_back(detection);
-    if (item.contains("rival")) addRival(item.at("rival"), detection.box, boxes);
   }
   if (json.contains("unsought")) boxes.unsought = json.at("unsought").get<std::vector<std::string>>();
   records.emplace(seconds(json.at("timestamp")), boxes);

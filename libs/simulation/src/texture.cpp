@@ -176,8 +176,6 @@ cv::Mat chessboard(const Material& m) {
   return out;
 }
 
-constexpr const char* kChessboard = "chessboard";  // has no painter: the variants of the others hang on their number
-
 using Painter = std::function<cv::Mat(const Material&, Random&)>;
 
 const std::map<std::string, Painter>& painters() {
@@ -195,7 +193,6 @@ const std::vector<std::string>& texturePatterns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> out;
     for (const auto& [name, painter] : painters()) out.push_back(name);
-    out.emplace_back(kChessboard);
     return out;
   }();
   return names;
@@ -203,7 +200,7 @@ const std::vector<std::string>& texturePatterns() {
 
 cv::Mat textureOf(const Material& material) {
   if (material.picture) return *material.picture;
-  if (material.pattern == kChessboard) return chessboard(material);
+  if (material.pattern == kChessboardPattern) return chessboard(material);
   const auto painter = painters().find(material.pattern);
   if (painter == painters().end())
     throw ConfigError("unknown surface pattern '" + material.pattern + "': one of " +

@@ -8,11 +8,13 @@
 
 namespace roomgraph {
 
-/// Names of the patterns that textureOf() knows.
+/// Names of the patterns for surfaces, square pictures.
 const std::vector<std::string>& texturePatterns();
 
-/// Procedural picture of a material, BGR 8 bit, square but for the chessboard (9 by 6 inner corners in 12 by 9 squares), the
-/// same on every call; patterns that repeat tile
+/// One for posters, 9 by 6 inner corners in 12 by 9 squares.
+inline constexpr const char* kChessboardPattern = "chessboard";
+
+/// Procedural picture of a material, BGR 8 bit, the same on every call; patterns that repeat tile
 /// seamlessly. Texels are not finer than about 5 mm (the renderer has no mip maps). Throws ConfigError on an
 /// unknown pattern.
 cv::Mat textureOf(const Material& material);

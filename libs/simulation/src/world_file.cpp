@@ -53,7 +53,7 @@ Poster poster(JsonEntry& entry) {
   out.width_m = entry.number("width_m", out.width_m, 0.05, 20);
   out.height_m = entry.number("height_m", out.height_m, 0.05, 20);
   out.variant = entry.integer("variant", 0, 0, 1000000);
-  out.pattern = entry.choice("pattern", out.pattern, texturePatterns());
+  out.pattern = entry.choice("pattern", out.pattern, {out.pattern, kChessboardPattern});
   entry.finish();
   return out;
 }

@@ -21,7 +21,8 @@ struct SensorsBefore {
   std::optional<Pose3> robot_from_lidar,
       robot_from_camera;                       ///< the latter of the colour camera, optical axes
   Pose3 robot_from_depth = Pose3::Identity();  ///< MRPT's sensorPose of the camera's records, x forward
-  bool depth = false, wheels = false, board = false;  ///< whether there is any; a board: in an image
+  bool depth = false, wheels = false;        ///< whether there is any
+  bool board = false, board_depth = false;  ///< whether an image shows the board, and depth on it
 };
 
 struct CalibrationReport {

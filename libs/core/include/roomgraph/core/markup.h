@@ -6,8 +6,8 @@
 
 namespace roomgraph {
 
-/// Text as content or attribute of HTML or XML: characters with a meaning there are named, control characters, which neither may
-/// hold, become spaces.
+/// Text as content, or as an attribute within double quotes, of HTML or XML: characters with a meaning there are named, control
+/// characters, of which XML may hold few, become spaces.
 inline std::string escapedForMarkup(const std::string& text) {
   std::string out;
   for (const char c : text) {

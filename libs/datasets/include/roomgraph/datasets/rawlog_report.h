@@ -145,7 +145,7 @@ struct RawlogReport {
   double duration() const { return last_time - first_time; }
 };
 
-/// Reads the file, all of it or its first `until_s` seconds (0: all), and says what is inside and what is wrong with it. Throws InputError like
+/// Reads the file, all of it or its first `until_s` seconds (by every sensor's own clock; 0: all), and says what is inside and what is wrong with it. Throws InputError like
 /// RawlogReader. `progress` gets the share read, [0, 1]. `poses` take the place of the recorded ones; a label
 /// that does not occur is a ConfigError.
 RawlogReport inspectRawlog(const std::filesystem::path& file,

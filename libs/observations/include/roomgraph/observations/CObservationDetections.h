@@ -32,7 +32,7 @@ class CObservationDetections : public mrpt::obs::CObservation, public mrpt::open
   std::string image_label;  ///< sensorLabel of the camera
   std::uint32_t image_width = 0, image_height = 0;
   std::string model;       ///< network, or simulator, that made the boxes
-  std::string model_hash;  ///< of the weights file; empty when there is none
+  std::string model_hash;  ///< of the weights files and of what calibrates their scores; empty when there is none
   float score_threshold = 0, nms_threshold = 0;
   std::vector<Item> items;
   /// Classes that no network looked for in this image, as theirs runs on fewer of them: that none is here says nothing.
