@@ -229,7 +229,7 @@ TEST(SensorCosts, DerivativesAreThoseOfFiniteDifferences) {
       ceres::AutoDiffCostFunction<BoardDepthCost, 1, kParameterCount>(new BoardDepthCost{boards.boards[1], 0.01}), {wrong});
   const WheelMovement movement = movementOf(evidence, 40, 64);
   expectDerivatives(ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(
-                        new WheelMoveCost{movement, 0.02, 0.1, 0.1}),
+                        new WheelMoveCost{movement, 0.1, 0.1}),
                     {wrong});
   expectDerivatives(
       ceres::AutoDiffCostFunction<WheelTurnCost, 1, kParameterCount>(new WheelTurnCost{movement, 0.1}),

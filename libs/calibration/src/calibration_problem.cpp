@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRobust = 2.5;        // standard deviations
 constexpr double kPathMargin_s = 0.3;  // as much as times may move while solving
-constexpr double kShortWheels_s = 0.3, kLongWheels_s = 1.2, kStandsStill = 0.02;  // the last in m + rad
+constexpr double kShortWheels_s = 0.3, kLongWheels_s = 0.6, kStandsStill = 0.02;  // the last in m + rad
 constexpr double kTurnSigma_rad = 0.002, kMoveSigma_m = 0.004;  // of visual odometry between two images
 constexpr double kBoardTurn_rad = 0.002, kBoardPlace_m = 0.003;  // of the lidar's path between two images
 constexpr double kBoardTurned_rad = 0.1, kBoardMoved_m = 0.15, kBoardLongest_s = 20;
@@ -144,7 +144,7 @@ void CalibrationProblem::addWheels(const RecordingEvidence& recording, int index
           index, m.t_b, {NoiseKind::kWheelTurn});
     for (const WheelMovement& m : wheelMovements(recording, wheels, parameters_[kWheelTime], kLongWheels_s))
       add(new ceres::AutoDiffCostFunction<WheelMoveCost, 2, kParameterCount>(new WheelMoveCost{
-              m, parameters_[kWheelTime], sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
+              m, sigma(NoiseKind::kWheelForward, forwardSigma(lengthOf(m))),
               sigma(NoiseKind::kWheelSide, sideSigma(lengthOf(m), turnOf(m)))}),
           index, m.t_b, {NoiseKind::kWheelForward, NoiseKind::kWheelSide});
   }

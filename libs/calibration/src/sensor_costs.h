@@ -33,15 +33,14 @@ struct WheelMovement {
   }
 };
 
-/// The time offset is the one found so far: of the speed that the curve has at an instant, noise is too large
-/// a part to tell it from.
+/// Beginnings and ends of a drive say what the time offset is, as those of turns do.
 struct WheelMoveCost {
   WheelMovement movement;
-  double offset_s, sigma_forward_m, sigma_side_m;
+  double sigma_forward_m, sigma_side_m;
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    const auto off = movement.difference(p, T(offset_s));
+    const auto off = movement.difference(p, p[kWheelTime]);
     residuals[0] = off[0] / sigma_forward_m;
     residuals[1] = off[1] / sigma_side_m;
     return true;
@@ -91,8 +90,8 @@ struct FloorCost {
   }
 };
 
-/// Movement of the robot by the lidar between two times of images. Of the time offset only the angle depends, as in
-/// WheelMoveCost.
+/// Movement of the robot by the lidar between two times of images. Only the angle depends on the time offset: of the speed
+/// that the curve has at an instant, noise is too large a part to tell it from.
 template <class T>
 PlanarValues<T> movementBetweenImages(const T* p, const PlanarPath& lidar, double t_a, double t_b, double offset_s) {
   const PlanarValues<double> before = lidar.at(t_a + offset_s), after = lidar.at(t_b + offset_s);
