@@ -33,7 +33,7 @@ std::string bytesOfNumbers(const std::vector<double>& numbers) {
 std::vector<double> numbersFrom(const std::string& bytes) {
   if (bytes.size() % sizeof(double) != 0) throw std::invalid_argument("not a whole number of numbers");
   std::vector<double> numbers(bytes.size() / sizeof(double));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
   return numbers;
 }
 
