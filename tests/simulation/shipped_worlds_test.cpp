@@ -16,7 +16,7 @@ namespace {
 const std::filesystem::path kWorlds = std::filesystem::path(ROOMGRAPH_SOURCE_DIR) / "worlds";
 
 TEST(ShippedWorlds, AllCanBeSimulated) {
-  for (const std::string name : {"lab", "corridor", "office_handheld", "empty_room", "crowd", "small_loop"}) {
+  for (const std::string name : {"lab", "corridor", "office_handheld", "empty_room", "crowd", "small_loop", "board"}) {
     const World world = readWorld(kWorlds / (name + ".json"));
     EXPECT_EQ(world.name, name);
     EXPECT_GT(Scene(world).duration(), 20) << name;
