@@ -2,8 +2,9 @@
 // Parser of the description of a chessboard.
 #include "roomgraph/calibration/board.h"
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <string_view>
 
 #include "roomgraph/core/errors.h"
 
