@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """No type name is defined twice in libs/: the libraries are shared, so two definitions of one name in the same namespace
 are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces of different libraries
-are free; those of one library are not, because a unity build compiles several of its files as one.
+are free; those of one library are not, because a unity build compiles several of its files as one. The same holds for
+constants (kName) at the beginning of a line, wherever they are defined.
 
 Usage: check_names.py ROOT
 """
@@ -16,6 +17,9 @@ SCOPE = re.compile(r"\b(?P<kind>namespace|class|struct|union|enum(?:\s+class|\s+
                    r"(?:\s*\[\[[^\]]*\]\])*\s*(?P<name>[A-Za-z_][\w:]*)?\s*(?:final\b)?[^;{}()=]*\{|[{}]")
 TEMPLATE = re.compile(r"\btemplate\s*<[^<>]*(?:<[^<>]*>[^<>]*)*>")  # its "class T" is no class
 
+
+CONSTANTS = re.compile(r"^(?:inline |static )?const(?:expr)? (?P<defined>[^;]*);", re.MULTILINE)
+CONSTANT = re.compile(r"\b(?P<name>k[A-Z]\w*)\s*[={\[(]")
 
 ANONYMOUS = "(anonymous)"
 
@@ -39,6 +43,17 @@ def types_of(text):
             scopes.append(None)
 
 
+def constants_of(text):
+    """(name, line) of every constant of a file that is not local to something."""
+    text = cpp_functions.blanked(text)
+    for many in CONSTANTS.finditer(text):
+        begin = many.start("defined")
+        # What is used in a value is not defined here: braces and brackets of values go first.
+        names = re.sub(r"=[^,;]*", lambda m: "=" + " " * (len(m.group(0)) - 1), many.group("defined"))
+        for one in CONSTANT.finditer(names):
+            yield one.group("name"), text.count("\n", 0, begin + one.start("name")) + 1
+
+
 def check(root):
     first, problems, checked = {}, [], 0
     for path in source_files.files(root, {".h", ".cpp"}):
@@ -52,6 +67,10 @@ def check(root):
             if key in first:
                 problems.append(f"{place}: {scope}::{name} is defined at {first[key]} already")
             first.setdefault(key, place)
+        for name, line in constants_of(source_files.read(root, path)):
+            key = (name, path.parts[1])
+            if first.setdefault(key, (path, line))[0] != path:  # in one file the preprocessor may choose
+                problems.append(f"{path}:{line}: {name} is defined at {first[key][0]}:{first[key][1]} already")
     return problems, checked
 
 

@@ -8,7 +8,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kNear_m = 0.3, kNear_rad = 0.15;  // moves the estimate so little that it needs no witness
+constexpr double kSmall_m = 0.3, kSmall_rad = 0.15;  // moves the estimate so little that it needs no witness
 constexpr double kSame_m = 0.2, kSame_rad = 0.1;   // of two closures that say the same
 // More drift between two closures says nothing of them.
 constexpr double kComparable_m = 0.5, kComparable_rad = 0.3;
@@ -18,7 +18,7 @@ constexpr std::size_t kWaiting = 50;
 
 bool isNear(const RelativePose& closure, const KeyPoses& poses) {
   const Pose3 difference = poses.differenceFrom(closure);
-  return difference.translation().norm() < kNear_m && rotationAngle(difference) < kNear_rad;
+  return difference.translation().norm() < kSmall_m && rotationAngle(difference) < kSmall_rad;
 }
 
 // What the first says of the second's two times is what that says itself.

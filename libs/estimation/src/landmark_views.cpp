@@ -29,7 +29,7 @@ constexpr double kVisitPause_s = 3;    // an object not seen for so long begins 
 // How far the middle may be from where the end that is held fast puts it for the usual width, for a view to tell of that end
 // alone: a sofa's is so uncertain, a door's is not.
 constexpr double kUnknown_m = 0.075;
-constexpr double kLeastSigma_m = 0.01;  // of a place, however well the size were known
+constexpr double kLeastPlaceSigma_m = 0.01;  // of a place, however well the size were known
 
 LandmarkFactor inWorld(LandmarkFactor sighting, const Pose3& world_from_robot) {
   sighting.position_in_robot = world_from_robot * sighting.position_in_robot;
@@ -234,7 +234,7 @@ LandmarkFactor atSize(const ObjectShape& shape, const LandmarkSighting& sighting
   auto place = out.covariance.topLeftCorner<2, 2>();
   place -= placeSpread(proposal.place_by_size, out.yaw_in_robot, proposal.size_information, usual.sizeSigma());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(place);
-  const Eigen::Vector2d least = Eigen::Vector2d::Constant(kLeastSigma_m * kLeastSigma_m);
+  const Eigen::Vector2d least = Eigen::Vector2d::Constant(kLeastPlaceSigma_m * kLeastPlaceSigma_m);
   place = axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();
   return out;
 }

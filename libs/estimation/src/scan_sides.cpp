@@ -26,7 +26,7 @@ constexpr double kCorner_m = 0.05;     // at the ends of a side returns may be o
 constexpr double kWallBeside_m = 1.2;  // of the wall on both sides of a door
 constexpr double kLeastShown = 0.5;    // share of the length of a cuboid's side that returns must lie along
 constexpr double kSpread_m = 0.05, kMostAlike = 0.7;        // so many of a side's returns are so near a line
-constexpr std::size_t kLeastReturns = 4, kMostReturns = 6;  // of one side in one scan
+constexpr std::size_t kLeastOnSide = 4, kMostOnSide = 6;  // of one side in one scan
 
 // In the landmark's frame.
 struct Side {
@@ -191,9 +191,9 @@ class SideFinder {
     std::vector<Return> on_side;
     for (const Return& r : near)
       if (isOn(side, landmark_.shape.kind, r.in_landmark)) on_side.push_back(r);
-    if (on_side.size() < kLeastReturns || !onALine(side, on_side)) return;
+    if (on_side.size() < kLeastOnSide || !onALine(side, on_side)) return;
     if (landmark_.shape.kind == ShapeKind::kCuboid && !showsTheSide(side, on_side)) return;
-    for (const Return& r : thinned(on_side, kMostReturns)) keep(scan, r, side.outward);
+    for (const Return& r : thinned(on_side, kMostOnSide)) keep(scan, r, side.outward);
   }
 
   // Of what goes on beyond the reach of legs, a wall or a desk, nothing is a leg.

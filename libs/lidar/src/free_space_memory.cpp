@@ -18,7 +18,7 @@ constexpr float kHeldAgainst_s = 3;       // a return outweighs beams of this ti
 constexpr float kForgetPerSecond = 0.1F;  // of contradiction, while beams go through again
 constexpr double kPersonGap_m = 0.2;      // between returns of one thing
 constexpr double kFarthest_m = 1e6;       // numbers of cells must fit an int
-constexpr int kFewestReturns = 10;        // of fewer, a share says nothing
+constexpr int kFewestToJudge = 10;        // of fewer, a share says nothing
 
 /// Visits the cells that the segment crosses, from its first to before its last. J. Amanatides and A. Woo, "A
 /// fast voxel traversal algorithm for ray tracing", 1987. In units of cells.
@@ -118,7 +118,7 @@ std::vector<std::size_t> FreeSpaceMemory::observe(const Scan& scan, const Pose2&
   for (const Return& r : returns)
     if (r.moving) moving.push_back(r.beam);
   const auto most =
-      options_.max_share * static_cast<double>(std::max<std::size_t>(kFewestReturns, returns.size()));
+      options_.max_share * static_cast<double>(std::max<std::size_t>(kFewestToJudge, returns.size()));
   if (static_cast<double>(moving.size()) > most) {
     implausible_s_ += static_cast<double>(step_s_);
     if (implausible_s_ >= kImplausible_s) clear();

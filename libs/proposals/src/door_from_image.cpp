@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kLeastTilt = 0.003;      // rad, standard deviation of a measured ground normal
 constexpr double kLeastSlope = 0.02;      // of a ray against the horizon; flatter ones tell no range
-constexpr double kLeastHeight_m = 0.1;    // of a point above or below the camera, for the same reason
+constexpr double kLeastRise_m = 0.1;    // of a point above or below the camera, for the same reason
 constexpr double kSegment_px = 1.5;       // standard deviation of a segment's ends in the reduced image
 constexpr double kLevelFloor = 0.03;      // rad, least standard deviation of a segment's direction
 constexpr double kVagueLevel = 0.35;      // rad, the largest that is used
 constexpr double kWidthDirection = 0.35;  // rad, standard deviation of a direction that the usual width gives
-constexpr std::size_t kDirections = 5;    // the most accurate ones are tried
+constexpr std::size_t kMostDirections = 5;    // the most accurate ones are tried
 constexpr double kSteepSegment = 0.15;    // horizontal by vertical extent, of a line that is vertical in space
 // Segment taken for the door frame's edge: its least length, by the box's height, and its largest distance from the
 // box's side, by the box's width.
@@ -30,7 +30,7 @@ Eigen::Vector3d rayInGround(const BoxEvidence& e, double u, double v) {
 
 // Range of a point `height` above or below the camera, m, seen at a slope; both sigmas are standard deviations.
 std::optional<Measured> rangeOf(double height, double slope, double angle_sigma, double height_sigma) {
-  if (height <= kLeastHeight_m || slope < kLeastSlope) return std::nullopt;
+  if (height <= kLeastRise_m || slope < kLeastSlope) return std::nullopt;
   const double range = height / slope;
   if (range > kFarthestGround_m) return std::nullopt;
   return Measured{range, std::hypot(range * (slope + 1 / slope) * angle_sigma, height_sigma / slope)};
@@ -94,7 +94,7 @@ void addLevelLines(const std::vector<Sides>& sides, const BoxEvidence& e, std::v
       directions.push_back(*direction);
   std::stable_sort(directions.begin(), directions.end(),
                    [](const Measured& a, const Measured& b) { return a.sigma < b.sigma; });
-  if (directions.size() > kDirections) directions.resize(kDirections);
+  if (directions.size() > kMostDirections) directions.resize(kMostDirections);
   for (const Measured& direction : directions)
     for (const Sides& s : sides) {
       const Eigen::Vector2d d(std::cos(direction.value), std::sin(direction.value));

@@ -8,14 +8,14 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kCell_m = 0.05;
+constexpr double kTruthCell_m = 0.05;
 constexpr uchar kOccupied = 0, kFree = 254, kUnknown = 205;
 
 struct TruthGrid {
   Eigen::Vector2d origin;  ///< lower left corner, m
   cv::Mat cells;           ///< row 0 at the lowest y
   cv::Point cellOf(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d cell = (p - origin) / kCell_m;
+    const Eigen::Vector2d cell = (p - origin) / kTruthCell_m;
     return {static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y()))};
   }
 };
@@ -26,8 +26,8 @@ TruthGrid gridAround(const std::vector<Segment>& outlines) {
   TruthGrid grid;
   grid.origin = (box.min().array() - 0.5).unaryExpr([](double x) { return std::floor(x); });
   const Eigen::Vector2d size = (box.max() - grid.origin).array() + 0.5;
-  grid.cells = cv::Mat(static_cast<int>(std::ceil(size.y() / kCell_m)),
-                       static_cast<int>(std::ceil(size.x() / kCell_m)), CV_8U, cv::Scalar(kUnknown));
+  grid.cells = cv::Mat(static_cast<int>(std::ceil(size.y() / kTruthCell_m)),
+                       static_cast<int>(std::ceil(size.x() / kTruthCell_m)), CV_8U, cv::Scalar(kUnknown));
   return grid;
 }
 
@@ -52,7 +52,7 @@ void writeMapTruth(const std::filesystem::path& pgm, const std::filesystem::path
                    const std::vector<Segment>& outlines) {
   TruthGrid grid = gridAround(outlines);
   for (const auto& segment : outlines) {
-    const int steps = 1 + static_cast<int>((segment.b - segment.a).norm() / (kCell_m / 10));
+    const int steps = 1 + static_cast<int>((segment.b - segment.a).norm() / (kTruthCell_m / 10));
     for (int i = 0; i <= steps; ++i)
       grid.cells.at<uchar>(grid.cellOf(segment.a + (segment.b - segment.a) * i / steps)) = kOccupied;
   }
@@ -66,7 +66,7 @@ void writeMapTruth(const std::filesystem::path& pgm, const std::filesystem::path
   text.line(
       "image: map_truth.pgm\nresolution: %.3f\norigin: [%.3f, %.3f, 0.0]\nnegate: 0\noccupied_thresh: "
       "0.65\nfree_thresh: 0.196",
-      kCell_m, grid.origin.x(), grid.origin.y());
+      kTruthCell_m, grid.origin.x(), grid.origin.y());
   text.finish();
 }
 

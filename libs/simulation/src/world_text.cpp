@@ -12,14 +12,14 @@ namespace {
 
 using WorldJson = nlohmann::ordered_json;
 
-constexpr double kPerUnit = 1e6;
+constexpr double kStepsPerUnit = 1e6;
 
 double neat(double value) {
-  return roundedTo(value, kPerUnit);
+  return roundedTo(value, kStepsPerUnit);
 }
 
 WorldJson neat(const Eigen::VectorXd& values) {
-  return numbersJson(values, kPerUnit);
+  return numbersJson(values, kStepsPerUnit);
 }
 
 std::string colorText(const std::array<double, 3>& rgb) {
