@@ -56,6 +56,15 @@ class Names(TreeTest):
                                        "template <class T>\nvoid g(T) {\n  struct View { int b; };\n}\n}\n"), [])
 
 
+    def test_constants_of_one_library(self):
+        self.write("libs/l0/src/a.cpp", "namespace {\nconstexpr int kLeast = 3, kMost = 4;\n}\n")
+        self.write("libs/l0/src/b.cpp", "namespace {\n#if X\nconstexpr bool kOn = true;\n#else\nconstexpr bool kOn = false;\n#endif\n"
+                                        "int f() {\n  constexpr int kLeast = 1;\n  return kLeast;\n}\nconst double kOther = 2 * kLeast;\n}\n")
+        self.write("libs/l1/src/c.cpp", "namespace {\nconst double kLeast = 2;\n}\n")
+        self.assertEqual(check_names.check(self.root)[0], [])
+        self.write("libs/l0/src/d.cpp", "namespace {\nconst double kFew{1}, kMost[] = {1, 2};\n}\n")
+        self.assertEqual(check_names.check(self.root)[0], ["libs/l0/src/d.cpp:2: kMost is defined at libs/l0/src/a.cpp:2 already"])
+
     def test_anonymous_types_of_one_library(self):
         text = "namespace roomgraph {\nnamespace {\nstruct View { int a; };\n}\n}\n"
         self.write("libs/l0/src/b.cpp", text)
