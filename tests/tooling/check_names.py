@@ -3,7 +3,7 @@
 """No type name is defined twice in libs/: the libraries are shared, so two definitions of one name in the same namespace
 are one and the same to the linker, whatever they hold (One Definition Rule). Anonymous namespaces of different libraries
 are free; those of one library are not, because a unity build compiles several of its files as one. The same holds for
-constants (kName) at the beginning of a line, wherever they are defined.
+constants (kName) and other names of types (using) at the beginning of a line, wherever they are defined.
 
 Usage: check_names.py ROOT
 """
@@ -20,6 +20,8 @@ TEMPLATE = re.compile(r"\btemplate\s*<[^<>]*(?:<[^<>]*>[^<>]*)*>")  # its "class
 
 CONSTANTS = re.compile(r"^(?:inline |static )?const(?:expr)? (?P<defined>[^;]*);", re.MULTILINE)
 CONSTANT = re.compile(r"\b(?P<name>k[A-Z]\w*)\s*[={\[(]")
+
+ALIAS = re.compile(r"^using (?P<name>\w+) =(?P<meaning>[^;]*);", re.MULTILINE)
 
 ANONYMOUS = "(anonymous)"
 
@@ -54,23 +56,40 @@ def constants_of(text):
             yield one.group("name"), text.count("\n", 0, begin + one.start("name")) + 1
 
 
+def aliases_of(text):
+    """(name, meaning, line) of every other name for a type."""
+    text = cpp_functions.blanked(text)
+    for match in ALIAS.finditer(text):
+        yield match.group("name"), match.group("meaning"), text.count("\n", 0, match.start()) + 1
+
+
 def check(root):
-    first, problems, checked = {}, [], 0
+    first, in_library, problems, checked = {}, {}, [], 0
+
+    def only_here(name, path, line, meaning=None):
+        """What a unity build would see twice. Within one file the preprocessor may choose; an alias may be repeated as it is."""
+        there, at, meant = in_library.setdefault((name, path.parts[1]), (path, line, meaning))
+        if there != path and (meaning is None or meaning != meant):
+            problems.append(f"{path}:{line}: {name} is defined at {there}:{at} already")
+
     for path in source_files.files(root, {".h", ".cpp"}):
         if path.parts[0] != "libs":
             continue
         checked += 1
-        for scope, name, line in types_of(source_files.read(root, path)):
+        text = source_files.read(root, path)
+        for scope, name, line in types_of(text):
             place = f"{path}:{line}"
             # An anonymous type is a rival to the other anonymous types of its library only.
             key = (scope, name, path.parts[1] if ANONYMOUS in scope else None)
             if key in first:
                 problems.append(f"{place}: {scope}::{name} is defined at {first[key]} already")
+            elif ANONYMOUS in scope:
+                only_here(name, path, line)
             first.setdefault(key, place)
-        for name, line in constants_of(source_files.read(root, path)):
-            key = (name, path.parts[1])
-            if first.setdefault(key, (path, line))[0] != path:  # in one file the preprocessor may choose
-                problems.append(f"{path}:{line}: {name} is defined at {first[key][0]}:{first[key][1]} already")
+        for name, line in constants_of(text):
+            only_here(name, path, line)
+        for name, meaning, line in aliases_of(text):
+            only_here(name, path, line, meaning)
     return problems, checked
 
 

@@ -65,6 +65,14 @@ class Names(TreeTest):
         self.write("libs/l0/src/d.cpp", "namespace {\nconst double kFew{1}, kMost[] = {1, 2};\n}\n")
         self.assertEqual(check_names.check(self.root)[0], ["libs/l0/src/d.cpp:2: kMost is defined at libs/l0/src/a.cpp:2 already"])
 
+    def test_other_names_for_types_of_one_library(self):
+        self.write("libs/l0/src/a.cpp", "namespace {\nusing View = int;\nusing Many = int;\n}\n")
+        self.write("libs/l0/src/b.cpp", "namespace {\nusing View = int;\nvoid f() {\n  using Many = float;\n}\n}\n")
+        self.assertEqual(check_names.check(self.root)[0], [])
+        self.write("libs/l0/src/c.cpp", "namespace {\nusing View = float;\nstruct Many {};\n}\n")
+        self.assertEqual(check_names.check(self.root)[0], ["libs/l0/src/c.cpp:3: Many is defined at libs/l0/src/a.cpp:3 already",
+                                                           "libs/l0/src/c.cpp:2: View is defined at libs/l0/src/a.cpp:2 already"])
+
     def test_anonymous_types_of_one_library(self):
         text = "namespace roomgraph {\nnamespace {\nstruct View { int a; };\n}\n}\n"
         self.write("libs/l0/src/b.cpp", text)

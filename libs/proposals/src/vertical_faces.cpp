@@ -26,7 +26,7 @@ constexpr double kFewFaces = 20;          // points that say half of what many s
 constexpr double kQuarter = std::numbers::pi / 2;
 constexpr int kDirections = 45;           // in which the best pair is looked for
 
-using Sample = std::pair<int, int>;
+using PixelSample = std::pair<int, int>;
 
 // Pixels from one sample to the next.
 double strideOf(const std::vector<MaskPoint>& points) {
@@ -54,9 +54,9 @@ VerticalFaces verticalFaces(const std::vector<MaskPoint>& points) {
   const double stride = strideOf(points);
   if (stride == 0) return out;
   const auto sampleAt = [&](const MaskPoint& p) {
-    return Sample{static_cast<int>(std::lround(p.u / stride)), static_cast<int>(std::lround(p.v / stride))};
+    return PixelSample{static_cast<int>(std::lround(p.u / stride)), static_cast<int>(std::lround(p.v / stride))};
   };
-  std::map<Sample, const MaskPoint*> grid;
+  std::map<PixelSample, const MaskPoint*> grid;
   for (const auto& p : points) grid[sampleAt(p)] = &p;
   std::vector<Eigen::Vector3d> near;
   for (const auto& [at, point] : grid) {

@@ -71,7 +71,7 @@ Eigen::Vector2d drawPlace(const Room& room, double margin_m, Random& random) {
           random.uniform(room.min_m.y() + margin_m, room.max_m.y() - margin_m)};
 }
 
-Person drawPerson(Random& random) {
+Person drawTrainingPerson(Random& random) {
   Person out;
   out.height_m = random.uniform(1.5, 1.95);
   out.skin = pick(random, skinColors());
@@ -86,7 +86,7 @@ void seatMore(World& world, Random& random) {
     if (!height || seat.model == "stool" || !random.chance(0.25)) continue;
     const double along = seat.model == "sofa" ? random.uniform(-0.4, 0.4) : 0;
     const Pose2 at = placeOnSeat(seat, along);
-    Person person = drawPerson(random);
+    Person person = drawTrainingPerson(random);
     person.sits = true;
     person.path_m = {{at.x, at.y}};
     person.yaw_rad = at.yaw;
@@ -102,7 +102,7 @@ void standMore(World& world, Random& random) {
     for (int more = drawInt(random, 0, 2); more > 0; --more) {
       const Eigen::Vector2d at = drawPlace(room, 0.35, random), to = drawPlace(room, 0.35, random);
       if (!isFree(world, at, 0.3)) continue;
-      Person person = drawPerson(random);
+      Person person = drawTrainingPerson(random);
       person.path_m = {at};
       person.yaw_rad = random.uniform(-std::numbers::pi, std::numbers::pi);
       if (random.chance(0.5) && (to - at).norm() > 0.5) person.path_m.push_back(to);
