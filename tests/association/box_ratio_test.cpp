@@ -90,6 +90,18 @@ TEST(BoxRatio, SaysNothingWithoutACamera) {
   WorldMeasurement seen = chairSeenAt(3, 0, silhouette(3, 0));
   seen.camera = {};
   EXPECT_EQ(MeasurementModel{}.boxRatio(seen, cylinderAt(1, 5, 1)), 1);
+  EXPECT_FALSE(MeasurementModel{}.ownBox(seen));
+}
+
+TEST(BoxRatio, IsByTheOwnBoxThatIsKnownBefore) {
+  const MeasurementModel model;
+  const WorldMeasurement seen = chairSeenAt(3, 0.4, {200, 150, 300, 380});
+  const Landmark chair = cylinderAt(1, 4, 0.1);
+  const OwnBox own = model.ownBox(seen);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(model.boxRatio(seen, chair, own), model.boxRatio(seen, chair));
+  EXPECT_DOUBLE_EQ(model.boxRatio(seen, chair, 3 * *own), model.boxRatio(seen, chair) / 3);
+  EXPECT_EQ(model.density(seen, chair, own), model.density(seen, chair));
 }
 
 TEST(BoxRatio, ALandmarkBehindTheCameraIsHardlySeen) {

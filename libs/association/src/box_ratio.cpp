@@ -37,20 +37,24 @@ double boxDensity(const Box2& box, const std::optional<ProjectedShape>& projecte
   return density;
 }
 
+double densityOf(const WorldMeasurement& seen, const ObjectShape& shape, const Pose3& camera_from_shape, const BoxNoise& noise) {
+  return boxDensity(seen.measurement.detection.box, projectShape(shape, camera_from_shape, seen.camera), seen.camera, noise);
+}
+
 }  // namespace
 
-double MeasurementModel::boxRatio(const WorldMeasurement& seen, const Landmark& landmark) const {
-  const Box2& box = seen.measurement.detection.box;
-  if (!seen.camera.valid() || box.empty()) return 1;
-  const Pose3& camera_from_object = seen.measurement.proposal.camera_from_object;
+OwnBox MeasurementModel::ownBox(const WorldMeasurement& seen) const {
+  const Proposal& proposal = seen.measurement.proposal;
+  if (!seen.camera.valid() || seen.measurement.detection.box.empty()) return std::nullopt;
+  return densityOf(seen, proposal.shape, proposal.camera_from_object, {box_sigma, hidden_side});
+}
+
+double MeasurementModel::boxRatio(const WorldMeasurement& seen, const Landmark& landmark, const OwnBox& own) const {
+  const OwnBox by_itself = own ? own : ownBox(seen);
+  if (!by_itself) return 1;
   const Pose3 camera_from_landmark =
-      camera_from_object * seen.world_from_object.inverse() * landmark.worldFromObject();
-  const BoxNoise noise{box_sigma, hidden_side};
-  const auto density = [&](const ObjectShape& shape, const Pose3& camera_from_shape) {
-    return boxDensity(box, projectShape(shape, camera_from_shape, seen.camera), seen.camera, noise);
-  };
-  return density(landmark.shape, camera_from_landmark) /
-         density(seen.measurement.proposal.shape, camera_from_object);
+      seen.measurement.proposal.camera_from_object * seen.world_from_object.inverse() * landmark.worldFromObject();
+  return densityOf(seen, landmark.shape, camera_from_landmark, {box_sigma, hidden_side}) / *by_itself;
 }
 
 }  // namespace roomgraph

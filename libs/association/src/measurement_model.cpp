@@ -111,13 +111,13 @@ double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landma
          (2 * std::numbers::pi * scale * std::sqrt(determinant));
 }
 
-double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark) const {
+double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark, const OwnBox& own) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
   const double ray = rayDensity(seen, landmark, shared_error_m, gate_sigma);
   // The proposal's position already contains the information of box and depth; the box adds some only where the depth
   // is an outlier.
   return (1 - failed) * placeDensity(seen, landmark) +
-         (ray > 0 ? failed * ray * boxRatio(seen, landmark) : 0);
+         (ray > 0 ? failed * ray * boxRatio(seen, landmark, own) : 0);
 }
 
 double MeasurementModel::depthTrust(const WorldMeasurement& seen, const Landmark& landmark) const {
@@ -128,13 +128,13 @@ double MeasurementModel::depthTrust(const WorldMeasurement& seen, const Landmark
 }
 
 Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
-                                            const std::vector<Landmark>& landmarks) const {
+                                            const std::vector<Landmark>& landmarks, const OwnBox& own) const {
   const auto& proposal = seen.measurement.proposal;
   Alternatives out;
   out.fresh = new_density_per_m2;
   for (const auto& landmark : landmarks) {
     if (landmark.class_name == proposal.class_name) {
-      if (inGate(seen, landmark)) out.same_class.emplace_back(landmark.id, density(seen, landmark));
+      if (inGate(seen, landmark)) out.same_class.emplace_back(landmark.id, density(seen, landmark, own));
       continue;
     }
     const double size = proposal.shape.horizontalExtent() + landmark.shape.horizontalExtent();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <opencv2/core/utility.hpp>
 #include <set>
 
 #include "alternative_weights.h"
@@ -58,21 +60,35 @@ std::vector<double> featureShares(const ObjectMeasurement& measurement, Landmark
   return out;
 }
 
-Evidence gather(const Frames& frames, const Decisions& last, const std::vector<Landmark>& landmarks,
+using OwnBoxes = std::vector<std::vector<OwnBox>>;  // by frame, measurement
+
+void forEachFrame(const Frames& frames, const std::function<void(std::size_t)>& work) {
+  cv::parallel_for_(cv::Range(0, static_cast<int>(frames.size())), [&](const cv::Range& range) {
+    for (int f = range.start; f < range.end; ++f) work(static_cast<std::size_t>(f));
+  });
+}
+
+OwnBoxes ownBoxes(const Frames& frames, const MeasurementModel& model) {
+  OwnBoxes out(frames.size());
+  forEachFrame(frames, [&](std::size_t f) {
+    for (const auto& seen : frames[f]) out[f].push_back(model.ownBox(seen));
+  });
+  return out;
+}
+
+Evidence gather(const Frames& frames, const OwnBoxes& boxes, const Decisions& last, const std::vector<Landmark>& landmarks,
                 const AssociationModel& model) {
   const FeatureVotes votes = voteFeatures(frames, last);
-  Evidence out;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    out.alternatives.emplace_back();
-    out.shares.emplace_back();
+  Evidence out{std::vector<std::vector<Alternatives>>(frames.size()), Priors(frames.size())};
+  forEachFrame(frames, [&](std::size_t f) {
     for (std::size_t k = 0; k < frames[f].size(); ++k) {
-      out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks));
+      out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks, boxes[f][k]));
       out.alternatives[f].back().fresh *= kNewObjectPriorInBatch;
       const LandmarkId own = last.empty() ? LandmarkId{} : last[f][k].landmark;
       out.shares[f].push_back(featureShares(frames[f][k].measurement, own, idsOf(out.alternatives[f][k]),
                                             votes, model.neutral_features));
     }
-  }
+  });
   return out;
 }
 
@@ -285,8 +301,9 @@ void nameFirstSightings(Reassociation& result) {
 
 Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial, LandmarkIdentity identity,
                           const AssociationModel& model, const LandmarkRules& rules, int max_rounds) {
+  const OwnBoxes boxes = ownBoxes(by_frame, model.measurement);
   const auto smoothed = [&](const std::vector<Landmark>& landmarks, const Decisions& last) {
-    return smooth(by_frame, gather(by_frame, last, landmarks, model), model);
+    return smooth(by_frame, gather(by_frame, boxes, last, landmarks, model), model);
   };
   return reassociate(by_frame, std::move(initial), std::move(identity), smoothed, model.measurement, rules,
                      max_rounds);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "attached_poses.h"
 #include "chordal.h"
 #include "costs.h"
 #include "graph_state.h"
@@ -250,6 +251,8 @@ void FactorGraph::addPoint(PointId id, const Eigen::Vector3d& in_world) {
 }
 
 void FactorGraph::add(const Factor& factor) {
+  const auto of_bodies = toldOfBodies(factor, impl_->attached);
+  if (!of_bodies) return;
   std::visit(
       [this](const auto& f) {
         const Blocks blocks = blocksOf(*impl_, f);
@@ -258,7 +261,7 @@ void FactorGraph::add(const Factor& factor) {
         release(*impl_, f);
         impl_->factors.push_back({f, id});
       },
-      factor);
+      *of_bodies);
 }
 
 SolveReport FactorGraph::optimize(int max_iterations) {
@@ -360,14 +363,6 @@ bool FactorGraph::initializePoses() {
 
 double FactorGraph::chiSquared() const {
   return 2 * costNow(*impl_->problem);
-}
-
-Pose3 FactorGraph::pose(NodeId id) const {
-  const auto& state = impl_->at(id);
-  Pose3 pose = Pose3::Identity();
-  pose.linear() = Eigen::Quaterniond(state.q.data()).normalized().toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(state.t.data());
-  return pose;
 }
 
 LandmarkEstimate FactorGraph::landmark(LandmarkId id) const {

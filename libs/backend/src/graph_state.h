@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "attached_poses.h"
 #include "roomgraph/backend/factor_graph.h"
 
 namespace roomgraph {
@@ -69,6 +70,7 @@ struct FactorGraph::Impl {
   int freedoms(const double* block) const { return problem->ParameterBlockTangentSize(block); }
 
   std::map<NodeId, Pose> poses;
+  AttachedPoses attached;
   std::map<LandmarkId, Object> objects;
   std::map<PointId, Point> points;
   std::deque<Entry> factors;  ///< tens of thousands, of half a kilobyte each: none is moved or held in reserve

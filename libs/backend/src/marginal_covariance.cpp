@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marginal covariances of landmarks from the decomposed information matrix.
-#include <Eigen/SparseCholesky>
+#include <Eigen/CholmodSupport>
 #include <numbers>
 #include <unordered_map>
 
 #include "graph_state.h"
+#include "solve.h"
 
 namespace roomgraph {
 namespace {
@@ -12,7 +13,13 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr double kUniformYaw = std::numbers::pi * std::numbers::pi / 3;  // variance over the circle
-constexpr double kSmallestPivot = 1e-12;  // of a matrix with a diagonal of ones
+constexpr double kSmallestPivot = 1e-12;  // of a matrix with a diagonal of ones, against the largest
+
+// Says how near to singular what it decomposed was.
+class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
+ public:
+  double leastPivot() { return cholmod_rcond(m_cholmodFactor, &cholmod()); }
+};
 
 Eigen::VectorXd squaredNorms(const Sparse& columns) {
   Eigen::VectorXd out(columns.cols());
@@ -61,14 +68,16 @@ class Covariances {
     Sparse information(size_, size_);
     information.selfadjointView<Eigen::Lower>().rankUpdate(Sparse(jacobian.transpose()));
     jacobian = Sparse();
+    const SerialCholmod serial;
+    solver_.cholmod().print = 0;  // what is singular is said by the result
     solver_.compute(information);
-    ok_ = solver_.info() == Eigen::Success && solver_.vectorD().minCoeff() > kSmallestPivot;
+    ok_ = solver_.info() == Eigen::Success && solver_.leastPivot() > kSmallestPivot;
   }
 
   std::unordered_map<const double*, std::pair<int, int>> places_;  // block: first row, rows
   int size_ = 0;
   Eigen::VectorXd scale_;
-  Eigen::SimplicialLDLT<Sparse> solver_;
+  Cholesky solver_;
   bool ok_ = false;
 };
 

@@ -75,7 +75,8 @@ struct GroundResidual {
       : normal(f.normal_in_robot.normalized()),
         offset(f.offset_m),
         sigma_normal(f.sigma_normal_rad),
-        sigma_offset(f.sigma_offset_m) {}
+        sigma_offset(f.sigma_offset_m),
+        place(f.place_in_robot) {}
 
   template <class T>
   bool operator()(const T* t, const T* q, T* out) const {
@@ -83,12 +84,13 @@ struct GroundResidual {
     const Vec3<T> up = rotation * normal.cast<T>();
     out[0] = up.x() / T(sigma_normal);
     out[1] = up.y() / T(sigma_normal);
-    out[2] = (t[2] - T(offset)) / T(sigma_offset);
+    out[2] = (t[2] + (rotation * place.cast<T>()).z() - T(offset)) / T(sigma_offset);
     return true;
   }
 
   Eigen::Vector3d normal;
   double offset, sigma_normal, sigma_offset;
+  Eigen::Vector3d place;
 };
 
 /// Square root of the information of (x, y, z, yaw). Without a measured yaw its row and column are zero.

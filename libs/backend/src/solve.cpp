@@ -14,28 +14,20 @@ extern "C" {
 }
 
 namespace roomgraph {
+
+SerialCholmod::SerialCholmod() : levels_(omp_get_max_active_levels ? omp_get_max_active_levels() : 0) {
+  if (omp_set_max_active_levels) omp_set_max_active_levels(0);
+}
+
+SerialCholmod::~SerialCholmod() {
+  if (omp_set_max_active_levels) omp_set_max_active_levels(levels_);
+}
+
 namespace {
 
 // In standard deviations of all variables together. Ceres begins with 10000: where the first step fails, ten more are
 // spent on halving that.
 constexpr double kDoglegRadius = 100;
-
-// CHOLMOD shares out every supernode among four threads, whatever it is asked for. Our matrices are small: threads
-// take longer to wake than to work, and far longer when other programs need the cores. The level is the calling thread's.
-class SerialCholmod {
- public:
-  SerialCholmod() {
-    if (omp_set_max_active_levels) omp_set_max_active_levels(0);
-  }
-  ~SerialCholmod() {
-    if (omp_set_max_active_levels) omp_set_max_active_levels(levels_);
-  }
-  SerialCholmod(const SerialCholmod&) = delete;
-  SerialCholmod& operator=(const SerialCholmod&) = delete;
-
- private:
-  int levels_ = omp_get_max_active_levels ? omp_get_max_active_levels() : 0;
-};
 
 // Keeps Ceres from writing to stderr what its result says as well: that something is singular or not finite. The log
 // level is global: of several simultaneous calls the first that begins changes it and the last that ends restores it.

@@ -12,6 +12,20 @@
 
 namespace roomgraph {
 
+/// While it lives. CHOLMOD shares out every supernode among four threads, whatever it is asked for. Our matrices are small:
+/// threads take longer to wake than to work, and far longer when other programs need the cores. The level is the calling
+/// thread's.
+class SerialCholmod {
+ public:
+  SerialCholmod();
+  ~SerialCholmod();
+  SerialCholmod(const SerialCholmod&) = delete;
+  SerialCholmod& operator=(const SerialCholmod&) = delete;
+
+ private:
+  int levels_;
+};
+
 /// The solver's options: sparse Cholesky, one thread, silent.
 ceres::Solver::Options solverOptions(const SolveOptions& options);
 /// Runs Ceres without output on stderr.

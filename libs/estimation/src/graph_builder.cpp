@@ -69,22 +69,48 @@ void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph, const Backen
     if (objects.yaws.contains(factor.landmark)) graph.add(factor);
 }
 
-// Key poses from `first` on, with the factors between neighbours and of the floor. `hold`: the gauge is fixed
-// at the first one.
-std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
-                               const Measurements& measurements, const BackendOptions& options,
-                               std::size_t first, bool hold) {
+// Which key poses of the graph there are, and how they are held.
+struct PosesInGraph {
+  std::size_t first = 0;      // the oldest
+  bool hold = false;          // the gauge is fixed at the first one
+  std::size_t free = kAllFree;  // so many latest ones have a pose of their own; older ones move with the first of their local map
+};
+
+// Whether the movement to the next one is known.
+bool goesOn(const Motion& motion, const std::vector<KeyPose>& nodes, std::size_t i) {
+  return connected(motion, nodes[i], nodes[i + 1]);
+}
+
+void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Motion& motion, const BackendOptions& options,
+                  const PosesInGraph& which, bool fix_first) {
+  const auto together = static_cast<std::size_t>(std::max(options.local_map_nodes, 1));
+  std::size_t body = which.first;
+  for (std::size_t i = which.first; i < nodes.size(); ++i) {
+    const bool free = nodes.size() - i <= which.free;
+    if (free || i == which.first || i % together == 0 || !goesOn(motion, nodes, i - 1)) {
+      body = i;
+      graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == which.first && fix_first);
+    } else {
+      graph.attach(nodes[i].id, nodes[body].id, nodes[i].world_from_robot);
+    }
+  }
+}
+
+// Key poses, with the factors between neighbours and of the floor.
+std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
+                               const BackendOptions& options, const PosesInGraph& which) {
   const auto& nodes = poses.nodes();
+  const auto [first, hold, free] = which;
   const bool loose = hold && first == 0 && !measurements.planar && !measurements.grounds.empty();
-  for (std::size_t i = first; i < nodes.size(); ++i)
-    graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == first && hold && !loose);
+  addVariables(graph, nodes, motion, options, which, hold && !loose);
   if (loose) addLooseAnchor(graph, nodes[first]);
   const bool local_maps = options.local_map_nodes > 0;
   for (std::size_t i = first; i + 1 < nodes.size(); ++i)
     addSteps(graph, nodes[i], nodes[i + 1], motion, local_maps);
   if (measurements.planar)
     for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
-      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+      if (!graph.isAttached(nodes[i].id))
+        graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   const auto since =
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
@@ -158,10 +184,10 @@ Variables onlyInGraph(const std::vector<LocalMap>& local_maps, const ObjectFacto
 
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options,
-                       const FactorGraph* former) {
+                       const FactorGraph* former, std::size_t free) {
   FactorGraph graph;
   const bool fixed = !measurements.fixes.empty();
-  const auto local_maps = addPoses(graph, poses, motion, measurements, options, 0, !fixed);
+  const auto local_maps = addPoses(graph, poses, motion, measurements, options, {.hold = !fixed, .free = free});
   if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
     if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
@@ -183,7 +209,7 @@ Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measuremen
                    const BackendOptions& options, std::size_t first,
                    const std::optional<MarginalPrior>& prior) {
   Window window;
-  window.local_maps = addPoses(window.graph, poses, motion, measurements, options, first, !prior);
+  window.local_maps = addPoses(window.graph, poses, motion, measurements, options, {.first = first, .hold = !prior});
   if (prior) {
     addReplacedMaps(window, *prior);
     window.graph.add(*prior);

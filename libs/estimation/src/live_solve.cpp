@@ -41,7 +41,7 @@ FactorGraph& LiveSolve::graph() {
 
 void LiveSolve::build() {
   const ObjectsInGraph objects = objects_(poses_);
-  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_));
+  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_, nullptr, static_cast<std::size_t>(options_.free_nodes)));
   landmarks_ = landmarksIn(*graph_, objects);
   measurements_ = {};  // the graph has them, and is large enough
 }

@@ -58,6 +58,11 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
            "errors do not add up within it. 0: each movement is measured for itself.",
        .min = 0,
        .max = 1000});
+  v.add("free_nodes", o.free_nodes,
+        {.doc = "The latest key poses that have a pose of their own in optimisations of the whole graph; older ones move rigidly "
+                "with the first one of their local map. In the last optimisation of a run all have.",
+         .min = 1,
+         .max = 1000000});
   v.add("optimize_every_nodes", o.optimize_every_nodes,
         {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
   v.add("urgent_closure_m", o.urgent_closure_m,

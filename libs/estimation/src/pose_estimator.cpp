@@ -13,7 +13,7 @@ namespace roomgraph {
 namespace {
 constexpr int kLiveIterations = 10;  // bounds the work beside a run; the next optimisation begins where this one ended
 constexpr int kNearIterations = 10;
-constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100, kSquaredNodesPerLag = 90'000;
+constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100;
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 }
 
@@ -201,7 +201,7 @@ bool PoseEstimator::takesOver() const {
 }
 
 std::size_t PoseEstimator::lagOf(std::size_t nodes) {
-  return std::max({kLeastLag, nodes / kNodesPerLag, nodes * nodes / kSquaredNodesPerLag});
+  return std::max(kLeastLag, nodes / kNodesPerLag);
 }
 
 std::optional<GraphSolution> PoseEstimator::takeOver() {
@@ -234,9 +234,11 @@ std::optional<GraphSolution> PoseEstimator::accept(const FactorGraph& graph, con
 
 std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects, Effort effort) {
   SolveOptions until{.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true};
+  std::size_t free = kAllFree;
   if (effort == Effort::kNear) {
     until.max_iterations = std::min(options_.max_iterations, kNearIterations);
     until.function_tolerance = options_.live_tolerance;
+    free = static_cast<std::size_t>(options_.free_nodes);
     pullSurprises();
   } else {
     measurements_.pulls.clear();  // the map is the optimum of what was measured, each once
@@ -245,7 +247,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   live_.reset();
   nodes_since_optimization_ = 0;
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
-  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr);
+  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr, free);
   const SolveReport report =
       solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
   graph_is_near_ = report.usable;

@@ -47,6 +47,11 @@ class FactorGraph {
   FactorGraph& operator=(FactorGraph&&) noexcept;
 
   void addPose(NodeId id, const Pose3& world_from_robot, bool fixed = false);
+  /// A pose that moves rigidly with `to`, which is in the graph and not attached itself: it has no variables, and factors
+  /// that are added of it are told of `to`. Those between poses of one such body are left out; what holds for single poses
+  /// (PlanarFactor, MarginalPrior) is refused with std::invalid_argument. Files of the graph do not hold such poses.
+  void attach(NodeId id, NodeId to, const Pose3& world_from_robot);
+  bool isAttached(NodeId id) const;
   void addLandmark(LandmarkId id, const LandmarkEstimate& initial);
   void addPoint(PointId id, const Eigen::Vector3d& in_world);
   /// Throws std::invalid_argument when the landmark of a LandmarkBoxFactor or PointLandmarkFactor has no

@@ -46,8 +46,9 @@ struct PlanarFactor {
 struct GroundFactor {
   NodeId node;
   Eigen::Vector3d normal_in_robot = Eigen::Vector3d::UnitZ();
-  double offset_m = 0;  ///< height of the robot frame's origin above the plane
+  double offset_m = 0;  ///< height of the robot frame's origin, or of `place_in_robot`, above the plane
   double sigma_normal_rad = 0.02, sigma_offset_m = 0.02;
+  Eigen::Vector3d place_in_robot = Eigen::Vector3d::Zero();
 };
 
 /// Bottom centre of an object, and its yaw when observable, seen from a pose.

@@ -2,6 +2,7 @@
 // Construction of the factor graph, whole or as a sliding window, from all measurements of a run.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -43,12 +44,15 @@ struct LocalMap {
   bool follows = false;  ///< the source also covers the movement from the beginning of the map before it
 };
 
+constexpr std::size_t kAllFree = std::numeric_limits<std::size_t>::max();
+
 /// Movements between consecutive key poses, local maps of images and scans with the key poses in them,
 /// priors, closures, ground and objects (method.md sec. 4.4, factors 1 to 6). With a `former` graph of the
-/// run, local maps, views and points begin where its solution left them.
+/// run, local maps, views and points begin where its solution left them. Only the latest `free` key poses have poses of their
+/// own; older ones move rigidly with the first one of their local map.
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options,
-                       const FactorGraph* former = nullptr);
+                       const FactorGraph* former = nullptr, std::size_t free = kAllFree);
 /// Those of the landmarks that the graph holds.
 std::vector<LandmarkId> landmarksIn(const FactorGraph& graph, const ObjectsInGraph& objects);
 

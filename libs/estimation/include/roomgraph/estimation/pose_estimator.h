@@ -90,7 +90,7 @@ class PoseEstimator {
   bool solving() const { return live_ != nullptr; }
   bool takesOver() const;
   /// Key poses from the beginning of an optimisation of so many to its turn: as many as take a robot, or a replay twice as
-  /// fast, longer to drive than it takes, which grows with the square of the graph once that is large.
+  /// fast, longer to drive than it takes.
   static std::size_t lagOf(std::size_t nodes);
   /// Waits for what beginLive() began, and sets the key poses to that; later ones move with the last of them. Nothing
   /// when nothing was begun, the solver found no usable solution, or the poses were moved meanwhile.

@@ -57,13 +57,10 @@ void addCircle(const Vec3<T>& center, const Vec3<T>& normal, const T& radius, co
   bounds.add(u[1], v[1]);
 }
 
-/// Calls with the first end of an edge if it is in front of the near plane, and with the edge's intersection with it; the
-/// second end is the next edge's first.
+/// Calls with an edge's intersection with the near plane, if there is one.
 template <class T, class Call>
-void forSeenEnds(const Vec3<T>& p, const Vec3<T>& q, double near_m, const Call& call) {
-  const bool p_seen = p.z() >= T(near_m), q_seen = q.z() >= T(near_m);
-  if (p_seen) call(p);
-  if (p_seen == q_seen) return;
+void forIntersection(const Vec3<T>& p, const Vec3<T>& q, double near_m, const Call& call) {
+  if ((p.z() >= T(near_m)) == (q.z() >= T(near_m))) return;
   const T ratio = (T(near_m) - p.z()) / (q.z() - p.z());
   call(Vec3<T>(p + ratio * (q - p)));
 }
@@ -84,9 +81,11 @@ void forEachSeenCorner(ShapeKind kind, const Vec3<T>& size, const Mat3<T>& axes,
   }
   for (std::size_t i = 0; i < low.size(); ++i) {
     const std::size_t next = (i + 1) % low.size();
-    forSeenEnds(low[i], low[next], near_m, call);
-    forSeenEnds(high[i], high[next], near_m, call);
-    forSeenEnds(low[i], high[i], near_m, call);
+    for (const auto* p : {&low[i], &high[i]})
+      if (p->z() >= T(near_m)) call(*p);
+    forIntersection(low[i], low[next], near_m, call);
+    forIntersection(high[i], high[next], near_m, call);
+    forIntersection(low[i], high[i], near_m, call);
   }
 }
 

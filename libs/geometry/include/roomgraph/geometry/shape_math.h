@@ -75,6 +75,19 @@ std::array<T, 2> distanceOutside(ShapeKind kind, const Vec3<T>& size, const Vec3
   return {lengthOf(beyondExtent(point.x(), size[1]), beyondExtent(point.y(), size[0])), distance};
 }
 
+/// Counter-clockwise, from (1, 0). One of the numbers of corners is kept by each thread: shapes are projected by the thousand.
+inline const std::vector<Eigen::Vector2d>& cornersOfUnitCircle(int count) {
+  thread_local std::vector<Eigen::Vector2d> corners;
+  if (static_cast<int>(corners.size()) != count) {
+    corners.clear();
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      corners.emplace_back(std::cos(angle), std::sin(angle));
+    }
+  }
+  return corners;
+}
+
 /// Corners of the footprint polygon, counter-clockwise; a circle becomes a polygon of `circle` corners on it.
 template <class T>
 std::vector<Eigen::Matrix<T, 2, 1>> footprintCorners(ShapeKind kind, const Vec3<T>& size, int circle) {
@@ -83,11 +96,9 @@ std::vector<Eigen::Matrix<T, 2, 1>> footprintCorners(ShapeKind kind, const Vec3<
     return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
   }
   std::vector<Eigen::Matrix<T, 2, 1>> corners;
+  corners.reserve(static_cast<std::size_t>(circle));
   const T radius = radiusOf(size);
-  for (int i = 0; i < circle; ++i) {
-    const double angle = 2 * std::numbers::pi * i / circle;
-    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-  }
+  for (const Eigen::Vector2d& corner : cornersOfUnitCircle(circle)) corners.emplace_back(radius * corner.x(), radius * corner.y());
   return corners;
 }
 
