@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 
 packages=(
   build-essential cmake ninja-build ccache git python3
-  libmrpt-dev mrpt-common libceres-dev libopencv-dev libtbb-dev libeigen3-dev zlib1g-dev libjpeg-dev libyaml-cpp-dev
+  libmrpt-dev mrpt-common libceres-dev libsuitesparse-dev libopencv-dev libtbb-dev libeigen3-dev zlib1g-dev libjpeg-dev libyaml-cpp-dev
   libcli11-dev nlohmann-json3-dev libnanoflann-dev libgtest-dev libgmock-dev libbenchmark-dev
   libcurl4-openssl-dev libssl-dev libsqlite3-dev liblz4-dev libzstd-dev libbz2-dev libegl1 libgl1-mesa-dri libmrpt-gui-dev libmrpt-graphslam-dev libgl-dev libcairo2-dev pkg-config
   ${MORE_PACKAGES:-}

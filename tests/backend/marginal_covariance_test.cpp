@@ -171,5 +171,26 @@ TEST(MarginalCovariance, NoneForASingularProblem) {
   EXPECT_FALSE(graph.landmarkCovariances());
 }
 
+// A pose that is held by next to nothing, and what it sees: of the matrix with a diagonal of ones one pivot is the ratio of
+// both variances.
+TEST(MarginalCovariance, NoneWhereNextToNothingHoldsIt) {
+  const auto held = [](double ratio) {
+    FactorGraph graph;
+    graph.addPose(NodeId{0}, Pose3::Identity(), true);
+    graph.addPose(NodeId{1}, Pose3::Identity());
+    graph.addLandmark(LandmarkId{0}, {{1, 0, 0}, 0});
+    graph.add(BetweenFactor{NodeId{0}, NodeId{1}, Pose3::Identity(), 1e-4 / ratio * Matrix6d::Identity()});
+    LandmarkFactor factor{NodeId{1}, LandmarkId{0}, {1, 0, 0}};
+    factor.covariance = 1e-4 * Eigen::Matrix4d::Identity();
+    factor.robust_width = 0;
+    graph.add(factor);
+    return graph.landmarkCovariances();
+  };
+  EXPECT_FALSE(held(1e-14));
+  const auto loose = held(1e-9);
+  ASSERT_TRUE(loose);
+  EXPECT_NEAR(loose->at(LandmarkId{0})(0, 0) / 1e5, 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace roomgraph::test

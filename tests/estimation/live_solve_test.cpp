@@ -68,6 +68,50 @@ TEST(LiveSolve, LargerGraphsHaveLonger) {
   EXPECT_EQ(PoseEstimator::lagOf(3000), 30u);
 }
 
+// How much movements between key poses have changed, those of [first, end).
+double bent(const std::vector<Pose3>& before, const std::vector<Pose3>& now, std::size_t first, std::size_t end) {
+  double most = 0;
+  for (std::size_t i = first; i + 1 < end; ++i)
+    most = std::max(most, distance(before[i].inverse() * before[i + 1], now[i].inverse() * now[i + 1]));
+  return most;
+}
+
+// Closures bend drifting wheels: everywhere the first time; later in what came since, and between bodies.
+TEST(LiveSolve, WhatWasInNoneBeforeBendsAndOlderOnesMoveInBodies) {
+  const Threads one(1);
+  Drive drive;
+  drive.options.free_nodes = 2;
+  const auto solved = [&drive] {
+    const auto before = drive.path();
+    drive.begin();
+    EXPECT_TRUE(drive.estimator.takeOver());
+    return std::pair(before, drive.path());
+  };
+  drive.on(24);
+  drive.estimator.addClosures({closure(0, 22), closure(4, 23)});
+  const auto [at_first, first] = solved();
+  EXPECT_GT(bent(at_first, first, 0, 10), 1e-4);
+  drive.on(12);
+  drive.estimator.addClosures({closure(2, 34), closure(9, 35)});
+  const auto [before, second] = solved();
+  EXPECT_LT(bent(before, second, 0, 10), 1e-9);
+  EXPECT_LT(bent(before, second, 10, 20), 1e-9);
+  EXPECT_GT(bent(before, second, 9, 11), 1e-5);
+  EXPECT_GT(bent(before, second, 24, 36), 1e-4);
+}
+
+TEST(LiveSolve, AtTheEndOnlySearchesUseBodies) {
+  Drive drive;
+  drive.options.free_nodes = 5;
+  drive.on(kNodes);
+  using Effort = PoseEstimator::Effort;
+  for (const auto& [effort, in_bodies] : {std::pair{Effort::kNear, false}, {Effort::kNearInBodies, true}, {Effort::kToTheEnd, false}}) {
+    EXPECT_TRUE(drive.estimator.optimizeAll({}, effort));
+    EXPECT_EQ(drive.estimator.graph().isAttached(NodeId{1}), in_bodies);
+    EXPECT_FALSE(drive.estimator.graph().isAttached(NodeId{kNodes - 1}));
+  }
+}
+
 TEST(LiveSolve, IsTakenOverThreeKeyPosesLaterWithAnyNumberOfThreads) {
   std::vector<std::vector<Pose3>> paths;
   for (const int threads : {1, 2}) {

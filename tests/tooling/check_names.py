@@ -45,13 +45,22 @@ def types_of(text):
             scopes.append(None)
 
 
+def without_values(definition):
+    """Of what stands in brackets, and behind an equals sign, nothing is defined here. Places stay."""
+    out, depth = [], 0
+    for c in definition:
+        depth -= c in ")]}"
+        out.append(" " if depth > 0 and c != "\n" else c)
+        depth += c in "([{"
+    return re.sub(r"=[^,;]*", lambda m: "=" + " " * (len(m.group(0)) - 1), "".join(out))
+
+
 def constants_of(text):
     """(name, line) of every constant of a file that is not local to something."""
     text = cpp_functions.blanked(text)
     for many in CONSTANTS.finditer(text):
         begin = many.start("defined")
-        # What is used in a value is not defined here: braces and brackets of values go first.
-        names = re.sub(r"=[^,;]*", lambda m: "=" + " " * (len(m.group(0)) - 1), many.group("defined"))
+        names = without_values(many.group("defined"))
         for one in CONSTANT.finditer(names):
             yield one.group("name"), text.count("\n", 0, begin + one.start("name")) + 1
 

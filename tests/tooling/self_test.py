@@ -60,6 +60,7 @@ class Names(TreeTest):
         self.write("libs/l0/src/a.cpp", "namespace {\nconstexpr int kLeast = 3, kMost = 4;\n}\n")
         self.write("libs/l0/src/b.cpp", "namespace {\n#if X\nconstexpr bool kOn = true;\n#else\nconstexpr bool kOn = false;\n#endif\n"
                                         "int f() {\n  constexpr int kLeast = 1;\n  return kLeast;\n}\nconst double kOther = 2 * kLeast;\n}\n")
+        self.write("libs/l0/src/e.cpp", "namespace {\nconst int kFirst{kMost[0]}, kLast = f(1, kMost(2));\n}\n")
         self.write("libs/l1/src/c.cpp", "namespace {\nconst double kLeast = 2;\n}\n")
         self.assertEqual(check_names.check(self.root)[0], [])
         self.write("libs/l0/src/d.cpp", "namespace {\nconst double kFew{1}, kMost[] = {1, 2};\n}\n")

@@ -21,8 +21,8 @@ AttachedPose bodyOf(NodeId id, const AttachedPoses& attached) {
   return found == attached.end() ? AttachedPose{id} : found->second;
 }
 
-// With a = A a', b = B b' and the residual (Ra^T (b - a) - t, 2 vec(R^T Ra^T Rb)) of a movement (R, t): the residual of
-// A movement B^-1 between the bodies is J times that, as far as it is small.
+// With a = a' A, b = b' B and the residual (Ra^T (b - a) - t, 2 vec(R^T Ra^T Rb)) of a movement M = (R, t): the residual of
+// A M B^-1 between a' and b' is J times that, as far as it is small.
 std::optional<Factor> told(BetweenFactor f, const AttachedPoses& attached) {
   const AttachedPose a = bodyOf(f.a, attached), b = bodyOf(f.b, attached);
   if (a.to == b.to && f.a != f.b) return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<Factor> told(LandmarkFactor f, const AttachedPoses& attached) {
   const AttachedPose body = bodyOf(f.node, attached);
   f.node = body.to;
   f.position_in_robot = body.to_from_pose * f.position_in_robot;
-  f.yaw_in_robot = wrapAngle(f.yaw_in_robot + body.yaw);
+  f.ahead_in_robot = body.to_from_pose.linear() * f.ahead_in_robot;
   f.covariance = rotateCovariance(f.covariance, body.to_from_pose.linear());
   return f;
 }
@@ -75,8 +75,11 @@ void refuse(NodeId id, const AttachedPoses& attached) {
     throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " is attached to another");
 }
 
-std::optional<Factor> told(const PlanarFactor& f, const AttachedPoses& attached) {
-  refuse(f.node, attached);
+std::optional<Factor> told(PlanarFactor f, const AttachedPoses& attached) {
+  const AttachedPose body = bodyOf(f.node, attached);
+  f.node = body.to;
+  f.place_in_robot = body.to_from_pose * f.place_in_robot;
+  f.up_in_robot = body.to_from_pose.linear() * f.up_in_robot;
   return f;
 }
 
@@ -100,9 +103,7 @@ void FactorGraph::attach(NodeId id, NodeId to, const Pose3& world_from_robot) {
   if (impl_->poses.contains(id) || impl_->attached.contains(id))
     throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " added twice");
   refuse(to, impl_->attached);
-  const Pose3 body = pose(to);
-  impl_->attached[id] = {to, body.inverse() * world_from_robot,
-                         wrapAngle(planarPart(world_from_robot).yaw - planarPart(body).yaw)};
+  impl_->attached[id] = {to, pose(to).inverse() * world_from_robot};
 }
 
 bool FactorGraph::isAttached(NodeId id) const { return impl_->attached.contains(id); }

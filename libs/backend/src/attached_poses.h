@@ -13,12 +13,11 @@ namespace roomgraph {
 struct AttachedPose {
   NodeId to;
   Pose3 to_from_pose = Pose3::Identity();
-  double yaw = 0;  ///< in world, less that of the pose it is attached to
 };
 using AttachedPoses = std::map<NodeId, AttachedPose>;
 
-/// The factor as the poses see it to which its own are attached; nothing when it ties such a pose to itself. To the first
-/// order in its residual it costs the same. Throws std::invalid_argument for a factor that holds for one pose only.
+/// The factor as the poses see it to which its own are attached; nothing when it ties such a pose to itself. It costs the
+/// same, a movement to the first order in its residual. Throws std::invalid_argument for a MarginalPrior of such a pose.
 std::optional<Factor> toldOfBodies(const Factor& factor, const AttachedPoses& attached);
 
 }  // namespace roomgraph

@@ -55,10 +55,15 @@ inline Eigen::Matrix4d edgeCovariance(const LandmarkViewFactor& f, double landma
   return round / f.weight;
 }
 
+/// Of the landmark, counted from the robot's own x axis.
+inline double yawInRobot(const LandmarkFactor& f) {
+  return wrapAngle(f.yaw_in_robot + std::atan2(f.ahead_in_robot.y(), f.ahead_in_robot.x()));
+}
+
 /// Position and yaw of a landmark in the robot's frame as the transform of an edge.
 inline Pose3 measuredTransform(const LandmarkFactor& f) {
   const auto& p = f.position_in_robot;
-  return poseFromYpr(p.x(), p.y(), p.z(), f.has_yaw ? f.yaw_in_robot : 0, 0, 0);
+  return poseFromYpr(p.x(), p.y(), p.z(), f.has_yaw ? yawInRobot(f) : 0, 0, 0);
 }
 
 }  // namespace roomgraph

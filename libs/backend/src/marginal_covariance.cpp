@@ -15,10 +15,16 @@ using Sparse = Eigen::SparseMatrix<double>;
 constexpr double kUniformYaw = std::numbers::pi * std::numbers::pi / 3;  // variance over the circle
 constexpr double kSmallestPivot = 1e-12;  // of a matrix with a diagonal of ones, against the largest
 
-// Says how near to singular what it decomposed was.
+// Says whether what it decomposed is far enough from singular, and survives want of memory.
 class Cholesky : public Eigen::CholmodSupernodalLLT<Sparse> {
  public:
-  double leastPivot() { return cholmod_rcond(m_cholmodFactor, &cholmod()); }
+  bool decompose(const Sparse& information) {
+    cholmod().print = 0;  // the result says what is wrong
+    analyzePattern(information);
+    if (!m_cholmodFactor) return false;
+    factorize(information);
+    return info() == Eigen::Success && cholmod_rcond(m_cholmodFactor, &cholmod()) > kSmallestPivot;
+  }
 };
 
 Eigen::VectorXd squaredNorms(const Sparse& columns) {
@@ -68,10 +74,7 @@ class Covariances {
     Sparse information(size_, size_);
     information.selfadjointView<Eigen::Lower>().rankUpdate(Sparse(jacobian.transpose()));
     jacobian = Sparse();
-    const SerialCholmod serial;
-    solver_.cholmod().print = 0;  // what is singular is said by the result
-    solver_.compute(information);
-    ok_ = solver_.info() == Eigen::Success && solver_.leastPivot() > kSmallestPivot;
+    ok_ = solver_.decompose(information);
   }
 
   std::unordered_map<const double*, std::pair<int, int>> places_;  // block: first row, rows
@@ -100,6 +103,7 @@ std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovari
 std::optional<std::map<LandmarkId, Eigen::Matrix4d>> FactorGraph::landmarkCovariances(
     const std::vector<LandmarkId>& of) const {
   if (impl_->objects.empty()) return std::nullopt;
+  const SerialCholmod serial;
   const Covariances covariances(*impl_);
   if (!covariances.ok()) return std::nullopt;
   std::map<LandmarkId, Eigen::Matrix4d> result;

@@ -37,7 +37,7 @@ Eigen::Matrix3d planarInformation(const Eigen::Matrix4d& of_place, bool has_yaw)
 }
 
 PlanarEdge edgeOf(const LandmarkFactor& sighting, NodeId vertex) {
-  const double yaw = sighting.has_yaw ? sighting.yaw_in_robot : 0;
+  const double yaw = sighting.has_yaw ? yawInRobot(sighting) : 0;
   const auto& p = sighting.position_in_robot;
   return {sighting.node,
           vertex,

@@ -55,19 +55,19 @@ struct BetweenResidual {
 };
 
 struct PlanarResidual {
-  explicit PlanarResidual(const PlanarFactor& f) : sigma_z(f.sigma_z_m), sigma_tilt(f.sigma_tilt_rad) {}
+  explicit PlanarResidual(const PlanarFactor& f) : factor(f) {}
 
   template <class T>
   bool operator()(const T* t, const T* q, T* out) const {
     const Eigen::Map<const Eigen::Quaternion<T>> rotation(q);
-    const Vec3<T> up = rotation * Vec3<T>(T(0), T(0), T(1));
-    out[0] = t[2] / T(sigma_z);
-    out[1] = up.x() / T(sigma_tilt);
-    out[2] = up.y() / T(sigma_tilt);
+    const Vec3<T> up = rotation * factor.up_in_robot.cast<T>();
+    out[0] = (t[2] + (rotation * factor.place_in_robot.cast<T>()).z()) / T(factor.sigma_z_m);
+    out[1] = up.x() / T(factor.sigma_tilt_rad);
+    out[2] = up.y() / T(factor.sigma_tilt_rad);
     return true;
   }
 
-  double sigma_z, sigma_tilt;
+  PlanarFactor factor;
 };
 
 struct GroundResidual {
@@ -113,7 +113,7 @@ struct LandmarkResidual {
     const Eigen::Map<const Vec3<T>> position(t), object(landmark);
     const Eigen::Map<const Eigen::Quaternion<T>> rotation(q);
     const Vec3<T> seen = rotation.conjugate() * (object - position);
-    const Vec3<T> ahead = rotation * Vec3<T>(T(1), T(0), T(0));
+    const Vec3<T> ahead = rotation * factor.ahead_in_robot.cast<T>();
     using std::atan2;
     Eigen::Matrix<T, 4, 1> error;
     error.template head<3>() = seen - factor.position_in_robot.cast<T>();

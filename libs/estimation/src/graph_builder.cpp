@@ -73,21 +73,22 @@ void addObjects(FactorGraph& graph, const ObjectsInGraph& in_graph, const Backen
 struct PosesInGraph {
   std::size_t first = 0;      // the oldest
   bool hold = false;          // the gauge is fixed at the first one
-  std::size_t free = kAllFree;  // so many latest ones have a pose of their own; older ones move with the first of their local map
+  std::size_t free = kAllFree;  // so many latest ones have a pose of their own; older ones move with the first of their body
 };
+
+constexpr std::size_t kBody = 10;  // key poses that move together
 
 // Whether the movement to the next one is known.
 bool goesOn(const Motion& motion, const std::vector<KeyPose>& nodes, std::size_t i) {
   return connected(motion, nodes[i], nodes[i + 1]);
 }
 
-void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Motion& motion, const BackendOptions& options,
-                  const PosesInGraph& which, bool fix_first) {
-  const auto together = static_cast<std::size_t>(std::max(options.local_map_nodes, 1));
+void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Motion& motion, const PosesInGraph& which,
+                  bool fix_first) {
   std::size_t body = which.first;
   for (std::size_t i = which.first; i < nodes.size(); ++i) {
     const bool free = nodes.size() - i <= which.free;
-    if (free || i == which.first || i % together == 0 || !goesOn(motion, nodes, i - 1)) {
+    if (free || i == which.first || i % kBody == 0 || !goesOn(motion, nodes, i - 1)) {
       body = i;
       graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == which.first && fix_first);
     } else {
@@ -102,15 +103,14 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
   const auto& nodes = poses.nodes();
   const auto [first, hold, free] = which;
   const bool loose = hold && first == 0 && !measurements.planar && !measurements.grounds.empty();
-  addVariables(graph, nodes, motion, options, which, hold && !loose);
+  addVariables(graph, nodes, motion, which, hold && !loose);
   if (loose) addLooseAnchor(graph, nodes[first]);
   const bool local_maps = options.local_map_nodes > 0;
   for (std::size_t i = first; i + 1 < nodes.size(); ++i)
     addSteps(graph, nodes[i], nodes[i + 1], motion, local_maps);
   if (measurements.planar)
     for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
-      if (!graph.isAttached(nodes[i].id))
-        graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   const auto since =
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });

@@ -8,12 +8,13 @@
 namespace roomgraph {
 
 LiveSolve::LiveSolve(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
-                     ObjectsAtPoses objects, const BackendOptions& options, const SolveOptions& until)
+                     ObjectsAtPoses objects, const BackendOptions& options, std::size_t free, const SolveOptions& until)
     : motion_(motion),
       poses_(poses, motion_),
       measurements_(measurements),
       objects_(std::move(objects)),
       options_(options),
+      free_(free),
       until_(until) {}
 
 void LiveSolve::goBeside() {
@@ -41,7 +42,7 @@ FactorGraph& LiveSolve::graph() {
 
 void LiveSolve::build() {
   const ObjectsInGraph objects = objects_(poses_);
-  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_, nullptr, static_cast<std::size_t>(options_.free_nodes)));
+  graph_ = std::make_unique<FactorGraph>(buildGraph(poses_, motion_, measurements_, objects, options_, nullptr, free_));
   landmarks_ = landmarksIn(*graph_, objects);
   measurements_ = {};  // the graph has them, and is large enough
 }

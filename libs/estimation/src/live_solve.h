@@ -15,9 +15,9 @@ namespace roomgraph {
 /// Everything measured up to a key pose, being optimised. It holds copies of what the run goes on changing.
 class LiveSolve {
  public:
-  /// `options` outlives it.
+  /// `options` outlives it. `free`: so many latest key poses have variables of their own.
   LiveSolve(const KeyPoses& poses, const Motion& motion, const Measurements& measurements, ObjectsAtPoses objects,
-            const BackendOptions& options, const SolveOptions& until);
+            const BackendOptions& options, std::size_t free, const SolveOptions& until);
 
   LiveSolve(const LiveSolve&) = delete;
   LiveSolve& operator=(const LiveSolve&) = delete;
@@ -48,6 +48,7 @@ class LiveSolve {
   Measurements measurements_;
   ObjectsAtPoses objects_;
   const BackendOptions& options_;
+  std::size_t free_;
   SolveOptions until_;
   std::unique_ptr<FactorGraph> graph_;
   std::vector<LandmarkId> landmarks_;

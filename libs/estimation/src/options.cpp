@@ -59,8 +59,9 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
        .min = 0,
        .max = 1000});
   v.add("free_nodes", o.free_nodes,
-        {.doc = "The latest key poses that have a pose of their own in optimisations of the whole graph; older ones move rigidly "
-                "with the first one of their local map. In the last optimisation of a run all have.",
+        {.doc = "So many latest key poses, and all that were in none before, have a pose of their own in optimisations of the "
+                "whole graph during a run; older ones move rigidly with the first one of their ten. At its end all have, in the "
+                "first optimisation and in the last.",
          .min = 1,
          .max = 1000000});
   v.add("optimize_every_nodes", o.optimize_every_nodes,

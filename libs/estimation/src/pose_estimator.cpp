@@ -178,12 +178,14 @@ void PoseEstimator::optimizeWindow() {
 
 // Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
 void PoseEstimator::beginLive(ObjectsAtPoses objects) {
+  // A body keeps the form that an optimisation of the whole graph gave it.
+  const int free = std::max(options_.free_nodes, nodes_since_optimization_);
   nodes_since_optimization_ = 0;
   again_ = graph_is_near_ = false;
   pullSurprises();
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
   live_ = std::make_unique<LiveSolve>(
-      poses_, motion_, measurements_, std::move(objects), options_,
+      poses_, motion_, measurements_, std::move(objects), options_, static_cast<std::size_t>(free),
       SolveOptions{std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
   // A result that will be recalled is not computed.
   if (cv::getNumThreads() > 1 && !(results_ && results_->recalling())) live_->goBeside();
@@ -234,11 +236,9 @@ std::optional<GraphSolution> PoseEstimator::accept(const FactorGraph& graph, con
 
 std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph& objects, Effort effort) {
   SolveOptions until{.max_iterations = options_.max_iterations, .function_tolerance = options_.final_tolerance, .dogleg = true};
-  std::size_t free = kAllFree;
-  if (effort == Effort::kNear) {
+  if (effort != Effort::kToTheEnd) {
     until.max_iterations = std::min(options_.max_iterations, kNearIterations);
     until.function_tolerance = options_.live_tolerance;
-    free = static_cast<std::size_t>(options_.free_nodes);
     pullSurprises();
   } else {
     measurements_.pulls.clear();  // the map is the optimum of what was measured, each once
@@ -247,6 +247,7 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   live_.reset();
   nodes_since_optimization_ = 0;
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
+  const std::size_t free = effort == Effort::kNearInBodies ? static_cast<std::size_t>(options_.free_nodes) : kAllFree;
   graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr, free);
   const SolveReport report =
       solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });

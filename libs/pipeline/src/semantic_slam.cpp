@@ -316,8 +316,8 @@ void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   if (estimator_.solving()) takeOver();
   front_ends_.refine();
-  const auto near = [this] { optimizeAll(PoseEstimator::Effort::kNear); };
-  near();
+  optimizeAll(PoseEstimator::Effort::kNear);  // what the front ends have refined gives bodies another form
+  const auto near = [this] { optimizeAll(PoseEstimator::Effort::kNearInBodies); };
   // Loops close after poses moved, until nothing new is found.
   for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) near();
   if (anchor()) near();

@@ -19,8 +19,8 @@ struct Alternatives {
   double fresh = 0;               ///< an object that has no landmark yet
 };
 
-/// Density of a detection's box given the measurement's own proposal, in the units of boxRatio(); nothing where it is not
-/// known yet.
+/// Density of a detection's box given the measurement's own proposal, in the units of boxRatio(); nothing without a box or
+/// camera, and where it is not known yet.
 using OwnBox = std::optional<double>;
 
 /// p(b | x, l) and omega of method.md sec. 4: how well a measurement fits the landmarks around it.

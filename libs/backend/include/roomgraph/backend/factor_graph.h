@@ -48,8 +48,8 @@ class FactorGraph {
 
   void addPose(NodeId id, const Pose3& world_from_robot, bool fixed = false);
   /// A pose that moves rigidly with `to`, which is in the graph and not attached itself: it has no variables, and factors
-  /// that are added of it are told of `to`. Those between poses of one such body are left out; what holds for single poses
-  /// (PlanarFactor, MarginalPrior) is refused with std::invalid_argument. Files of the graph do not hold such poses.
+  /// that are added of it are told of `to`. Those between poses of one such body are left out; a MarginalPrior of one is
+  /// refused with std::invalid_argument. Files of the graph do not hold such poses.
   void attach(NodeId id, NodeId to, const Pose3& world_from_robot);
   bool isAttached(NodeId id) const;
   void addLandmark(LandmarkId id, const LandmarkEstimate& initial);

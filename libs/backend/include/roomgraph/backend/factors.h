@@ -35,10 +35,12 @@ struct BetweenFactor {
   double robust_width = 0;  ///< Cauchy loss width in standard deviations; 0: plain least squares
 };
 
-/// Planar motion of a robot on the floor: z, roll and pitch of a pose are near 0.
+/// Planar motion of a robot on the floor: z, roll and pitch of a pose are near 0; or z of another place in its frame, and the
+/// tilt of another axis.
 struct PlanarFactor {
   NodeId node;
   double sigma_z_m = 0.01, sigma_tilt_rad = 0.01;
+  Eigen::Vector3d place_in_robot = Eigen::Vector3d::Zero(), up_in_robot = Eigen::Vector3d::UnitZ();
 };
 
 /// Ground plane seen from a pose (normal . x + offset = 0 in the robot frame, normal up) against z = 0 in
@@ -61,6 +63,7 @@ struct LandmarkFactor {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();  ///< of (x, y, z, yaw) in the robot frame
   double weight = 1;        ///< association probability x initialisation score, scales the (robust) cost
   double robust_width = 1;  ///< Cauchy loss width in standard deviations; 0: plain least squares
+  Eigen::Vector3d ahead_in_robot = Eigen::Vector3d::UnitX();  ///< the direction, seen from above, that the yaw is counted from
 };
 
 /// A landmark as it, or one end of it, seems from one direction against the landmark itself: the error that all sightings from

@@ -97,7 +97,9 @@ class PoseEstimator {
   std::optional<GraphSolution> takeOver();
   /// What the thread of the last solution took, once; nothing when there was none.
   std::optional<Work> takeWork() { return std::exchange(work_, std::nullopt); }
-  enum class Effort { kNear, kToTheEnd };  ///< near the optimum will do where what is sought changes yet
+  /// Near the optimum will do where what is sought changes yet, and key poses may move in bodies (`free_nodes`) where these
+  /// have their form.
+  enum class Effort { kNearInBodies, kNear, kToTheEnd };
   /// Optimises everything, from the former solution if there is one; nothing when the solver found no usable solution.
   std::optional<LandmarkEstimates> optimizeAll(const ObjectsInGraph& objects, Effort effort = Effort::kToTheEnd);
   /// World is the frame of an earlier map, which tells where the robot is.
