@@ -4,17 +4,12 @@
 
 #include <stdexcept>
 
+#include "cross_matrix.h"
 #include "graph_state.h"
 #include "roomgraph/geometry/covariance.h"
 
 namespace roomgraph {
 namespace {
-
-Eigen::Matrix3d crossWith(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d out;
-  out << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return out;
-}
 
 AttachedPose bodyOf(NodeId id, const AttachedPoses& attached) {
   const auto found = attached.find(id);
@@ -32,7 +27,7 @@ std::optional<Factor> told(BetweenFactor f, const AttachedPoses& attached) {
   Matrix6d jacobian = Matrix6d::Zero();
   jacobian.topLeftCorner<3, 3>() = a.to_from_pose.linear();
   jacobian.bottomRightCorner<3, 3>() = b.to_from_pose.linear();
-  jacobian.topRightCorner<3, 3>() = f.a_from_b.linear() * crossWith(b.to_from_pose.translation()) * b.to_from_pose.linear();
+  jacobian.topRightCorner<3, 3>() = f.a_from_b.linear() * crossing(b.to_from_pose.translation()) * b.to_from_pose.linear();
   f.covariance = jacobian * f.covariance * jacobian.transpose();
   return f;
 }

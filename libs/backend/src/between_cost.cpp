@@ -2,17 +2,13 @@
 // Derivatives of a movement's residual by both poses.
 #include "between_cost.h"
 
+#include "cross_matrix.h"
+
 namespace roomgraph {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Matrix4d, Eigen::Quaterniond, Eigen::Vector3d, Eigen::Vector4d;
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
-
-Matrix3d crossing(const Vector3d& v) {
-  Matrix3d out;
-  out << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return out;
-}
 
 // p q as a linear function of q, in the order (x, y, z, w).
 Matrix4d timesRight(const Quaterniond& p) {
