@@ -11,57 +11,55 @@
 namespace roomgraph {
 namespace {
 
-AttachedPose bodyOf(NodeId id, const AttachedPoses& attached) {
-  const auto found = attached.find(id);
-  return found == attached.end() ? AttachedPose{id} : found->second;
+// The pose that `node` moves with, from then on named by it; in whose frame `node` is returned.
+Pose3 toBody(NodeId& node, const AttachedPoses& attached) {
+  const auto found = attached.find(node);
+  if (found == attached.end()) return Pose3::Identity();
+  node = found->second.to;
+  return found->second.to_from_pose;
 }
 
 // With a = a' A, b = b' B and the residual (Ra^T (b - a) - t, 2 vec(R^T Ra^T Rb)) of a movement M = (R, t): the residual of
 // A M B^-1 between a' and b' is J times that, as far as it is small.
 std::optional<Factor> told(BetweenFactor f, const AttachedPoses& attached) {
-  const AttachedPose a = bodyOf(f.a, attached), b = bodyOf(f.b, attached);
-  if (a.to == b.to && f.a != f.b) return std::nullopt;
-  f.a = a.to;
-  f.b = b.to;
-  f.a_from_b = a.to_from_pose * f.a_from_b * b.to_from_pose.inverse();
+  const bool of_two = f.a != f.b;
+  const Pose3 a = toBody(f.a, attached), b = toBody(f.b, attached);
+  if (of_two && f.a == f.b) return std::nullopt;
+  f.a_from_b = a * f.a_from_b * b.inverse();
   Matrix6d jacobian = Matrix6d::Zero();
-  jacobian.topLeftCorner<3, 3>() = a.to_from_pose.linear();
-  jacobian.bottomRightCorner<3, 3>() = b.to_from_pose.linear();
-  jacobian.topRightCorner<3, 3>() = f.a_from_b.linear() * crossing(b.to_from_pose.translation()) * b.to_from_pose.linear();
+  jacobian.topLeftCorner<3, 3>() = a.linear();
+  jacobian.bottomRightCorner<3, 3>() = b.linear();
+  jacobian.topRightCorner<3, 3>() = f.a_from_b.linear() * crossing(b.translation()) * b.linear();
   f.covariance = jacobian * f.covariance * jacobian.transpose();
   return f;
 }
 
 std::optional<Factor> told(GroundFactor f, const AttachedPoses& attached) {
-  const AttachedPose body = bodyOf(f.node, attached);
-  f.node = body.to;
-  f.normal_in_robot = body.to_from_pose.linear() * f.normal_in_robot;
-  f.place_in_robot = body.to_from_pose * f.place_in_robot;
+  const Pose3 body_from_pose = toBody(f.node, attached);
+  f.normal_in_robot = body_from_pose.linear() * f.normal_in_robot;
+  f.place_in_robot = body_from_pose * f.place_in_robot;
   return f;
 }
 
 std::optional<Factor> told(LandmarkFactor f, const AttachedPoses& attached) {
-  const AttachedPose body = bodyOf(f.node, attached);
-  f.node = body.to;
-  f.position_in_robot = body.to_from_pose * f.position_in_robot;
-  f.ahead_in_robot = body.to_from_pose.linear() * f.ahead_in_robot;
-  f.covariance = rotateCovariance(f.covariance, body.to_from_pose.linear());
+  const Pose3 body_from_pose = toBody(f.node, attached);
+  f.position_in_robot = body_from_pose * f.position_in_robot;
+  f.ahead_in_robot = body_from_pose.linear() * f.ahead_in_robot;
+  f.covariance = rotateCovariance(f.covariance, body_from_pose.linear());
   return f;
 }
 
 std::optional<Factor> told(LandmarkSideFactor f, const AttachedPoses& attached) {
-  const AttachedPose body = bodyOf(f.node, attached);
-  f.node = body.to;
-  f.point_in_robot = body.to_from_pose * f.point_in_robot;
+  const Pose3 body_from_pose = toBody(f.node, attached);
+  f.point_in_robot = body_from_pose * f.point_in_robot;
   return f;
 }
 
 template <class OfCamera>
 requires requires(OfCamera f) { f.robot_from_camera; }
 std::optional<Factor> told(OfCamera f, const AttachedPoses& attached) {
-  const AttachedPose body = bodyOf(f.node, attached);
-  f.node = body.to;
-  f.robot_from_camera = body.to_from_pose * f.robot_from_camera;
+  const Pose3 body_from_pose = toBody(f.node, attached);
+  f.robot_from_camera = body_from_pose * f.robot_from_camera;
   return f;
 }
 
@@ -71,10 +69,9 @@ void refuse(NodeId id, const AttachedPoses& attached) {
 }
 
 std::optional<Factor> told(PlanarFactor f, const AttachedPoses& attached) {
-  const AttachedPose body = bodyOf(f.node, attached);
-  f.node = body.to;
-  f.place_in_robot = body.to_from_pose * f.place_in_robot;
-  f.up_in_robot = body.to_from_pose.linear() * f.up_in_robot;
+  const Pose3 body_from_pose = toBody(f.node, attached);
+  f.place_in_robot = body_from_pose * f.place_in_robot;
+  f.up_in_robot = body_from_pose.linear() * f.up_in_robot;
   return f;
 }
 

@@ -212,6 +212,18 @@ void release(Impl& graph, const MarginalPrior& f) {
   }
 }
 
+void addTo(Impl& graph, const Factor& factor) {
+  std::visit(
+      [&graph](const auto& f) {
+        const Blocks blocks = blocksOf(graph, f);
+        auto* const cost = costIn(graph, f);  // throws for a bad factor: before a loss is allocated
+        const auto id = graph.problem->AddResidualBlock(cost, lossOf(f), blocks);
+        release(graph, f);
+        graph.factors.push_back({f, id});
+      },
+      factor);
+}
+
 }  // namespace
 
 FactorGraph::FactorGraph() : impl_(std::make_unique<Impl>()) {}
@@ -251,17 +263,10 @@ void FactorGraph::addPoint(PointId id, const Eigen::Vector3d& in_world) {
 }
 
 void FactorGraph::add(const Factor& factor) {
-  const auto of_bodies = toldOfBodies(factor, impl_->attached);
-  if (!of_bodies) return;
-  std::visit(
-      [this](const auto& f) {
-        const Blocks blocks = blocksOf(*impl_, f);
-        auto* const cost = costIn(*impl_, f);  // throws for a bad factor: before a loss is allocated
-        const auto id = impl_->problem->AddResidualBlock(cost, lossOf(f), blocks);
-        release(*impl_, f);
-        impl_->factors.push_back({f, id});
-      },
-      *of_bodies);
+  if (impl_->attached.empty())
+    addTo(*impl_, factor);
+  else if (const auto of_bodies = toldOfBodies(factor, impl_->attached))
+    addTo(*impl_, *of_bodies);
 }
 
 SolveReport FactorGraph::optimize(int max_iterations) {

@@ -78,17 +78,12 @@ struct PosesInGraph {
 
 constexpr std::size_t kBody = 10;  // key poses that move together
 
-// Whether the movement to the next one is known.
-bool goesOn(const Motion& motion, const std::vector<KeyPose>& nodes, std::size_t i) {
-  return connected(motion, nodes[i], nodes[i + 1]);
-}
-
 void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Motion& motion, const PosesInGraph& which,
                   bool fix_first) {
   std::size_t body = which.first;
   for (std::size_t i = which.first; i < nodes.size(); ++i) {
     const bool free = nodes.size() - i <= which.free;
-    if (free || i == which.first || i % kBody == 0 || !goesOn(motion, nodes, i - 1)) {
+    if (free || i == which.first || i % kBody == 0 || !connected(motion, nodes[i - 1], nodes[i])) {
       body = i;
       graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == which.first && fix_first);
     } else {
