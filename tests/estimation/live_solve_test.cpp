@@ -100,6 +100,21 @@ TEST(LiveSolve, WhatWasInNoneBeforeBendsAndOlderOnesMoveInBodies) {
   EXPECT_GT(bent(before, second, 24, 36), 1e-4);
 }
 
+TEST(LiveSolve, WhatOnlyAVoidSolutionHeldIsFreeInTheNext) {
+  const Threads one(1);
+  Drive drive;
+  drive.options.free_nodes = 2;
+  drive.on(24);
+  drive.estimator.addClosures({closure(0, 22), closure(4, 23)});
+  drive.begin();
+  drive.estimator.transform(poseFromYpr(1, 0, 0, 0, 0, 0));
+  EXPECT_FALSE(drive.estimator.takeOver()) << "the path was moved meanwhile";
+  const auto before = drive.path();
+  drive.begin();
+  ASSERT_TRUE(drive.estimator.takeOver());
+  EXPECT_GT(bent(before, drive.path(), 0, 10), 1e-4);
+}
+
 TEST(LiveSolve, AtTheEndOnlySearchesUseBodies) {
   Drive drive;
   drive.options.free_nodes = 5;

@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
-#include "cross_matrix.h"
 #include "graph_state.h"
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/geometry/cross_matrix.h"
 
 namespace roomgraph {
 namespace {

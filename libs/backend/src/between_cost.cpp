@@ -2,7 +2,7 @@
 // Derivatives of a movement's residual by both poses.
 #include "between_cost.h"
 
-#include "cross_matrix.h"
+#include "roomgraph/geometry/cross_matrix.h"
 
 namespace roomgraph {
 namespace {

@@ -179,13 +179,13 @@ void PoseEstimator::optimizeWindow() {
 // Every time afresh: gone on from the former solution, the live pose was worse (docs/results.md).
 void PoseEstimator::beginLive(ObjectsAtPoses objects) {
   // A body keeps the form that an optimisation of the whole graph gave it.
-  const int free = std::max(options_.free_nodes, nodes_since_optimization_);
+  const std::size_t free = std::max(static_cast<std::size_t>(options_.free_nodes), poses_.nodes().size() - formed_);
   nodes_since_optimization_ = 0;
   again_ = graph_is_near_ = false;
   pullSurprises();
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
   live_ = std::make_unique<LiveSolve>(
-      poses_, motion_, measurements_, std::move(objects), options_, static_cast<std::size_t>(free),
+      poses_, motion_, measurements_, std::move(objects), options_, free,
       SolveOptions{std::min(options_.max_iterations, kLiveIterations), options_.live_tolerance});
   // A result that will be recalled is not computed.
   if (cv::getNumThreads() > 1 && !(results_ && results_->recalling())) live_->goBeside();
@@ -225,7 +225,10 @@ std::optional<GraphSolution> PoseEstimator::takeOver() {
 std::optional<GraphSolution> PoseEstimator::accept(const FactorGraph& graph, const SolveReport& report, std::size_t count,
                                                    const std::vector<LandmarkId>& landmarks) {
   GraphSolution out;
-  if (report.usable) out.later = adopt(graph, count);
+  if (report.usable) {
+    out.later = adopt(graph, count);
+    formed_ = count;
+  }
   settleSurprises();
   const std::size_t size = poses_.nodes().size(), most = static_cast<std::size_t>(options_.window_nodes);
   restartWindow(std::max(count - 1, size - std::min(size, most)));

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "roomgraph/geometry/cross_matrix.h"
+
 namespace roomgraph::tracking {
 
 Observation makeObservation(const Eigen::Vector2d& pixel, int octave, double depth,
@@ -21,10 +23,8 @@ Eigen::Matrix<double, 3, 6> reprojectionJacobian(const PinholeCamera& camera, co
   by_point(1, 1) = s * camera.fy * iz;
   by_point(1, 2) = -s * camera.fy * point.y() * iz * iz;
   if (observation.depth > 0) by_point(2, 2) = 1 / observation.depth_sigma;
-  Eigen::Matrix3d cross;
-  cross << 0, -point.z(), point.y(), point.z(), 0, -point.x(), -point.y(), point.x(), 0;
   Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << by_point, -by_point * cross;
+  jacobian << by_point, -by_point * crossing(point);
   return jacobian;
 }
 

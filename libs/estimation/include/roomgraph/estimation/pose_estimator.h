@@ -133,6 +133,7 @@ class PoseEstimator {
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
   int nodes_since_optimization_ = 0;
+  std::size_t formed_ = 0;  // key poses whose places a solution of the whole graph has set
   bool again_ = false;  ///< what was taken over last did not know of a surprise, or was void
   /// A closure that disagreed with the estimate, and by how much (surpriseOf()) when that was last optimised.
   struct Surprise {
