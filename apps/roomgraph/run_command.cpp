@@ -15,6 +15,7 @@
 #include "report_defaults.h"
 #include "roomgraph/core/error_text.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/heap.h"
 #include "roomgraph/core/mentioned_files.h"
 #include "roomgraph/core/progress.h"
 #include "roomgraph/core/progress_file.h"
@@ -188,7 +189,7 @@ void shareHeap() { mallopt(M_ARENA_MAX, 1); }
 // A run is large, and a renderer needs memory, too: pages between those still in use are given back as well.
 void release(std::unique_ptr<SemanticSlam>& slam) {
   slam.reset();
-  malloc_trim(0);
+  giveBackFreedMemory();
 }
 
 Configuration configurationOf(const RunOptions& options) {

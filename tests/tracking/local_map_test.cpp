@@ -104,6 +104,22 @@ TEST(LocalMap, RemovalKeepsBothDirectionsConsistent) {
   EXPECT_THAT(map.pointsOf({2, 1}), ElementsAre(0, 1, 2, 3, 6, 7, 8, 9));
 }
 
+TEST(LocalMap, AKeyframeThatIsGivenUpLeavesThePointsThatOthersSee) {
+  LocalMap map;
+  for (int k = 0; k < 2; ++k) map.keyframes.push_back(keyframeAt(0.1 * k, wallOfPlaces()));
+  for (int i = 0; i < 10; ++i) {
+    const auto id = map.createPoint(0, i);
+    if (i < 4) map.addSighting(id, 1, i);
+  }
+  map.giveUp(0);
+  expectConsistent(map);
+  EXPECT_TRUE(map.keyframe(0).given_up);
+  EXPECT_FALSE(map.keyframe(1).given_up);
+  EXPECT_EQ(map.keyframe(0).features.size(), 0u);
+  EXPECT_EQ(map.points.held(), 4u);
+  EXPECT_THAT(map.pointsOf({0, 1}), ElementsAre(0, 1, 2, 3));
+}
+
 TEST(PointStore, AnErasedPointLeavesItsMemoryToOthersAndKeepsItsId) {
   PointStore points;
   std::map<std::size_t, double> alive;  // x of the position

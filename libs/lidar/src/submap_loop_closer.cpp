@@ -163,6 +163,10 @@ void SubmapLoopCloser::prepare() {
   waiting_.clear();
 }
 
+void SubmapLoopCloser::release() {
+  prepare();
+}
+
 void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   if (!active_) prepare();
   if (!match.matched) return;

@@ -27,6 +27,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   void add(const Scan& scan, const ScanMatch& match) override;
   std::vector<RelativePose> search(const Trajectory& world_from_robot) override;
   std::optional<RelativePose> verify(const RelativePose& proposed) override;
+  void release() override;
 
  private:
   void declareSearch(ParameterVisitor& v);

@@ -7,6 +7,7 @@
 
 #include "continued_map.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/heap.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 #include "stage_borders.h"
 
@@ -40,6 +41,7 @@ void setCovariances(std::vector<Candidate>& candidates, const FactorGraph& graph
 }  // namespace
 
 SlamResult SemanticSlam::collect() {
+  giveBackFreedMemory();  // covariances need as much as an optimisation of all
   const KeyPoses& poses = estimator_.poses();
   SlamResult result;
   result.counts = counts_;

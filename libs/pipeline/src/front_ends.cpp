@@ -108,4 +108,12 @@ void FrontEnds::refine() {
       motion_.lidar.refine(scans);
 }
 
+void FrontEnds::releaseImages() {
+  if (stages_.rgbd_odometry) stages_.rgbd_odometry->release();
+}
+
+void FrontEnds::releaseScans() {
+  if (stages_.scan_loop_closer) stages_.scan_loop_closer->release();
+}
+
 }  // namespace roomgraph

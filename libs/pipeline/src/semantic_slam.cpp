@@ -8,6 +8,7 @@
 #include "detection_schedule.h"
 #include "mounting.h"
 #include "people_in_view.h"
+#include "roomgraph/core/heap.h"
 #include "stage_borders.h"
 
 namespace roomgraph {
@@ -250,6 +251,7 @@ void SemanticSlam::takeOver() {
       objects_.move(solution->later);
       objects_.apply(sound(solution->landmarks));
     }
+    giveBackFreedMemory();
   }
   if (const auto work = estimator_.takeWork()) times_.add("whole graph beside the run", *work);
 }
@@ -274,6 +276,7 @@ ObjectsInGraph SemanticSlam::inGraph() const {
 // With all data, to the end.
 void SemanticSlam::optimizeAll(PoseEstimator::Effort effort) {
   objects_.tidy();
+  if (effort != PoseEstimator::Effort::kNearInBodies) giveBackFreedMemory();  // without bodies it needs most of a run
   if (const auto landmarks = estimator_.optimizeAll(inGraph(), effort))
     objects_.apply(sound(*landmarks));
   else
@@ -316,11 +319,13 @@ void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   if (estimator_.solving()) takeOver();
   front_ends_.refine();
+  front_ends_.releaseImages();
   optimizeAll(PoseEstimator::Effort::kNear);  // what the front ends have refined gives bodies another form
   const auto near = [this] { optimizeAll(PoseEstimator::Effort::kNearInBodies); };
   // Loops close after poses moved, until nothing new is found.
   for (int round = 0; round < kMaxClosingRounds && closeLoopsOfScans(); ++round) near();
   if (anchor()) near();
+  front_ends_.releaseScans();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who, until that
   // comes again: single sightings between two objects go to and fro.
   std::set<Partition> known{objects_.whoIsWho()};

@@ -41,4 +41,8 @@ std::vector<RelativePose> FeatureOdometry::takeLoopClosures() {
   return tracker_ ? tracker_->takeLoopClosures() : std::vector<RelativePose>();
 }
 
+void FeatureOdometry::release() {
+  tracker_.reset();
+}
+
 }  // namespace roomgraph

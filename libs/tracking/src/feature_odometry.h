@@ -33,6 +33,7 @@ class FeatureOdometry : public RgbdOdometry {
   Trajectory trajectory() const override;
   std::vector<RelativePose> takeLoopClosures() override;
   std::optional<RelativePose> verifyLoop(const RelativePose& proposed) override;
+  void release() override;
 
  private:
   TrackingParameters parameters_;

@@ -25,6 +25,7 @@ struct Keyframe {
   std::vector<std::int64_t> points;  ///< per feature: id of its point, -1: none
   cv::Mat thumbnail;                 ///< see place_recognition.h
   DepthSketch sketch;
+  bool given_up = false;  ///< it has no features any more, and nothing is found in it
 
   Observation observation(int feature, const TrackingParameters& parameters) const;
 };
@@ -45,6 +46,8 @@ struct LocalMap {
   void addSighting(std::int64_t point, int keyframe, int feature);
   void removeSighting(std::int64_t point, int keyframe);
   void erase(std::int64_t point);
+  /// Gives back what the keyframe takes, and its points that no other shows.
+  void giveUp(int keyframe);
   /// (number of these points seen, keyframe) of all keyframes that saw any, in descending order.
   std::vector<std::pair<int, int>> covisible(const std::vector<std::int64_t>& ids) const;
   /// Valid points of these keyframes, ascending, each once.

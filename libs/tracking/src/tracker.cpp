@@ -260,6 +260,7 @@ void Tracker::addKeyframe(const View& view) {
   for (const auto id : map_.keyframe(reference_).points)
     if (id >= 0) last_points_.push_back(id);
   closeLoops(reference_);
+  giveUpRepeated();
 }
 
 Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution) {
@@ -301,7 +302,8 @@ void Tracker::closeLoops(int index) {
 std::vector<int> Tracker::keyframesNear(double t) const {
   std::vector<std::pair<double, int>> near;
   for (int i = 0; i < static_cast<int>(map_.keyframes.size()); ++i)
-    if (const double apart = std::abs(map_.keyframe(i).t - t); apart < kVerifyHorizon_s)
+    if (const double apart = std::abs(map_.keyframe(i).t - t);
+        !map_.keyframe(i).given_up && apart < kVerifyHorizon_s)
       near.emplace_back(apart, i);
   std::sort(near.begin(), near.end());
   std::vector<int> out;

@@ -32,6 +32,8 @@ class Tracker {
   Trajectory trajectory() const;
   std::vector<RelativePose> takeLoopClosures() { return std::exchange(closures_, {}); }
   std::optional<RelativePose> verifyLoop(const RelativePose& proposed) const;
+  /// Keyframes that were not given up.
+  int keyframesHeld() const { return static_cast<int>(map_.keyframes.size()) - given_up_; }
 
  private:
   /// The frame being tracked.
@@ -102,6 +104,9 @@ class Tracker {
   bool needsKeyframe(const View& view) const;
   void addKeyframe(const View& view);
   void closeLoops(int keyframe);
+  /// Keyframes that show what older ones show are given up: memory grows with what is seen, not with time.
+  void giveUpRepeated();
+  bool giveUpIfRepeated(int keyframe);
   /// Keyframes nearest in time within the horizon, nearest first.
   std::vector<int> keyframesNear(double t) const;
   RelativePose loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
@@ -128,6 +133,8 @@ class Tracker {
   int reference_ = -1;         ///< keyframe that holds the frames tracked now
   int reference_inliers_ = 0;  ///< of the first frame after it, 0: not seen yet
   int last_loop_ = -1000;
+  int examined_ = 0;  ///< keyframes that were looked at whether they repeat older ones
+  int given_up_ = 0;  ///< of them
   double last_t_ = -1e300;
   ResultStore* results_ = nullptr;
   bool keeps_view_ = false;  ///< of the frame being tracked nothing was kept so far

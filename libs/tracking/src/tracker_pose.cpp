@@ -75,7 +75,7 @@ std::vector<PlacedSketch> Tracker::around(int keyframe) const {
   const int end = std::min(static_cast<int>(map_.keyframes.size()), keyframe + kBeside + 1);
   std::vector<PlacedSketch> out;
   for (int i = std::max(0, keyframe - kBeside); i < end; ++i)
-    if (const Keyframe& beside = map_.keyframe(i); beside.segment == middle.segment)
+    if (const Keyframe& beside = map_.keyframe(i); !beside.given_up && beside.segment == middle.segment)
       out.push_back({&beside.sketch, middle.odom_from_camera.inverse() * beside.odom_from_camera});
   return out;
 }

@@ -62,6 +62,10 @@ void declareMap(ParameterVisitor& v, TrackingParameters& p) {
         {.doc = "A new keyframe is made after this rotation.", .unit = "rad", .min = 0.01, .max = 3});
   v.add("local_keyframes", p.local_keyframes,
         {.doc = "Number of keyframes whose points form the local map.", .min = 1, .max = 200});
+  v.add("keyframes_kept", p.keyframes_kept,
+        {.doc = "When there are more, keyframes are given up that show what an older one shows from nearly the same place.",
+         .min = 0,
+         .max = 10000000});
   v.add("ba_window", p.ba_window,
         {.doc = "Number of keyframes that local bundle adjustment optimises.", .min = 1, .max = 100});
   v.add("ba_fixed_keyframes", p.ba_fixed_keyframes,

@@ -31,6 +31,7 @@ struct TrackingParameters : Configurable {
   double keyframe_distance_m = 0.25;
   double keyframe_angle_rad = 0.30;
   int local_keyframes = 12;
+  int keyframes_kept = 400;
   // bundle adjustment
   int ba_window = 8;
   int ba_fixed_keyframes = 10;

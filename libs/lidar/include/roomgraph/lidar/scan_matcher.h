@@ -52,6 +52,8 @@ class ScanLoopCloser : public Stage {
     (void)proposed;
     return std::nullopt;
   }
+  /// Nothing more will be asked: the memory of what was seen is given back.
+  virtual void release() {}
 };
 
 }  // namespace roomgraph

@@ -41,6 +41,10 @@ class FrontEnds {
   std::optional<RelativePose> verify(const RelativePose& proposed);
   /// Takes over what the front ends refined since: for the final estimate.
   void refine();
+  /// Nothing more comes, and no closure will be verified: what images showed is given up.
+  void releaseImages();
+  /// No loop of scans will be searched: what scans showed is given up.
+  void releaseScans();
 
  private:
   void toRobot(RelativePose& of_camera) const;

@@ -62,6 +62,9 @@ class RgbdOdometry : public Stage {
     (void)proposed;
     return std::nullopt;
   }
+
+  /// Nothing more will be asked: the memory of what was seen is given back.
+  virtual void release() {}
 };
 
 }  // namespace roomgraph

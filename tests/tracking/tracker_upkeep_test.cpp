@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keyframes given up in a room that is seen again and again: how many stay, and what still works with them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <vector>
+
+#include "textured_room.h"
+#include "tracker.h"
+
+namespace roomgraph::tracking {
+namespace {
+
+constexpr int kFramesPerTurn = 49, kTurns = 5;
+constexpr double kStep_rad = 2 * std::numbers::pi / kFramesPerTurn;
+constexpr int kRecent = 40;  // keyframes that are never given up
+constexpr int kUnlimited = 100000;
+
+Pose3 lookingAt(double frame) {
+  const double yaw = kStep_rad * frame;
+  Pose3 pose = Pose3::Identity();
+  pose.linear() = expSO3({0, yaw, 0});
+  pose.translation() << 0.3 * std::sin(yaw), 0, 0.3 * std::cos(yaw);
+  return pose;
+}
+
+std::vector<Frame> turnIn(unsigned room_seed) {
+  const test::TexturedRoom room(room_seed);
+  std::vector<Frame> out;
+  for (int i = 0; i < kFramesPerTurn; ++i) out.push_back(room.render(i, lookingAt(i)));
+  return out;
+}
+
+/// A camera that turns in one of two rooms that differ in what their walls show; how many keyframes may stay.
+struct TurningCamera {
+  explicit TurningCamera(int keyframes_kept) : tracker(parametersWith(keyframes_kept)) {}
+
+  static TrackingParameters parametersWith(int keyframes_kept) {
+    TrackingParameters out;
+    out.loop_min_gap = 8;
+    out.max_features = 400;
+    out.keyframes_kept = keyframes_kept;
+    return out;
+  }
+
+  void turn(int turns, bool in_other_room = false) {
+    static const std::array<std::vector<Frame>, 2> rooms{turnIn(1), turnIn(5)};
+    for (int k = 0; k < turns * kFramesPerTurn; ++k) {
+      Frame frame = rooms[in_other_room][static_cast<std::size_t>(frames % kFramesPerTurn)];
+      frame.t = frames++;
+      tracker.track(frame, {});
+    }
+  }
+
+  Tracker tracker;
+  int frames = 0;
+};
+
+/// Keyframes of a turn, as none is given up.
+int keyframesOfATurn() {
+  TurningCamera camera(kUnlimited);
+  camera.turn(1);
+  return camera.tracker.keyframesHeld();
+}
+
+void expectStepsOfTheTruth(const Trajectory& camera) {
+  for (std::size_t i = 1; i < camera.size(); ++i) {
+    ASSERT_EQ(camera.segment(i), 0) << i;
+    const auto frame = static_cast<double>(i);
+    const Pose3 step = camera.poses()[i - 1].pose.inverse() * camera.poses()[i].pose;
+    const Pose3 error = (lookingAt(frame - 1).inverse() * lookingAt(frame)).inverse() * step;
+    EXPECT_LT(error.translation().norm(), 0.015) << i;
+    EXPECT_LT(rotationAngle(error), 0.008) << i;
+  }
+}
+
+TEST(TrackerUpkeep, KeyframesGrowWithWhatIsSeenNotWithTime) {
+  TurningCamera all(kUnlimited), few(20);
+  all.turn(kTurns);
+  few.turn(kTurns);
+  const int of_a_turn = keyframesOfATurn();
+  ASSERT_GT(all.tracker.keyframesHeld(), (kTurns - 1) * of_a_turn) << "each turn has keyframes of its own";
+  EXPECT_LE(few.tracker.keyframesHeld(), of_a_turn + kRecent + 5);
+
+  const Trajectory camera = few.tracker.trajectory();
+  ASSERT_EQ(camera.size(), static_cast<std::size_t>(kTurns * kFramesPerTurn)) << "frames stay";
+  expectStepsOfTheTruth(camera);
+
+  few.turn(2, true);
+  EXPECT_GE(few.tracker.keyframesHeld(), of_a_turn + kRecent) << "other walls are not what was seen before";
+}
+
+TEST(TrackerUpkeep, AsManyAsAreAllowedStay) {
+  constexpr int kAllowed = 65;
+  TurningCamera all(kUnlimited), limited(kAllowed);
+  all.turn(kTurns);
+  limited.turn(kTurns);
+  ASSERT_GT(all.tracker.keyframesHeld(), kAllowed);
+  EXPECT_EQ(limited.tracker.keyframesHeld(), kAllowed);
+}
+
+TEST(TrackerUpkeep, LoopsCloseWithTheKeyframesThatStay) {
+  TurningCamera few(20);
+  few.turn(kTurns - 1);
+  EXPECT_FALSE(few.tracker.takeLoopClosures().empty());
+  few.turn(1);
+  const auto closures = few.tracker.takeLoopClosures();
+  ASSERT_FALSE(closures.empty()) << "a turn more finds what earlier ones left";
+  for (const auto& closure : closures) {
+    const Pose3 expected = lookingAt(closure.t_a).inverse() * lookingAt(closure.t_b);
+    EXPECT_LT((expected.inverse() * closure.a_from_b).translation().norm(), 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph::tracking
