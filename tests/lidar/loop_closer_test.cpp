@@ -171,7 +171,8 @@ TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
   proposed.t_b = 0.2 * 195;
   const Pose2 truth = poses[20].inverse() * poses[25];
   proposed.a_from_b = toPose3(truth * Pose2{0.2, -0.15, 0.1});
-  const auto confirmed = closer.verify(proposed);
+  const RelativePose right = proposed;
+  const auto confirmed = closer.verify(right);
   ASSERT_TRUE(confirmed);
   const auto at = [&](double t) { return poses[static_cast<std::size_t>(std::lround(t / 0.2)) % 170]; };
   const Pose2 error =
@@ -183,6 +184,10 @@ TEST(SubmapLoopCloser, ConfirmsAProposedClosureAndRefusesAWrongOne) {
   EXPECT_FALSE(closer.verify(proposed));
   proposed.t_b = 1000;
   EXPECT_FALSE(closer.verify(proposed)) << "no scan at that time";
+
+  EXPECT_TRUE(closer.verify(right));
+  closer.release();
+  EXPECT_FALSE(closer.verify(right)) << "what scans showed is given up";
 }
 
 }  // namespace

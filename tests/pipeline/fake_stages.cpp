@@ -33,6 +33,10 @@ Pose3 cameraFromObject(const WorldObject& object, double t) {
   return world().world_from_camera(t).inverse() * object.world_from_object;
 }
 
+void noteQuestion() {
+  if (world().releases > 0) world().asked_after_release = true;
+}
+
 }  // namespace
 
 Outcome<std::vector<Detection>> FakeDetector::detect(const Frame& frame) {
@@ -104,7 +108,18 @@ std::vector<Association> FakeAssociator::associate(const std::vector<WorldMeasur
   return out;
 }
 
+Trajectory FakeOdometry::trajectory() const {
+  noteQuestion();
+  return trajectory_;
+}
+
+std::vector<RelativePose> FakeOdometry::takeLoopClosures() {
+  noteQuestion();
+  return std::exchange(world().closures, {});
+}
+
 TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prior) {
+  noteQuestion();
   if (world().while_tracking) world().while_tracking();
   world().masked.push_back(prior.dynamic_regions);
   world().expected.push_back(prior.previous_from_current);
@@ -120,6 +135,7 @@ TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prio
 }
 
 std::optional<RelativePose> FakeOdometry::verifyLoop(const RelativePose& proposed) {
+  noteQuestion();
   RelativePose exact = proposed;
   exact.a_from_b =
       world().world_from_camera(proposed.t_a).inverse() * world().world_from_camera(proposed.t_b);

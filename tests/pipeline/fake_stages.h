@@ -38,6 +38,8 @@ struct World {
   std::vector<std::vector<roomgraph::Box2>> masked = {};
   std::vector<std::optional<roomgraph::Pose3>> expected = {};
   std::vector<bool> by_scans = {};  ///< whether those movements were
+  int releases = 0;                 ///< of the odometry
+  bool asked_after_release = false;
   int detector_calls = 0;
   /// Called by the odometry and by the proposal generator. May be empty.
   std::function<void()> while_tracking = {}, while_proposing = {};
@@ -90,10 +92,11 @@ class FakeOdometry : public roomgraph::RgbdOdometry {
  public:
   roomgraph::TrackingResult track(const roomgraph::Frame& frame,
                                   const roomgraph::TrackingPrior& prior) override;
-  roomgraph::Trajectory trajectory() const override { return trajectory_; }
-  std::vector<roomgraph::RelativePose> takeLoopClosures() override { return std::exchange(world().closures, {}); }
+  roomgraph::Trajectory trajectory() const override;
+  std::vector<roomgraph::RelativePose> takeLoopClosures() override;
   /// Confirms what is proposed with an error of less than 1 m, and gives the exact closure.
   std::optional<roomgraph::RelativePose> verifyLoop(const roomgraph::RelativePose& proposed) override;
+  void release() override { ++world().releases; }
 
  private:
   roomgraph::Trajectory trajectory_;

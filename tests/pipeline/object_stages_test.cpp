@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "drive.h"
 #include "fake_stages.h"
@@ -49,6 +50,15 @@ class ObjectStagesTest : public ::testing::Test {
     return slam.finish();
   }
 };
+
+TEST_F(ObjectStagesTest, StagesGiveUpWhatTheyRememberOnceNothingMoreIsAsked) {
+  furnish();
+  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n[object_loop_closing]\nenabled = true\n"));
+  drive(slam);
+  EXPECT_EQ(fakes::world().releases, 1);
+  EXPECT_FALSE(fakes::world().asked_after_release);
+  EXPECT_THROW(slam.process(Drive::frame(20)), std::logic_error);
+}
 
 TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
   place("sofa", {ShapeKind::kCuboid, 1.8, 0.9, 0.8}, 3.5, 1.0, 2.8);

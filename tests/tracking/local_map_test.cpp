@@ -106,16 +106,21 @@ TEST(LocalMap, RemovalKeepsBothDirectionsConsistent) {
 
 TEST(LocalMap, AKeyframeThatIsGivenUpLeavesThePointsThatOthersSee) {
   LocalMap map;
-  for (int k = 0; k < 2; ++k) map.keyframes.push_back(keyframeAt(0.1 * k, wallOfPlaces()));
+  for (int k = 0; k < 2; ++k) map.keyframes.push_back(keyframeAt(0.1 * k, wallOfPlaces(), 3));
   for (int i = 0; i < 10; ++i) {
-    const auto id = map.createPoint(0, i);
-    if (i < 4) map.addSighting(id, 1, i);
+    const auto id = map.createPoint(1, i);
+    if (i < 4) map.addSighting(id, 0, i);
   }
-  map.giveUp(0);
+  map.giveUp(1, 0);
   expectConsistent(map);
-  EXPECT_TRUE(map.keyframe(0).given_up);
-  EXPECT_FALSE(map.keyframe(1).given_up);
-  EXPECT_EQ(map.keyframe(0).features.size(), 0u);
+  EXPECT_FALSE(map.keyframe(0).isGivenUp());
+  const Keyframe& given_up = map.keyframe(1);
+  EXPECT_TRUE(given_up.isGivenUp());
+  EXPECT_EQ(given_up.shown_by, 0);
+  EXPECT_EQ(given_up.features.descriptors.capacity() + given_up.points.capacity(), 0u) << "its memory is free";
+  EXPECT_EQ(given_up.t, 0.1);
+  EXPECT_EQ(given_up.segment, 3);
+  EXPECT_EQ(given_up.odom_from_camera.translation().x(), 0.1);
   EXPECT_EQ(map.points.held(), 4u);
   EXPECT_THAT(map.pointsOf({0, 1}), ElementsAre(0, 1, 2, 3));
 }

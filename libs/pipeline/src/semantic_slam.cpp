@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "detection_schedule.h"
 #include "mounting.h"
@@ -44,6 +45,7 @@ void SemanticSlam::setResultStore(ResultStore& store) {
 }
 
 void SemanticSlam::process(const Record& record) {
+  if (finished_) throw std::logic_error("a run that is finished takes no records");
   if (const std::string problem = problemOfRecord(record); !problem.empty()) {
     ++counts_.reasons["record left out: " + problem];
     return;
@@ -310,6 +312,7 @@ void SemanticSlam::continueInMap() {
 }
 
 SlamResult SemanticSlam::finish() {
+  finished_ = true;
   refine();
   return collect();
 }

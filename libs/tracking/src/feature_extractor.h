@@ -4,7 +4,9 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct Features {
 
   std::size_t size() const { return places.size(); }
   Eigen::Vector2d pixel(std::size_t i) const { return {places[i].pt.x, places[i].pt.y}; }
+  std::ptrdiff_t withDepth() const { return std::count_if(depth.begin(), depth.end(), [](float z) { return z > 0; }); }
 };
 
 /// Corners of an image as FAST finds them, level by level: what features need that depends on the image alone.

@@ -53,16 +53,12 @@ void LocalMap::erase(std::int64_t id) {
   points.release(static_cast<std::size_t>(id));
 }
 
-void LocalMap::giveUp(int keyframe_index) {
+void LocalMap::giveUp(int keyframe_index, int older) {
   const auto ids = keyframe(keyframe_index).points;
   for (const auto id : ids)
     if (id >= 0) removeSighting(id, keyframe_index);
-  Keyframe& given_up = keyframe(keyframe_index);
-  given_up.features = {};
-  given_up.points = {};
-  given_up.thumbnail.release();
-  given_up.sketch = {};
-  given_up.given_up = true;
+  Keyframe& it = keyframe(keyframe_index);
+  it = Keyframe{.t = it.t, .segment = it.segment, .camera = it.camera, .odom_from_camera = it.odom_from_camera, .shown_by = older};
 }
 
 std::vector<std::pair<int, int>> LocalMap::covisible(const std::vector<std::int64_t>& ids) const {

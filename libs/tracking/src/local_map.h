@@ -25,7 +25,9 @@ struct Keyframe {
   std::vector<std::int64_t> points;  ///< per feature: id of its point, -1: none
   cv::Mat thumbnail;                 ///< see place_recognition.h
   DepthSketch sketch;
-  bool given_up = false;  ///< it has no features any more, and nothing is found in it
+  int shown_by = -1;  ///< the older keyframe for which it was given up: then features and depth are gone
+
+  bool isGivenUp() const { return shown_by >= 0; }
 
   Observation observation(int feature, const TrackingParameters& parameters) const;
 };
@@ -38,6 +40,7 @@ struct LocalMap {
 
   MapPoint& point(std::int64_t id) { return points[static_cast<std::size_t>(id)]; }
   const MapPoint& point(std::int64_t id) const { return points[static_cast<std::size_t>(id)]; }
+  bool has(int keyframe) const { return keyframe >= 0 && keyframe < static_cast<int>(keyframes.size()); }
   Keyframe& keyframe(int index) { return keyframes[static_cast<std::size_t>(index)]; }
   const Keyframe& keyframe(int index) const { return keyframes[static_cast<std::size_t>(index)]; }
 
@@ -46,8 +49,8 @@ struct LocalMap {
   void addSighting(std::int64_t point, int keyframe, int feature);
   void removeSighting(std::int64_t point, int keyframe);
   void erase(std::int64_t point);
-  /// Gives back what the keyframe takes, and its points that no other shows.
-  void giveUp(int keyframe);
+  /// Gives back what the keyframe takes, and its points that no other shows; `older` shows what it showed. Time and pose stay.
+  void giveUp(int keyframe, int older);
   /// (number of these points seen, keyframe) of all keyframes that saw any, in descending order.
   std::vector<std::pair<int, int>> covisible(const std::vector<std::int64_t>& ids) const;
   /// Valid points of these keyframes, ascending, each once.

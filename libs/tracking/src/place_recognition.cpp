@@ -62,7 +62,7 @@ Recognition recognize(const LocalMap& map, int index, const Features& features, 
 std::vector<int> mostSimilar(const LocalMap& map, const cv::Mat& thumbnail, int end, int count) {
   std::vector<std::pair<double, int>> ranked;
   for (int i = 0; i < end; ++i)
-    if (!map.keyframe(i).given_up) ranked.emplace_back(-similarity(map.keyframe(i).thumbnail, thumbnail), i);
+    if (!map.keyframe(i).isGivenUp()) ranked.emplace_back(-similarity(map.keyframe(i).thumbnail, thumbnail), i);
   std::sort(ranked.begin(), ranked.end());
   std::vector<int> out;
   for (int i = 0; i < std::min<int>(count, static_cast<int>(ranked.size())); ++i)
@@ -78,7 +78,7 @@ std::vector<int> loopCandidates(const LocalMap& map, int index, const TrackingPa
   int nearest = -1;
   double least = 1;
   for (int i = 0; i < end; ++i) {
-    if (map.keyframe(i).given_up || map.keyframe(i).segment != current.segment) continue;
+    if (map.keyframe(i).isGivenUp() || map.keyframe(i).segment != current.segment) continue;
     const Pose3 between = map.keyframe(i).odom_from_camera.inverse() * current.odom_from_camera;
     const double cost = between.translation().norm() / kNearDistance + rotationAngle(between) / kNearAngle;
     if (cost < least) {

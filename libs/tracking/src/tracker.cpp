@@ -40,11 +40,6 @@ cv::Mat grayOf(const Frame& frame) {
   return gray;
 }
 
-int countDepth(const Features& features) {
-  return static_cast<int>(
-      std::count_if(features.depth.begin(), features.depth.end(), [](float z) { return z > 0; }));
-}
-
 /// Lower bound for errors that the residuals do not show: calibration, depth bias, consistent mismatches.
 Matrix6d floorCovariance(double sigma_m, double sigma_rad) {
   Matrix6d covariance = Matrix6d::Zero();
@@ -104,7 +99,7 @@ TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   view.excluded = &prior.dynamic_regions;
   see(view, prior.dynamic_regions);
   view.points.assign(view.features.size(), -1);
-  const int with_depth = countDepth(view.features);
+  const auto with_depth = view.features.withDepth();
   if (with_depth < parameters_.min_inliers) {
     keep(nullptr);
     alignDensely(frame, prior);
@@ -285,15 +280,21 @@ RelativePose Tracker::loopOf(int keyframe, double t, const Pose3& keyframe_from_
   return closure;
 }
 
+std::optional<PoseSolution> Tracker::seenFrom(int other, int index) const {
+  const Keyframe& keyframe = map_.keyframe(index);
+  const PoseSolution found = recognize(map_, other, keyframe.features, keyframe.camera, parameters_).solution;
+  if (found.inliers < parameters_.loop_min_inliers) return std::nullopt;
+  if (!plausible(other, around(index), found.camera_from_world.inverse())) return std::nullopt;
+  return found;
+}
+
 void Tracker::closeLoops(int index) {
   if (index - last_loop_ < kLoopPause) return;
   const Keyframe& current = map_.keyframe(index);
   for (const int candidate : loopCandidates(map_, index, parameters_)) {
-    const auto found = recognize(map_, candidate, current.features, current.camera, parameters_);
-    if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-    const Pose3 there = found.solution.camera_from_world.inverse();
-    if (!plausible(candidate, around(index), there)) continue;
-    closures_.push_back(loopOf(candidate, current.t, there, found.solution.covariance));
+    const auto seen = seenFrom(candidate, index);
+    if (!seen) continue;
+    closures_.push_back(loopOf(candidate, current.t, seen->camera_from_world.inverse(), seen->covariance));
     last_loop_ = index;
     return;
   }
@@ -302,25 +303,24 @@ void Tracker::closeLoops(int index) {
 std::vector<int> Tracker::keyframesNear(double t) const {
   std::vector<std::pair<double, int>> near;
   for (int i = 0; i < static_cast<int>(map_.keyframes.size()); ++i)
-    if (const double apart = std::abs(map_.keyframe(i).t - t);
-        !map_.keyframe(i).given_up && apart < kVerifyHorizon_s)
+    if (const double apart = std::abs(map_.keyframe(i).t - t); apart < kVerifyHorizon_s)
       near.emplace_back(apart, i);
   std::sort(near.begin(), near.end());
   std::vector<int> out;
-  for (const auto& [apart, index] : near)
-    if (static_cast<int>(out.size()) < kVerifyKeyframes) out.push_back(index);
+  for (const auto& [apart, index] : near) {
+    const int held = map_.keyframe(index).isGivenUp() ? map_.keyframe(index).shown_by : index;
+    if (static_cast<int>(out.size()) < kVerifyKeyframes && std::find(out.begin(), out.end(), held) == out.end())
+      out.push_back(held);
+  }
   return out;
 }
 
 std::optional<RelativePose> Tracker::verifyLoop(const RelativePose& proposed) const {
   for (const int b : keyframesNear(proposed.t_b)) {
-    const Keyframe& view = map_.keyframe(b);
     for (const int a : keyframesNear(proposed.t_a)) {
       if (a == b) continue;
-      const auto found = recognize(map_, a, view.features, view.camera, parameters_);
-      if (found.solution.inliers < parameters_.loop_min_inliers) continue;
-      const Pose3 there = found.solution.camera_from_world.inverse();
-      if (plausible(a, around(b), there)) return loopOf(a, view.t, there, found.solution.covariance);
+      if (const auto seen = seenFrom(a, b))
+        return loopOf(a, map_.keyframe(b).t, seen->camera_from_world.inverse(), seen->covariance);
     }
   }
   return std::nullopt;

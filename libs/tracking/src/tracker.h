@@ -106,8 +106,12 @@ class Tracker {
   void closeLoops(int keyframe);
   /// Keyframes that show what older ones show are given up: memory grows with what is seen, not with time.
   void giveUpRepeated();
-  bool giveUpIfRepeated(int keyframe);
-  /// Keyframes nearest in time within the horizon, nearest first.
+  /// An older keyframe that shows what this one shows, from nearly the same place.
+  std::optional<int> olderSameView(int keyframe) const;
+  /// Where keyframe `index` is in the frame of another one that shows the same (camera_from_world of the solution is
+  /// index_from_other); nothing when that is not sure.
+  std::optional<PoseSolution> seenFrom(int other, int index) const;
+  /// Keyframes nearest in time within the horizon, nearest first; for those that were given up, the ones that show the same.
   std::vector<int> keyframesNear(double t) const;
   RelativePose loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
                       const Matrix6d& covariance) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pose of a frame from the last frame's points, a keyframe, relocalisation or the local map.
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 
 #include "place_recognition.h"
@@ -10,6 +11,7 @@ namespace roomgraph::tracking {
 namespace {
 
 constexpr int kBeside = 5;               // keyframes before and after that show the place
+constexpr int kFarthestBeside = 25;      // of them, given up ones in between counted
 constexpr double kLeastAgreement = 0.9;  // of two views of one place
 
 void assign(std::vector<std::int64_t>& points, const std::vector<PointMatch>& matches) {
@@ -72,11 +74,17 @@ bool Tracker::relocalise(View& view) {
 // Views of one segment that came shortly before and after a keyframe's, in its frame.
 std::vector<PlacedSketch> Tracker::around(int keyframe) const {
   const Keyframe& middle = map_.keyframe(keyframe);
-  const int end = std::min(static_cast<int>(map_.keyframes.size()), keyframe + kBeside + 1);
-  std::vector<PlacedSketch> out;
-  for (int i = std::max(0, keyframe - kBeside); i < end; ++i)
-    if (const Keyframe& beside = map_.keyframe(i); !beside.given_up && beside.segment == middle.segment)
-      out.push_back({&beside.sketch, middle.odom_from_camera.inverse() * beside.odom_from_camera});
+  std::vector<PlacedSketch> out{{&middle.sketch}};
+  for (const int step : {-1, 1}) {
+    int looked_at = 0;
+    for (int i = keyframe + step; looked_at < kBeside && std::abs(i - keyframe) <= kFarthestBeside && map_.has(i); i += step) {
+      const Keyframe& beside = map_.keyframe(i);
+      if (beside.isGivenUp()) continue;
+      ++looked_at;
+      if (beside.segment == middle.segment)
+        out.push_back({&beside.sketch, middle.odom_from_camera.inverse() * beside.odom_from_camera});
+    }
+  }
   return out;
 }
 

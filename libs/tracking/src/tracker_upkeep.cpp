@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Giving up of keyframes that repeat older ones.
-#include <algorithm>
-
 #include "place_recognition.h"
 #include "tracker.h"
 
 namespace roomgraph::tracking {
 namespace {
 
-constexpr int kRecentKeyframes = 40;           // the map around the camera, as a rule
-constexpr int kExaminedAtOnce = 2;             // more than come, so that the number goes down
+constexpr int kRecentKeyframes = 40;  // the map around the camera, as a rule
+constexpr int kExaminedAtOnce = 2;    // more than come, so that the number goes down
 constexpr double kSameView_m = 0.4, kSameView_rad = 0.4;
+constexpr double kLeastShown = 0.2;   // of what has depth; less is a place that has changed
 
 bool isSameView(const Pose3& between) {
   return between.translation().norm() / kSameView_m + rotationAngle(between) / kSameView_rad < 1;
@@ -20,42 +19,23 @@ bool isSameView(const Pose3& between) {
 
 void Tracker::giveUpRepeated() {
   const int end = static_cast<int>(map_.keyframes.size()) - kRecentKeyframes;
-  const auto around_camera = map_.covisible(last_points_);
-  const auto isInUse = [&](int index) {
-    return std::any_of(around_camera.begin(), around_camera.end(),
-                       [&](const auto& entry) { return entry.second == index; });
-  };
   for (int tried = 0; tried < kExaminedAtOnce; ++tried) {
-    if (keyframesHeld() <= parameters_.keyframes_kept || examined_ >= end || isInUse(examined_)) return;
-    given_up_ += giveUpIfRepeated(examined_++);
+    if (keyframesHeld() <= parameters_.keyframes_kept || examined_ >= end) return;
+    if (const auto older = olderSameView(examined_)) {
+      map_.giveUp(examined_, *older);
+      ++given_up_;
+    }
+    ++examined_;
   }
 }
 
-bool Tracker::giveUpIfRepeated(int index) {
-  const Keyframe& keyframe = map_.keyframe(index);
-  const auto neighbours = map_.covisible(keyframe.points);
-  const auto holder = std::find_if(neighbours.begin(), neighbours.end(), [&](const auto& entry) {
-    return entry.second != index && map_.keyframe(entry.second).segment == keyframe.segment;
-  });
-  if (holder == neighbours.end()) return false;
-  const auto older = loopCandidates(map_, index, parameters_);
-  const bool repeated = std::any_of(older.begin(), older.end(), [&](int other) {
-    const auto found = recognize(map_, other, keyframe.features, keyframe.camera, parameters_);
-    if (found.solution.inliers < parameters_.loop_min_inliers) return false;
-    const Pose3 there = found.solution.camera_from_world.inverse();
-    return isSameView(there) && plausible(other, around(index), there);
-  });
-  if (!repeated) return false;
-  // The frames that it held move along with the keyframe that shares most with it.
-  const Pose3 holder_from_keyframe =
-      map_.keyframe(holder->second).odom_from_camera.inverse() * keyframe.odom_from_camera;
-  for (Record& record : records_)
-    if (record.keyframe == index) {
-      record.keyframe = holder->second;
-      record.keyframe_from_camera = normalized(holder_from_keyframe * record.keyframe_from_camera);
-    }
-  map_.giveUp(index);
-  return true;
+std::optional<int> Tracker::olderSameView(int index) const {
+  const double least_shown = kLeastShown * static_cast<double>(map_.keyframe(index).features.withDepth());
+  for (const int older : loopCandidates(map_, index, parameters_)) {
+    const auto seen = seenFrom(older, index);
+    if (seen && seen->inliers >= least_shown && isSameView(seen->camera_from_world)) return older;
+  }
+  return std::nullopt;
 }
 
 }  // namespace roomgraph::tracking

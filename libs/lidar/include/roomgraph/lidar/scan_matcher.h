@@ -52,7 +52,7 @@ class ScanLoopCloser : public Stage {
     (void)proposed;
     return std::nullopt;
   }
-  /// Nothing more will be asked: the memory of what was seen is given back.
+  /// Nothing more comes or will be asked: the memory of what was seen is given back. prepare() begins anew.
   virtual void release() {}
 };
 

@@ -43,7 +43,7 @@ class FrontEnds {
   void refine();
   /// Nothing more comes, and no closure will be verified: what images showed is given up.
   void releaseImages();
-  /// No loop of scans will be searched: what scans showed is given up.
+  /// No loop of scans will be searched: the local maps kept for that are given up.
   void releaseScans();
 
  private:

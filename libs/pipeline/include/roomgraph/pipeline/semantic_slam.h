@@ -77,9 +77,10 @@ class SemanticSlam {
   /// A record that will come: what is known of it before its turn is computed now and kept. For all records in their order, on
   /// any one thread beside process(), or for none; the result is the same.
   void foresee(const Record& record);
-  /// One record, in order of time. Records whose time goes backwards are counted and left out.
+  /// One record, in order of time. Records whose time goes backwards are counted and left out. Throws std::logic_error after
+  /// finish().
   void process(const Record& record);
-  /// Refines everything with all data and builds the map. May be called at any moment.
+  /// Refines everything with all data and builds the map. After any record, once: what the stages remembered is given up.
   SlamResult finish();
 
   /// Of finish(): the final one; empty before.
@@ -157,6 +158,7 @@ class SemanticSlam {
   RunCounts counts_;
   double last_frame_t_, last_scan_t_;
   std::optional<double> first_t_;                        ///< of the first record
+  bool finished_ = false;
   std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
   std::vector<std::pair<double, Pose3>> camera_mounts_;  ///< frame time, robot_from_camera
 };

@@ -63,7 +63,7 @@ class RgbdOdometry : public Stage {
     return std::nullopt;
   }
 
-  /// Nothing more will be asked: the memory of what was seen is given back.
+  /// Nothing more comes or will be asked: the memory of what was seen is given back. prepare() begins anew.
   virtual void release() {}
 };
 
