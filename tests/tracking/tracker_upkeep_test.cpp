@@ -26,14 +26,20 @@ Pose3 lookingAt(double frame) {
   return pose;
 }
 
-std::vector<Frame> turnIn(unsigned room_seed) {
+std::vector<Frame> turnIn(unsigned room_seed, double aside_m) {
   const test::TexturedRoom room(room_seed);
   std::vector<Frame> out;
-  for (int i = 0; i < kFramesPerTurn; ++i) out.push_back(room.render(i, lookingAt(i)));
+  for (int i = 0; i < kFramesPerTurn; ++i) {
+    Pose3 camera = lookingAt(i);
+    camera.translation().x() += aside_m;
+    out.push_back(room.render(i, camera));
+  }
   return out;
 }
 
-/// A camera that turns in one of two rooms that differ in what their walls show; how many keyframes may stay.
+enum Place { kMiddle, kAside, kOtherWalls };
+
+/// A camera that turns in the middle of a room, aside from there, or in a room whose walls show something else.
 struct TurningCamera {
   explicit TurningCamera(int keyframes_kept) : tracker(parametersWith(keyframes_kept)) {}
 
@@ -45,10 +51,10 @@ struct TurningCamera {
     return out;
   }
 
-  void turn(int turns, bool in_other_room = false) {
-    static const std::array<std::vector<Frame>, 2> rooms{turnIn(1), turnIn(5)};
+  void turn(int turns, Place place = kMiddle) {
+    static const std::array<std::vector<Frame>, 3> places{turnIn(1, 0), turnIn(1, 0.6), turnIn(5, 0)};
     for (int k = 0; k < turns * kFramesPerTurn; ++k) {
-      Frame frame = rooms[in_other_room][static_cast<std::size_t>(frames % kFramesPerTurn)];
+      Frame frame = places[place][static_cast<std::size_t>(frames % kFramesPerTurn)];
       frame.t = frames++;
       tracker.track(frame, {});
     }
@@ -89,13 +95,21 @@ TEST(TrackerUpkeep, KeyframesGrowWithWhatIsSeenNotWithTime) {
   expectStepsOfTheTruth(camera);
 }
 
-TEST(TrackerUpkeep, OtherWallsAreNotWhatWasSeenBefore) {
+void expectKeyframesOfBothPlaces(Place second) {
   TurningCamera few(20);
   few.turn(3);
-  few.turn(kTurns, true);
+  few.turn(kTurns, second);
   const int of_a_turn = keyframesOfATurn();
   EXPECT_GE(few.tracker.keyframesHeld(), 2 * of_a_turn + kRecent - 3);
   EXPECT_LE(few.tracker.keyframesHeld(), 2 * of_a_turn + kRecent + 8);
+}
+
+TEST(TrackerUpkeep, OtherWallsAreNotWhatWasSeenBefore) {
+  expectKeyframesOfBothPlaces(kOtherWalls);
+}
+
+TEST(TrackerUpkeep, TheSameWallsFromElsewhereAreSomethingNew) {
+  expectKeyframesOfBothPlaces(kAside);
 }
 
 TEST(TrackerUpkeep, AsManyAsAreAllowedStay) {
