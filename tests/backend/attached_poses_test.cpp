@@ -169,8 +169,8 @@ TEST(AttachedPoses, MovementWithinABodySaysNothing) {
   EXPECT_EQ(graph.factors(), before);
   graph.add(m.movement(NodeId{1}, NodeId{3}));
   EXPECT_EQ(graph.factors(), before + 1);
-  EXPECT_TRUE(graph.isAttached(NodeId{1}));
-  EXPECT_FALSE(graph.isAttached(NodeId{0}));
+  EXPECT_EQ(graph.bodyOf(NodeId{1}), NodeId{0});
+  EXPECT_EQ(graph.bodyOf(NodeId{0}), NodeId{0});
 }
 
 TEST(AttachedPoses, WhatHoldsForOnePoseIsRefused) {

@@ -179,7 +179,7 @@ TEST(GraphBuilder, OldKeyPosesMoveTogether) {
   double moved = 0, apart = 0;
   for (int i = 0; i < kNodes; ++i) {
     const int leader = i - i % 10;
-    EXPECT_EQ(few.isAttached(NodeId{i}), i < 35 && i != leader) << i;
+    EXPECT_EQ(few.bodyOf(NodeId{i}), NodeId{i < 35 ? leader : i}) << i;
     const auto between = [](const Pose3& a, const Pose3& b) { return a.inverse() * b; };
     const Pose3& before = poses.nodes()[static_cast<std::size_t>(i)].world_from_robot;
     if (i < 35) {
@@ -193,6 +193,49 @@ TEST(GraphBuilder, OldKeyPosesMoveTogether) {
   EXPECT_LT(apart, 0.1 * moved);
 }
 
+// A straight drive, a key pose each second, measured by scans.
+FactorGraph longDrive(int key_poses, std::size_t free) {
+  const MotionSource none(MotionNoise{}, true);
+  Scenario scenario{{none, none, MotionSource(kScanNoise, true)}, {}, {}, {}};
+  for (int k = 0; k <= 10 * key_poses; ++k)
+    scenario.motion.lidar.add(0.1 * k, poseFromYpr(0.02 * k, 0, 0, 0, 0, 0), 0, Matrix6d::Identity() * 1e-6);
+  KeyPoses poses(scenario.motion);
+  for (int i = 0; i < key_poses; ++i) poses.add(i, poseFromYpr(0.2 * i, 0, 0, 0, 0, 0));
+  return buildGraph(poses, scenario.motion, {}, {}, scenario.options, nullptr, free);
+}
+
+TEST(GraphBuilder, BodiesAreTwiceAsLongWhereTwiceAsManyKeyPosesCame) {
+  constexpr int kAll = 4500;
+  const FactorGraph graph = longDrive(kAll, 50);
+  std::size_t leaders = 0, maps = 0;
+  for (int i = 0; i < kAll; ++i) {
+    const int age = kAll - i, length = age <= 50 ? 1 : age <= 1000 ? 10 : age <= 2000 ? 20 : age <= 4000 ? 40 : 80;
+    EXPECT_EQ(graph.bodyOf(NodeId{i}) == NodeId{i}, i % length == 0) << i;
+    leaders += i % length == 0;
+    maps += i % 10 == 0 && length <= 10;
+  }
+  EXPECT_EQ(graph.poses(), leaders + maps) << "local maps have a pose of their own where bodies are as short as they";
+}
+
+TEST(GraphBuilder, OfVeryManyKeyPosesSomeMoveTogetherInTheEnd) {
+  constexpr int kAll = 5500;
+  const FactorGraph graph = longDrive(kAll, kAllFree);
+  for (int i = 0; i < kAll; ++i) EXPECT_EQ(graph.bodyOf(NodeId{i}), NodeId{i - i % 2}) << i;
+  EXPECT_EQ(graph.poses(), kAll / 2 + kAll / 10u);
+}
+
+// What bodies hold is as it was measured, and a closure bends them where they join.
+TEST(GraphBuilder, LongBodiesWithTheirLocalMapsBendWhereTheyJoin) {
+  constexpr int kAll = 2200;
+  FactorGraph graph = longDrive(kAll, 50);
+  graph.add(BetweenFactor{NodeId{0}, NodeId{kAll - 1}, poseFromYpr(0.2 * (kAll - 1), 3, 0, 0, 0, 0), Matrix6d::Identity() * 1e-6, 0});
+  ASSERT_TRUE(graph.optimize(100).usable);
+  EXPECT_NEAR(graph.pose(NodeId{kAll - 1}).translation().y(), 3, 0.02);
+  EXPECT_NEAR(graph.pose(NodeId{kAll / 2}).translation().y(), 1.5, 0.4) << "all along";
+  const Pose3 within = graph.pose(NodeId{40}).inverse() * graph.pose(NodeId{59});
+  EXPECT_TRUE(within.isApprox(poseFromYpr(0.2 * 19, 0, 0, 0, 0, 0), 1e-9));
+}
+
 TEST(GraphBuilder, ABodyEndsWhereNothingMeasuresTheMovement) {
   Scenario scenario = wheelsOnly();
   MotionSource gap(kWheelNoise, true);
@@ -201,7 +244,7 @@ TEST(GraphBuilder, ABodyEndsWhereNothingMeasuresTheMovement) {
   scenario.motion.odometry = gap;
   const KeyPoses poses = scenario.start();
   const FactorGraph graph = buildGraph(poses, scenario.motion, {}, {}, scenario.options, nullptr, 1);
-  for (int i = 10; i < 20; ++i) EXPECT_EQ(graph.isAttached(NodeId{i}), i != 10 && i != 15 && i != 16) << i;
+  for (int i = 10; i < 20; ++i) EXPECT_EQ(graph.bodyOf(NodeId{i}) == NodeId{i}, i == 10 || i == 15 || i == 16) << i;
 }
 
 // A handheld camera whose world is tilted: sightings of the floor level it; place and heading of the start

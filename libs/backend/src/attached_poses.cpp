@@ -98,7 +98,10 @@ void FactorGraph::attach(NodeId id, NodeId to, const Pose3& world_from_robot) {
   impl_->attached[id] = {to, pose(to).inverse() * world_from_robot};
 }
 
-bool FactorGraph::isAttached(NodeId id) const { return impl_->attached.contains(id); }
+NodeId FactorGraph::bodyOf(NodeId id) const {
+  const auto found = impl_->attached.find(id);
+  return found == impl_->attached.end() ? id : found->second.to;
+}
 
 Pose3 FactorGraph::pose(NodeId id) const {
   if (const auto found = impl_->attached.find(id); found != impl_->attached.end())

@@ -76,14 +76,26 @@ struct PosesInGraph {
   std::size_t free = kAllFree;  // so many latest ones have a pose of their own; older ones move with the first of their body
 };
 
-constexpr std::size_t kBody = 10;  // key poses that move together
+constexpr std::size_t kBody = 10;           // key poses that move together
+constexpr std::size_t kShortBodies = 1000;  // latest key poses whose bodies are no longer
+constexpr std::size_t kMostFree = 5000;     // bodies of a graph of which all is free
+
+// Key poses that move together with one that so many came after, itself counted. Twice as many where twice as many came: a long
+// run adds few bodies.
+std::size_t bodyLength(std::size_t age, std::size_t all, std::size_t free) {
+  if (free == kAllFree) return 1 + (all - 1) / kMostFree;
+  if (age <= free) return 1;
+  std::size_t length = kBody;
+  for (std::size_t oldest = kShortBodies; age > oldest; oldest *= 2) length *= 2;
+  return length;
+}
 
 void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Motion& motion, const PosesInGraph& which,
                   bool fix_first) {
   std::size_t body = which.first;
   for (std::size_t i = which.first; i < nodes.size(); ++i) {
-    const bool free = nodes.size() - i <= which.free;
-    if (free || i == which.first || i % kBody == 0 || !connected(motion, nodes[i - 1], nodes[i])) {
+    const std::size_t length = bodyLength(nodes.size() - i, nodes.size() - which.first, which.free);
+    if (i == which.first || i % length == 0 || !connected(motion, nodes[i - 1], nodes[i])) {
       body = i;
       graph.addPose(nodes[i].id, nodes[i].world_from_robot, i == which.first && fix_first);
     } else {
@@ -111,12 +123,14 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
   for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
   if (!local_maps) return {};
-  const auto maps = addLocalMaps(graph, poses, motion, first, options);
+  // In bodies that are longer than they are, local maps move along.
+  const auto moves_along = [&](std::size_t i) { return bodyLength(nodes.size() - i, nodes.size() - which.first, which.free) > kBody; };
+  const auto maps = addLocalMaps(graph, poses, motion, first, moves_along, options);
   // Where a map begins the robot stood on the floor. Scans do not measure tilt and height of theirs: left free, these
   // would give way where yaws disagree.
   if (measurements.planar)
     for (const LocalMap& map : maps)
-      graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+      if (graph.bodyOf(map.id) == map.id) graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   return maps;
 }
 

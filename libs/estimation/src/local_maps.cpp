@@ -11,12 +11,16 @@ const NodeId kFirstOfImages{10'000'000}, kFirstOfScans{20'000'000};
 constexpr double kMatchRobustWidth = 3;  // Cauchy, in standard deviations: a wrong match is rare
 
 void addFactors(FactorGraph& graph, const KeyPoses& poses, const MotionSource& source,
-                const std::vector<LocalMap>& maps, std::size_t since) {
+                const std::vector<LocalMap>& maps, std::size_t since, const std::function<bool(std::size_t)>& moves_along) {
   const auto& nodes = poses.nodes();
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const LocalMap& map = maps[k];
     const double begin_t = nodes[map.first].t;
-    graph.addPose(map.id, nodes[map.first].world_from_robot);
+    const KeyPose& begin = nodes[map.first];
+    if (moves_along(map.first))
+      graph.attach(map.id, graph.bodyOf(begin.id), begin.world_from_robot);
+    else
+      graph.addPose(map.id, begin.world_from_robot);
     if (k > 0 && map.follows) {
       const Movement moved = source.betweenLocalMaps(nodes[maps[k - 1].first].t, begin_t, kSourceGap_s).value();
       graph.add(BetweenFactor{maps[k - 1].id, map.id, moved.a_from_b, moved.covariance, kMatchRobustWidth});
@@ -57,12 +61,13 @@ std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& sourc
 }
 
 std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
-                                   std::size_t since, const BackendOptions& options) {
+                                   std::size_t since, const std::function<bool(std::size_t)>& moves_along,
+                                   const BackendOptions& options) {
   std::vector<LocalMap> all;
   for (const auto& [source, first_id] :
        {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}}) {
     const std::vector<LocalMap> maps = localMaps(poses, *source, first_id, since, options);
-    addFactors(graph, poses, *source, maps, since);
+    addFactors(graph, poses, *source, maps, since, moves_along);
     all.insert(all.end(), maps.begin(), maps.end());
   }
   return all;

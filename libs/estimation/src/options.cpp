@@ -60,8 +60,8 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
        .max = 1000});
   v.add("free_nodes", o.free_nodes,
         {.doc = "So many latest key poses, and all that were in none before, have a pose of their own in optimisations of the "
-                "whole graph during a run; older ones move rigidly with the first one of their ten. At its end all have, in the "
-                "first optimisation and in the last.",
+                "whole graph during a run; older ones move rigidly with the first one of their ten, or of more where they are more than a "
+                "thousand back. At its end all have, in the first optimisation and in the last, up to 5000.",
          .min = 1,
          .max = 1000000});
   v.add("optimize_every_nodes", o.optimize_every_nodes,

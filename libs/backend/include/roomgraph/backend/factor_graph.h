@@ -51,7 +51,8 @@ class FactorGraph {
   /// that are added of it are told of `to`. Those between poses of one such body are left out; a MarginalPrior of one is
   /// refused with std::invalid_argument. Files of the graph do not hold such poses.
   void attach(NodeId id, NodeId to, const Pose3& world_from_robot);
-  bool isAttached(NodeId id) const;
+  /// The pose with which this one moves: that to which it is attached, or itself.
+  NodeId bodyOf(NodeId id) const;
   void addLandmark(LandmarkId id, const LandmarkEstimate& initial);
   void addPoint(PointId id, const Eigen::Vector3d& in_world);
   /// Throws std::invalid_argument when the landmark of a LandmarkBoxFactor or PointLandmarkFactor has no
