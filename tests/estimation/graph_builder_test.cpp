@@ -214,14 +214,14 @@ TEST(GraphBuilder, BodiesAreTwiceAsLongWhereTwiceAsManyKeyPosesCame) {
     leaders += i % length == 0;
     maps += i % 10 == 0 && length <= 10;
   }
-  EXPECT_EQ(graph.poses(), leaders + maps) << "local maps have a pose of their own where bodies are as short as they";
+  EXPECT_EQ(graph.poses(), leaders + maps) << "local maps have a pose of their own where bodies are no longer";
 }
 
-TEST(GraphBuilder, OfVeryManyKeyPosesSomeMoveTogetherInTheEnd) {
-  constexpr int kAll = 5500;
-  const FactorGraph graph = longDrive(kAll, kAllFree);
-  for (int i = 0; i < kAll; ++i) EXPECT_EQ(graph.bodyOf(NodeId{i}), NodeId{i - i % 2}) << i;
-  EXPECT_EQ(graph.poses(), kAll / 2 + kAll / 10u);
+TEST(GraphBuilder, OfVeryManyKeyPosesTenMoveTogetherInTheEnd) {
+  const FactorGraph many = longDrive(5001, kAllFree), fewer = longDrive(5000, kAllFree);
+  for (int i = 0; i < 5001; ++i) EXPECT_EQ(many.bodyOf(NodeId{i}), NodeId{i - i % 10}) << i;
+  EXPECT_EQ(many.poses(), 501u + 501) << "with the local maps";
+  EXPECT_EQ(fewer.poses(), 5000u + 500);
 }
 
 // What bodies hold is as it was measured, and a closure bends them where they join.
@@ -231,7 +231,7 @@ TEST(GraphBuilder, LongBodiesWithTheirLocalMapsBendWhereTheyJoin) {
   graph.add(BetweenFactor{NodeId{0}, NodeId{kAll - 1}, poseFromYpr(0.2 * (kAll - 1), 3, 0, 0, 0, 0), Matrix6d::Identity() * 1e-6, 0});
   ASSERT_TRUE(graph.optimize(100).usable);
   EXPECT_NEAR(graph.pose(NodeId{kAll - 1}).translation().y(), 3, 0.02);
-  EXPECT_NEAR(graph.pose(NodeId{kAll / 2}).translation().y(), 1.5, 0.4) << "all along";
+  EXPECT_NEAR(graph.pose(NodeId{kAll / 2}).translation().y(), 1.5, 0.1) << "as much where bodies are long";
   const Pose3 within = graph.pose(NodeId{40}).inverse() * graph.pose(NodeId{59});
   EXPECT_TRUE(within.isApprox(poseFromYpr(0.2 * 19, 0, 0, 0, 0, 0), 1e-9));
 }

@@ -78,12 +78,11 @@ struct PosesInGraph {
 
 constexpr std::size_t kBody = 10;           // key poses that move together
 constexpr std::size_t kShortBodies = 1000;  // latest key poses whose bodies are no longer
-constexpr std::size_t kMostFree = 5000;     // bodies of a graph of which all is free
+constexpr std::size_t kMostFree = 5000;     // key poses of which all are free
 
-// Key poses that move together with one that so many came after, itself counted. Twice as many where twice as many came: a long
-// run adds few bodies.
+// Key poses that move together where one is the latest but age - 1. Twice as many at twice the age: a long run adds few bodies.
 std::size_t bodyLength(std::size_t age, std::size_t all, std::size_t free) {
-  if (free == kAllFree) return 1 + (all - 1) / kMostFree;
+  if (free == kAllFree) return all > kMostFree ? kBody : 1;
   if (age <= free) return 1;
   std::size_t length = kBody;
   for (std::size_t oldest = kShortBodies; age > oldest; oldest *= 2) length *= 2;
@@ -123,14 +122,12 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
   for (auto ground = since; ground != measurements.grounds.end(); ++ground) graph.add(*ground);
   if (!local_maps) return {};
-  // In bodies that are longer than they are, local maps move along.
-  const auto moves_along = [&](std::size_t i) { return bodyLength(nodes.size() - i, nodes.size() - which.first, which.free) > kBody; };
-  const auto maps = addLocalMaps(graph, poses, motion, first, moves_along, options);
+  const auto maps = addLocalMaps(graph, poses, motion, first, options);
   // Where a map begins the robot stood on the floor. Scans do not measure tilt and height of theirs: left free, these
   // would give way where yaws disagree.
   if (measurements.planar)
     for (const LocalMap& map : maps)
-      if (graph.bodyOf(map.id) == map.id) graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+      graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   return maps;
 }
 

@@ -3,6 +3,7 @@
 #include "local_maps.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace roomgraph {
 namespace {
@@ -10,20 +11,32 @@ namespace {
 const NodeId kFirstOfImages{10'000'000}, kFirstOfScans{20'000'000};
 constexpr double kMatchRobustWidth = 3;  // Cauchy, in standard deviations: a wrong match is rare
 
+// Whether its key poses are some of those of a longer body.
+bool movesAlong(const FactorGraph& graph, const std::vector<KeyPose>& nodes, const LocalMap& map) {
+  const NodeId begin = nodes[map.first].id, body = graph.bodyOf(begin);
+  if (graph.bodyOf(nodes[map.end - 1].id) != body) return false;
+  return body != begin || (map.end < nodes.size() && graph.bodyOf(nodes[map.end].id) == body);
+}
+
 void addFactors(FactorGraph& graph, const KeyPoses& poses, const MotionSource& source,
-                const std::vector<LocalMap>& maps, std::size_t since, const std::function<bool(std::size_t)>& moves_along) {
+                const std::vector<LocalMap>& maps, std::size_t since) {
   const auto& nodes = poses.nodes();
+  Matrix6d within = Matrix6d::Zero();  // drift within the body: where it ends, all of it gives way
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const LocalMap& map = maps[k];
-    const double begin_t = nodes[map.first].t;
     const KeyPose& begin = nodes[map.first];
-    if (moves_along(map.first))
+    const double begin_t = begin.t;
+    if (movesAlong(graph, nodes, map))
       graph.attach(map.id, graph.bodyOf(begin.id), begin.world_from_robot);
     else
       graph.addPose(map.id, begin.world_from_robot);
     if (k > 0 && map.follows) {
       const Movement moved = source.betweenLocalMaps(nodes[maps[k - 1].first].t, begin_t, kSourceGap_s).value();
-      graph.add(BetweenFactor{maps[k - 1].id, map.id, moved.a_from_b, moved.covariance, kMatchRobustWidth});
+      within += moved.covariance;
+      if (graph.bodyOf(maps[k - 1].id) != graph.bodyOf(map.id))
+        graph.add(BetweenFactor{maps[k - 1].id, map.id, moved.a_from_b, std::exchange(within, Matrix6d::Zero()), kMatchRobustWidth});
+    } else {
+      within.setZero();
     }
     for (std::size_t i = std::max(map.first, since); i < map.end; ++i) {
       const Movement seen = source.inLocalMap(begin_t, nodes[i].t, kSourceGap_s).value();
@@ -61,13 +74,12 @@ std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& sourc
 }
 
 std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
-                                   std::size_t since, const std::function<bool(std::size_t)>& moves_along,
-                                   const BackendOptions& options) {
+                                   std::size_t since, const BackendOptions& options) {
   std::vector<LocalMap> all;
   for (const auto& [source, first_id] :
        {std::pair{&motion.visual, kFirstOfImages}, {&motion.lidar, kFirstOfScans}}) {
     const std::vector<LocalMap> maps = localMaps(poses, *source, first_id, since, options);
-    addFactors(graph, poses, *source, maps, since, moves_along);
+    addFactors(graph, poses, *source, maps, since);
     all.insert(all.end(), maps.begin(), maps.end());
   }
   return all;

@@ -2,7 +2,6 @@
 // Poses of the local maps that images and scans are matched against, as variables of the graph.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "roomgraph/estimation/graph_builder.h"
@@ -23,9 +22,8 @@ std::vector<LocalMap> localMaps(const KeyPoses& poses, const MotionSource& sourc
 
 /// Local maps of images and of scans as poses, and their factors: key poses from `since` on as seen in their
 /// map, and the beginning of each map as seen from the one before, with the drift between them (method.md
-/// sec. 4.4, factor 1). Where the key pose at which a map begins, by its index, `moves_along`, the map has no variables: it stays
-/// where that pose is in its body. Returns them.
-std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion, std::size_t since,
-                                   const std::function<bool(std::size_t)>& moves_along, const BackendOptions& options);
+/// sec. 4.4, factor 1). A map whose key poses are some of those of a longer body moves along: it has no variables. Returns them.
+std::vector<LocalMap> addLocalMaps(FactorGraph& graph, const KeyPoses& poses, const Motion& motion,
+                                   std::size_t since, const BackendOptions& options);
 
 }  // namespace roomgraph

@@ -11,13 +11,13 @@
 namespace roomgraph {
 namespace {
 
-// "# CLOSURE a b kind" for each, in the order in which the graph has its edges.
+// "# CLOSURE a b kind" for each, in the order in which the graph has its edges, between the bodies that it ties.
 void appendClosureKinds(const SemanticSlam& slam, const std::filesystem::path& file) {
   std::ofstream out(file, std::ios::app);
   const KeyPoses& poses = slam.keyPoses();
   for (const auto& closure : slam.loopClosures()) {
     if (closure.link) continue;
-    const NodeId a = poses.nearest(closure.t_a).id, b = poses.nearest(closure.t_b).id;
+    const NodeId a = slam.graph().bodyOf(poses.nearest(closure.t_a).id), b = slam.graph().bodyOf(poses.nearest(closure.t_b).id);
     if (a != b) out << "# CLOSURE " << a << ' ' << b << ' ' << closure.source << '\n';
   }
   if (!out.flush()) failToWrite(file, errno);

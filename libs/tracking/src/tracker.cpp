@@ -317,6 +317,7 @@ std::vector<int> Tracker::keyframesNear(double t) const {
 
 std::optional<RelativePose> Tracker::verifyLoop(const RelativePose& proposed) const {
   for (const int b : keyframesNear(proposed.t_b)) {
+    if (std::abs(map_.keyframe(b).t - proposed.t_b) > kVerifyHorizon_s) continue;  // what shows the same says nothing of then
     for (const int a : keyframesNear(proposed.t_a)) {
       if (a == b) continue;
       if (const auto seen = seenFrom(a, b))

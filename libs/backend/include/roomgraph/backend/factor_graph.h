@@ -51,7 +51,7 @@ class FactorGraph {
   /// that are added of it are told of `to`. Those between poses of one such body are left out; a MarginalPrior of one is
   /// refused with std::invalid_argument. Files of the graph do not hold such poses.
   void attach(NodeId id, NodeId to, const Pose3& world_from_robot);
-  /// The pose with which this one moves: that to which it is attached, or itself.
+  /// The pose with which this one moves: that to which it is attached, or itself, also when it is not in the graph.
   NodeId bodyOf(NodeId id) const;
   void addLandmark(LandmarkId id, const LandmarkEstimate& initial);
   void addPoint(PointId id, const Eigen::Vector3d& in_world);
