@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run of many minutes: what the stages cost in each minute of it, so that whatever grows is seen.
 
-    bench/long_run.py [WORLD.json] [--minutes 10] [--seed 1] [--set k=v ...] [--out out/long_run]
+    bench/long_run.py [WORLD.json] [--minutes 10] [--seed 1] [--camera k=v ...] [--set k=v ...] [--out out/long_run]
 
 The world's path (worlds/lab.json) is driven again and again: up to where it comes back to its start, as often as the minutes
-need. The simulated sequence is kept in OUT/sequences and used again. Times are processor time of all threads, which other
+need. --camera changes the world's camera: fewer and smaller images (rate_hz=4 width_px=320 height_px=240) of an hour are rendered
+in minutes. The simulated sequence is kept in OUT/sequences and used again. Times are processor time of all threads, which other
 programs on the machine disturb little. `back end`: optimisation per key pose, of the window, and what the run itself does for
 the whole graph, which a thread beside it optimises.
 """
@@ -34,14 +35,22 @@ def lap_of(path, closed):
     return path
 
 
-def long_world(world, minutes):
-    """The world with a path of so many minutes."""
+def number_setting(text):
+    """'rate_hz=4' -> ('rate_hz', 4)"""
+    key, _, value = text.partition("=")
+    number = float(value)
+    return key, int(number) if number.is_integer() else number
+
+
+def long_world(world, minutes, camera):
+    """The world with a path of so many minutes, and these settings of its camera."""
     world = json.loads(json.dumps(world))
     robot = world["robot"]
     lap = lap_of(robot["path_m"], robot.pop("closed", False))
     length = sum(math.dist(a, b) for a, b in zip(lap, lap[1:] + lap[:1]))
     laps = math.ceil(60 * minutes * robot.get("max_speed_m_s", 0.45) / length)
     robot["path_m"] = lap * laps + lap[:1]
+    world["sensors"]["camera"].update(camera)
     return {**world, "name": f"{world['name']}_long", "duration_s": 60 * minutes}
 
 
@@ -85,6 +94,7 @@ def main(argv=None):
     parser.add_argument("world", nargs="?", type=Path, default=seeds.ROOT / "worlds" / "lab.json")
     parser.add_argument("--minutes", type=float, default=10)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--camera", nargs="+", type=number_setting, default=[], metavar="K=V", help="of worlds/README.md, sensors.camera")
     parser.add_argument("--set", nargs="+", action="extend", default=["detection.class=RecordedDetector"], metavar="K=V")
     parser.add_argument("--name", default="run", help="of the folder for this run's results in OUT")
     parser.add_argument("--out", type=Path, default=seeds.ROOT / "out" / "long_run")
@@ -95,7 +105,7 @@ def main(argv=None):
     program, out = seeds.Program(arguments.program), arguments.out.resolve()
     out.mkdir(parents=True, exist_ok=True)
     world = out / f"{arguments.world.stem}_{arguments.minutes:g}_minutes.json"
-    world.write_text(json.dumps(long_world(json.loads(arguments.world.read_text()), arguments.minutes)))
+    world.write_text(json.dumps(long_world(json.loads(arguments.world.read_text()), arguments.minutes, dict(arguments.camera))))
     truth, run = seeds.sequence(program, world, arguments.seed, out / "sequences"), out / arguments.name
     figures, problems = seeds.measure(program, truth, run, False, arguments.set, 0)
     if "trajectory.ate_rmse_m" not in figures:
