@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph run`: replay of a rawlog through SemanticSlam, with progress, map, snapshot and debug output.
-#include <malloc.h>
-
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -181,10 +179,6 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
     std::cerr << "roomgraph: " << checkpoint->whatIsThere() << "\n";
   return checkpoint;
 }
-
-// Threads share one heap: of the many that the C library would make for them each keeps what it once needed at most, a sixth
-// of a long run's memory.
-void shareHeap() { mallopt(M_ARENA_MAX, 1); }
 
 // A run is large, and a renderer needs memory, too: pages between those still in use are given back as well.
 void release(std::unique_ptr<SemanticSlam>& slam) {

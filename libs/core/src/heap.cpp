@@ -6,6 +6,10 @@
 
 namespace roomgraph {
 
+void shareHeap() {
+  mallopt(M_ARENA_MAX, 1);
+}
+
 void giveBackFreedMemory() {
   malloc_trim(0);
 }

@@ -24,7 +24,7 @@ struct Recognition {
 Recognition recognize(const LocalMap& map, int keyframe, const Features& features,
                       const PinholeCamera& camera, const TrackingParameters& parameters);
 
-/// Keyframes [0, end) that are not given up by similarity with a thumbnail, most similar first, at most `count`.
+/// Keyframes of [0, end) by similarity with a thumbnail, most similar first, at most `count`; none that was given up.
 std::vector<int> mostSimilar(const LocalMap& map, const cv::Mat& thumbnail, int end, int count);
 
 /// Older keyframes that may show what keyframe `index` shows: similar ones and the nearest one of its

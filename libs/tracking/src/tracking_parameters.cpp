@@ -63,7 +63,8 @@ void declareMap(ParameterVisitor& v, TrackingParameters& p) {
   v.add("local_keyframes", p.local_keyframes,
         {.doc = "Number of keyframes whose points form the local map.", .min = 1, .max = 200});
   v.add("keyframes_kept", p.keyframes_kept,
-        {.doc = "When there are more, keyframes are given up that show what an older one shows from nearly the same place.",
+        {.doc = "When there are more, keyframes are given up that show what an older one shows from nearly the same place, found as "
+                "loops are (loop_candidates; 0: none is given up).",
          .min = 0,
          .max = 10000000});
   v.add("ba_window", p.ba_window,
