@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace roomgraph::test {
 namespace {
 
@@ -144,6 +146,45 @@ TEST(Motion, WheelsThatSpinHardlyMoveWhatScansSee) {
   const MotionSource none(kNoise, true);
   const Motion slips{movingBy(1.5, 0, 1e-4), none, movingBy(1, 0, 1e-4)};
   EXPECT_NEAR(slips.movement(0, 1, 0)->translation().x(), 1, 0.01) << "half a metre is 35 standard deviations";
+}
+
+// Images that lead up from the floor: metres ahead, metres up, with a standard deviation of a millimetre (and radian) each.
+MotionSource rising(double up) {
+  MotionSource source(MotionNoise{.floor_m = 1e-5, .per_m = 0, .floor_rad = 1e-5, .per_rad = 0, .rad_per_m = 0}, false);
+  source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  source.add(1, poseFromYpr(1, 0, up, 0.2, 0, 0), 0, 1e-6 * Matrix6d::Identity());
+  return source;
+}
+
+constexpr OnFloor kFloor{.sigma_z_m = 0.01, .sigma_tilt_rad = 0.005};
+
+TEST(Motion, OnTheFloorHeightIsAMeanOfImagesAndFloor) {
+  const MotionSource none(kNoise, true);
+  const Motion motion{none, rising(0.01), none, kFloor};
+  const double of_images = 1 / 1e-6, of_floor = 1 / (2 * 1e-4);  // two poses on the floor
+  const double surprise = 1e-4 / (1e-6 + 2e-4) / 9, mean = 0.01 / (1 + of_floor * std::pow(1 + surprise, 2) / of_images);
+  EXPECT_NEAR(motion.movement(0, 1, 0)->translation().z(), mean, 1e-6);
+}
+
+TEST(Motion, ARobotDoesNotLeaveTheFloorWhereImagesMislead) {
+  const MotionSource none(kNoise, true), wheels = movingBy(0.97);
+  const auto movement = [](const Motion& motion) { return *motion.movement(0, 1, 0); };
+  EXPECT_NEAR(movement({wheels, rising(0.4), none}).translation().z(), 0.4, 0.01) << "handheld, with wheels";
+  EXPECT_NEAR(movement({wheels, rising(0.4), none, kFloor}).translation().z(), 0, 0.02);
+  const Pose3 alone = movement({none, rising(0.4), none, kFloor});
+  EXPECT_NEAR(alone.translation().z(), 0, 0.02);
+  EXPECT_NEAR(alone.translation().x(), 1, 1e-3) << "nothing else says how far it went";
+  EXPECT_NEAR(planarPart(alone).yaw, 0.2, 1e-3);
+}
+
+TEST(Motion, ARobotDoesNotTiltWhereImagesMislead) {
+  const MotionSource none(kNoise, true);
+  MotionSource tilting(kNoise, false);
+  tilting.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  tilting.add(1, poseFromYpr(0, 0, 0, 0.3, 0.1, -0.2), 0, 1e-6 * Matrix6d::Identity());
+  const Pose3 seen = *Motion{none, tilting, none, kFloor}.movement(0, 1, 0);
+  EXPECT_NEAR(std::acos(seen.linear()(2, 2)), 0, 0.02);
+  EXPECT_NEAR(planarPart(seen).yaw, 0.3, 0.02);
 }
 
 TEST(MotionSource, RefinedPosesReplaceTheOld) {

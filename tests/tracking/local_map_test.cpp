@@ -111,6 +111,7 @@ TEST(LocalMap, AKeyframeThatIsGivenUpLeavesThePointsThatOthersSee) {
     const auto id = map.createPoint(1, i);
     if (i < 4) map.addSighting(id, 0, i);
   }
+  map.keyframe(1).origin = 2;
   map.giveUp(1, 0);
   expectConsistent(map);
   EXPECT_FALSE(map.keyframe(0).isGivenUp());
@@ -120,6 +121,7 @@ TEST(LocalMap, AKeyframeThatIsGivenUpLeavesThePointsThatOthersSee) {
   EXPECT_EQ(given_up.features.descriptors.capacity() + given_up.points.capacity(), 0u) << "its memory is free";
   EXPECT_EQ(given_up.t, 0.1);
   EXPECT_EQ(given_up.segment, 3);
+  EXPECT_EQ(given_up.origin, 2);
   EXPECT_EQ(given_up.odom_from_camera.translation().x(), 0.1);
   EXPECT_EQ(map.points.held(), 4u);
   EXPECT_THAT(map.pointsOf({0, 1}), ElementsAre(0, 1, 2, 3));

@@ -213,7 +213,7 @@ TEST(LoopCandidates, AreSimilarOldKeyframesAndTheNearestOne) {
   EXPECT_THAT(loopCandidates(map, 7, parameters), ElementsAre(1)) << "too recent: 4 and 5; 3 is 2 m away";
   map.keyframe(7).odom_from_camera.translation().x() = 4.9;
   EXPECT_THAT(loopCandidates(map, 7, parameters), ElementsAre(1, 3));
-  map.keyframe(3).segment = 1;
+  map.keyframe(3).origin = 1;
   EXPECT_THAT(loopCandidates(map, 7, parameters), ElementsAre(1)) << "unrelated frames";
   parameters.loop_candidates = 0;
   EXPECT_TRUE(loopCandidates(map, 7, parameters).empty());

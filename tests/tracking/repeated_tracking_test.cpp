@@ -100,6 +100,28 @@ TEST(RepeatedTracking, DoesNotLookAtImagesWhoseViewsAreKnown) {
   EXPECT_EQ(again.kept, 0u);
 }
 
+// By an older keyframe far from where the last view was: whether a segment begins there depends on what led there.
+TEST(RepeatedTracking, AJumpIsOneAgain) {
+  const test::TexturedRoom room;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 33; ++i) {
+    Pose3 pose = Pose3::Identity();
+    pose.linear() = expSO3({0, i < 31 ? 0.1 * i : 0.05 * (i - 30), 0});
+    frames.push_back(room.render(0.1 * i, pose));
+  }
+  ResultsInMemory first;
+  const auto undisturbed = track(frames, &first);
+  FeatureOdometry odometry;
+  odometry.prepare();
+  for (const Frame& frame : frames) odometry.track(frame, {});
+  const Trajectory once = odometry.trajectory();
+  ASSERT_EQ(once.segment(30), 0);
+  ASSERT_EQ(once.segment(32), 1);
+  ResultsInMemory again = first.beginning(first.kept);
+  EXPECT_EQ(track(frames, &again), undisturbed);
+  EXPECT_EQ(again.kept, 0u);
+}
+
 TEST(RepeatedTracking, AViewThroughBytesIsTheSame) {
   tracking::LocatedView view;
   view.features.places = {{{1.0f / 3, 7.25f}}, {{639.5f, 0}}};

@@ -160,9 +160,14 @@ TEST(TrackerUpkeep, ALostCameraIsFoundAmongTheKeyframesThatStay) {
     blank.depth.setTo(0);
     EXPECT_FALSE(few.tracker.track(blank, {}).tracked);
   }
+  few.tracker.takeLoopClosures();
   const auto found = few.tracker.track(room.render(few.frames, lookingAt(0.4 * kFramesPerTurn)), {});
   EXPECT_TRUE(found.tracked);
-  EXPECT_EQ(found.segment, 0);
+  const auto closures = few.tracker.takeLoopClosures();
+  ASSERT_EQ(closures.size(), 1u);
+  EXPECT_EQ(closures[0].t_b, few.frames);
+  const int seen_then = static_cast<int>(closures[0].t_a);
+  EXPECT_LT(rotationAngle(closures[0].a_from_b.inverse() * lookingAt(seen_then).inverse() * lookingAt(0.4 * kFramesPerTurn)), 0.02);
 }
 
 }  // namespace

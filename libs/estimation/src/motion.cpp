@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "roomgraph/geometry/covariance.h"
@@ -27,7 +28,8 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
 }
 
 constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
-constexpr double kSourceWidth = 3;  // Cauchy, in standard deviations: wheels slip, images mislead
+constexpr double kSourceWidth = 3;  // in standard deviations: wheels slip, images mislead
+constexpr std::array kOffFloor = {2, 3, 4};  // z, roll, pitch of a movement
 
 // Of two movements: translation, and the turn that leads from one rotation to the other, both in the frame of a.
 Vector6d differenceOf(const Pose3& from, const Pose3& to) {
@@ -43,6 +45,33 @@ Pose3 movedBy(const Pose3& movement, const Vector6d& difference) {
   const Eigen::Vector3d turn = difference.tail<3>();
   if (turn.norm() > 0) out.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * movement.linear();
   return out;
+}
+
+// How far a difference is from none: squared, in kSourceWidth standard deviations.
+template <int kSize>
+double surpriseOf(const Eigen::Matrix<double, kSize, 1>& difference, const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  return difference.dot(covariance.llt().solve(difference)) / (kSourceWidth * kSourceWidth);
+}
+
+// Of the way back to the floor; it leaves x, y and yaw.
+Vector6d toFloor(const Pose3& movement) { return differenceOf(movement, toPose3(planarPart(movement))); }
+
+// Of z, roll and pitch of a movement: both its poses are on the floor, each with its own error.
+Eigen::Vector3d floorVariance(const OnFloor& floor) {
+  return 2 * Eigen::Vector3d(floor.sigma_z_m, floor.sigma_tilt_rad, floor.sigma_tilt_rad).cwiseAbs2();
+}
+
+Matrix6d floorInformation(const OnFloor& floor) {
+  Vector6d information = Vector6d::Zero();
+  information(kOffFloor) = floorVariance(floor).cwiseInverse();
+  return information.asDiagonal();
+}
+
+double surpriseOffFloor(const OnFloor& floor, const Movement& movement) {
+  const Eigen::Vector3d off = toFloor(movement.a_from_b)(kOffFloor);
+  Eigen::Matrix3d covariance = movement.covariance(kOffFloor, kOffFloor);
+  covariance.diagonal() += floorVariance(floor);
+  return surpriseOf(off, covariance);
 }
 
 }  // namespace
@@ -138,7 +167,9 @@ std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, d
   return Movement{*movement, drift};
 }
 
-// Weighted mean of the movements' differences from the first source's. A source that contradicts the first one weighs less.
+// Weighted mean of the movements' differences from the first source's. A source that contradicts the first one weighs less (Cauchy); one
+// that leaves the floor weighs next to nothing (Geman and McClure): it would be a few centimetres off with the other weight, as images are
+// sure of what they show even where they mislead.
 std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {
   std::optional<Movement> first;
   Matrix6d information = Matrix6d::Zero();
@@ -149,12 +180,16 @@ std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) 
     if (!first) first = seen;
     const Vector6d difference = differenceOf(first->a_from_b, seen->a_from_b);
     const Matrix6d both = first->covariance + seen->covariance;
-    const double surprise = difference.dot(both.llt().solve(difference)) / (kSourceWidth * kSourceWidth);
-    const Matrix6d weight = seen->covariance.inverse() / (1 + surprise);
+    Matrix6d weight = seen->covariance.inverse() / (1 + surpriseOf(difference, both));
+    if (floor) weight /= std::pow(1 + surpriseOffFloor(*floor, *seen), 2);
     information += weight;
     sum += weight * difference;
   }
   if (!first) return std::nullopt;
+  if (floor) {
+    information += floorInformation(*floor);
+    sum += floorInformation(*floor) * toFloor(first->a_from_b);
+  }
   return movedBy(first->a_from_b, information.llt().solve(sum));
 }
 

@@ -33,6 +33,10 @@ FrontEnds::FrontEnds(const Stages& stages, const Options& options)
 
 FrontEnds::~FrontEnds() = default;
 
+void FrontEnds::setPlanar() {
+  motion_.floor = OnFloor{options_.backend.planar_sigma_z_m, options_.backend.planar_sigma_tilt_rad};
+}
+
 bool FrontEnds::add(const OdometryReading& reading) {
   return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0);
 }

@@ -19,7 +19,7 @@ void fuse(LocalMap& map, int index, const std::vector<std::int64_t>& created,
           const TrackingParameters& parameters) {
   int neighbours = 0;
   for (const auto& [shared, other] : map.covisible(map.keyframe(index).points)) {
-    if (other == index || map.keyframe(other).segment != map.keyframe(index).segment) continue;
+    if (other == index || map.keyframe(other).origin != map.keyframe(index).origin) continue;
     if (++neighbours > kFuseNeighbours) break;
     Keyframe& keyframe = map.keyframe(other);
     keyframe.features.grid = FeatureGrid(keyframe.features.places, keyframe.camera.width, keyframe.camera.height);

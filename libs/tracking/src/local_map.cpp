@@ -58,7 +58,12 @@ void LocalMap::giveUp(int keyframe_index, int older) {
   for (const auto id : ids)
     if (id >= 0) removeSighting(id, keyframe_index);
   Keyframe& it = keyframe(keyframe_index);
-  it = Keyframe{.t = it.t, .segment = it.segment, .camera = it.camera, .odom_from_camera = it.odom_from_camera, .shown_by = older};
+  it = Keyframe{.t = it.t,
+                .segment = it.segment,
+                .origin = it.origin,
+                .camera = it.camera,
+                .odom_from_camera = it.odom_from_camera,
+                .shown_by = older};
 }
 
 std::vector<std::pair<int, int>> LocalMap::covisible(const std::vector<std::int64_t>& ids) const {

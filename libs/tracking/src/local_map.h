@@ -18,7 +18,8 @@ namespace roomgraph::tracking {
 
 struct Keyframe {
   double t = 0;
-  int segment = 0;
+  int segment = 0;  ///< those of one were tracked without a break
+  int origin = 0;   ///< the keyframe that began its frame `odom`; poses in that of another one are unrelated
   PinholeCamera camera;
   Pose3 odom_from_camera = Pose3::Identity();
   Features features;                 ///< without grid, which is made when features are searched
@@ -32,7 +33,7 @@ struct Keyframe {
   Observation observation(int feature, const TrackingParameters& parameters) const;
 };
 
-/// Keyframes and map points of all segments. Invariant: a keyframe's feature names a point exactly when
+/// Keyframes and map points of all segments, each in the frame of its origin. Invariant: a keyframe's feature names a point exactly when
 /// the point lists that sighting.
 struct LocalMap {
   std::deque<Keyframe> keyframes;  ///< which are not copied when there are more

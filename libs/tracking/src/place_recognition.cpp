@@ -78,7 +78,7 @@ std::vector<int> loopCandidates(const LocalMap& map, int index, const TrackingPa
   int nearest = -1;
   double least = 1;
   for (int i = 0; i < end; ++i) {
-    if (map.keyframe(i).isGivenUp() || map.keyframe(i).segment != current.segment) continue;
+    if (map.keyframe(i).isGivenUp() || map.keyframe(i).origin != current.origin) continue;
     const Pose3 between = map.keyframe(i).odom_from_camera.inverse() * current.odom_from_camera;
     const double cost = between.translation().norm() / kNearDistance + rotationAngle(between) / kNearAngle;
     if (cost < least) {

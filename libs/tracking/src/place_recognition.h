@@ -27,8 +27,8 @@ Recognition recognize(const LocalMap& map, int keyframe, const Features& feature
 /// Keyframes of [0, end) by similarity with a thumbnail, most similar first, at most `count`; none that was given up.
 std::vector<int> mostSimilar(const LocalMap& map, const cv::Mat& thumbnail, int end, int count);
 
-/// Older keyframes that may show what keyframe `index` shows: similar ones and the nearest one of its
-/// segment.
+/// Older keyframes that may show what keyframe `index` shows: similar ones and the nearest one in its
+/// frame.
 std::vector<int> loopCandidates(const LocalMap& map, int index, const TrackingParameters& parameters);
 
 }  // namespace roomgraph::tracking

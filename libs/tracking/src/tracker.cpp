@@ -65,7 +65,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   const auto known = results_ ? results_->recall("view", frame.t) : std::nullopt;
   keeps_view_ = results_ && !known;
   densely_placed_ = false;
-  TrackingResult result = known && !known->empty() ? recall(frame, *known) : look(frame, prior);
+  TrackingResult result = known && !known->empty() ? recall(frame, prior, *known) : look(frame, prior);
   if (!parameters_.dense_alignment) return result;
   if (result.tracked)
     dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
@@ -96,7 +96,7 @@ void Tracker::see(View& view, const std::vector<Box2>& excluded) {
 TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   View view;
   view.frame = &frame;
-  view.excluded = &prior.dynamic_regions;
+  view.prior = &prior;
   see(view, prior.dynamic_regions);
   view.points.assign(view.features.size(), -1);
   const auto with_depth = view.features.withDepth();
@@ -107,7 +107,7 @@ TrackingResult Tracker::look(const Frame& frame, const TrackingPrior& prior) {
   }
   const Pose3 previous = reference_ < 0 ? Pose3::Identity() : lastPose();
   view.odom_from_camera = previous * dead_reckoned_;
-  if (reference_ >= 0 && findPose(view, previous, prior)) return accept(view, previous);
+  if (reference_ >= 0 && findPose(view, previous)) return accept(view, previous);
   keep(nullptr);
   return reference_ < 0 ? start(std::move(view)) : lost("too few inliers", &view);
 }
@@ -121,10 +121,11 @@ void Tracker::requireKnown(const LocatedView& kept) const {
     throw InputError("checkpoint: its view of second " + std::to_string(last_t_) + " shows what is not in the map");
 }
 
-TrackingResult Tracker::recall(const Frame& frame, const std::string& bytes) {
+TrackingResult Tracker::recall(const Frame& frame, const TrackingPrior& prior, const std::string& bytes) {
   LocatedView kept = decodedResult("view", last_t_, bytes, locatedView);
   requireKnown(kept);
   View view{.frame = &frame,
+            .prior = &prior,
             .features = std::move(kept.features),
             .points = std::move(kept.points),
             .in_view = std::move(kept.in_view),
@@ -164,11 +165,11 @@ TrackingResult Tracker::start(View view) {
   if (!records_.empty()) {
     linkSegments(view.frame->t);
     view.odom_from_camera = lastPose() * dead_reckoned_;
-    ++segment_;
+    segment_ = segments_++;
   }
   view.points.assign(view.features.size(), -1);
-  addKeyframe(view);
-  records_.push_back({view.frame->t, reference_, Pose3::Identity()});
+  addKeyframe(view, static_cast<int>(map_.keyframes.size()));
+  records_.push_back({view.frame->t, reference_, Pose3::Identity(), segment_});
   placed_ = records_.back();
   if (!densely_placed_) velocity_.reset();
   dead_reckoned_ = Pose3::Identity();
@@ -197,20 +198,15 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   velocity_ = normalized((previous * dead_reckoned_before_).inverse() * view.odom_from_camera);
   TrackingResult result;
   result.step_covariance = stepCovariance(step, view.solution);
-  const int segment = map_.keyframe(reference_).segment;
-  if (segment != segment_) {
-    // Relocalised in an older segment: unrelated to the last frame, so the link to the keyframe is what is
-    // known.
-    result.step_covariance = Matrix6d::Identity();
-    closures_.push_back(loopOf(reference_, view.frame->t,
-                               map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
-                               view.solution.covariance));
+  const bool elsewhere = view.jumped || map_.keyframe(reference_).origin != map_.keyframe(placed_.keyframe).origin;
+  if (elsewhere) {
+    goElsewhere(view);
+    result.step_covariance = Matrix6d::Identity();  // no step leads there
   }
   // A step over several frames, or between segments, says nothing about the next one.
-  if (blind_frames_ > 0 || segment != segment_) velocity_.reset();
+  if (blind_frames_ > 0 || elsewhere) velocity_.reset();
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
-  segment_ = segment;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
   if (reference_inliers_ == 0) reference_inliers_ = view.solution.inliers;
@@ -218,15 +214,25 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   for (const auto id : view.points)
     if (id >= 0) last_points_.push_back(id);
   result.keyframe = needsKeyframe(view);
-  keep(result.keyframe ? nullptr : &view);
-  if (result.keyframe) addKeyframe(view);
+  keep(result.keyframe || elsewhere ? nullptr : &view);
+  if (result.keyframe) addKeyframe(view, map_.keyframe(reference_).origin);
   records_.push_back({view.frame->t, reference_,
                       result.keyframe
                           ? Pose3::Identity()
-                          : map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera});
+                          : map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
+                      segment_});
   placed_ = records_.back();
   report(view.features, result.keyframe ? map_.keyframe(reference_).points : view.points, result);
   return result;
+}
+
+void Tracker::goElsewhere(const View& view) {
+  const Keyframe& there = map_.keyframe(reference_);
+  const bool same_frame = there.origin == map_.keyframe(placed_.keyframe).origin;
+  if (!view.prior->previous_from_current) linkSegments(view.frame->t);
+  closures_.push_back(loopOf(reference_, view.frame->t, there.odom_from_camera.inverse() * view.odom_from_camera,
+                             view.solution.covariance));
+  segment_ = same_frame ? segments_++ : there.segment;
 }
 
 void Tracker::report(const Features& features, const std::vector<std::int64_t>& points,
@@ -245,9 +251,16 @@ bool Tracker::needsKeyframe(const View& view) const {
          rotationAngle(moved) > parameters_.keyframe_angle_rad;
 }
 
-void Tracker::addKeyframe(const View& view) {
-  Keyframe keyframe{view.frame->t, segment_,    view.frame->camera,      view.odom_from_camera,
-                    view.features, view.points, makeThumbnail(view.gray), sketchDepth(*view.frame, *view.excluded)};
+void Tracker::addKeyframe(const View& view, int origin) {
+  Keyframe keyframe{.t = view.frame->t,
+                    .segment = segment_,
+                    .origin = origin,
+                    .camera = view.frame->camera,
+                    .odom_from_camera = view.odom_from_camera,
+                    .features = view.features,
+                    .points = view.points,
+                    .thumbnail = makeThumbnail(view.gray),
+                    .sketch = sketchDepth(*view.frame, view.prior->dynamic_regions)};
   reference_ = insertKeyframe(map_, std::move(keyframe), parameters_);
   reference_inliers_ = 0;
   adjustLocally(map_, reference_, parameters_, results_);
@@ -331,7 +344,7 @@ Trajectory Tracker::trajectory() const {
   Trajectory out;
   for (const auto& record : records_) {
     const Keyframe& keyframe = map_.keyframe(record.keyframe);
-    out.add(record.t, normalized(keyframe.odom_from_camera * record.keyframe_from_camera), keyframe.segment);
+    out.add(record.t, normalized(keyframe.odom_from_camera * record.keyframe_from_camera), record.segment);
   }
   return out;
 }

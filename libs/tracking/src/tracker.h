@@ -39,7 +39,7 @@ class Tracker {
   /// The frame being tracked.
   struct View {
     const Frame* frame = nullptr;
-    const std::vector<Box2>* excluded = nullptr;
+    const TrackingPrior* prior = nullptr;
     cv::Mat gray;
     Features features;
     std::vector<std::int64_t> points;  ///< per feature, -1: none
@@ -47,6 +47,7 @@ class Tracker {
     Pose3 odom_from_camera = Pose3::Identity();
     PoseSolution solution;
     int matches = 0;
+    bool jumped = false;  ///< relocalised in another place than the last view's, and not where other sensors say
   };
   /// What images alone tell.
   struct Sight {
@@ -59,6 +60,7 @@ class Tracker {
     double t;
     int keyframe;
     Pose3 keyframe_from_camera;
+    int segment;
   };
 
   /// Each tries to match the view to the map and to place it; on failure the view's points and pose are
@@ -68,7 +70,9 @@ class Tracker {
   bool relocalise(View& view);
   bool trackLocalMap(View& view);
   bool trackNear(View& view);
-  bool findPose(View& view, const Pose3& previous, const TrackingPrior& prior);
+  bool findPose(View& view, const Pose3& previous);
+  /// Whether the keyframe shows what the last tracked frame did.
+  bool seesLastPoints(int keyframe) const;
   /// Solves for the pose of the view from its matched points and drops outliers.
   bool solve(View& view, int min_inliers, bool start_is_good) const;
   std::vector<std::int64_t> localPoints(const View& view) const;
@@ -78,7 +82,7 @@ class Tracker {
   /// Tracks by the images.
   TrackingResult look(const Frame& frame, const TrackingPrior& prior);
   /// Takes over a located view that was kept.
-  TrackingResult recall(const Frame& frame, const std::string& bytes);
+  TrackingResult recall(const Frame& frame, const TrackingPrior& prior, const std::string& bytes);
   void requireKnown(const LocatedView& kept) const;
   /// Keeps a located view for recall(); of a frame for which all has to be done again null.
   void keep(const View* view);
@@ -91,6 +95,8 @@ class Tracker {
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
   TrackingResult accept(const View& view, const Pose3& previous);
+  /// A view of an older place whose map has drifted or is another one: tied to that place, in a segment of its own or that one's.
+  void goElsewhere(const View& view);
   /// Where the frame is by dense alignment with the frames since the last one that features placed, when no scans
   /// saw the movement: from then on that is dead reckoning. Whether it is known.
   bool alignDensely(const Frame& frame, const TrackingPrior& prior);
@@ -102,7 +108,7 @@ class Tracker {
   void report(const Features& features, const std::vector<std::int64_t>& points,
               TrackingResult& result) const;
   bool needsKeyframe(const View& view) const;
-  void addKeyframe(const View& view);
+  void addKeyframe(const View& view, int origin);
   void closeLoops(int keyframe);
   /// Keyframes that show what older ones show are given up: memory grows with what is seen, not with time.
   void giveUpRepeated();
@@ -131,7 +137,7 @@ class Tracker {
   DenseChain dense_;                         ///< since that frame
   bool densely_placed_ = false;              ///< the frame being tracked
   Matrix6d last_covariance_ = Matrix6d::Zero();
-  int segment_ = 0;
+  int segment_ = 0, segments_ = 1;  ///< that of the last record, and how many there are
   int lost_frames_ = 0;   ///< since features placed one
   int blind_frames_ = 0;  ///< since anything placed one
   int reference_ = -1;         ///< keyframe that holds the frames tracked now

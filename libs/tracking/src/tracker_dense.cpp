@@ -19,7 +19,7 @@ bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
 
 void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
   if (!densely_placed_) return;
-  records_.push_back({frame.t, placed_.keyframe, placed_.keyframe_from_camera * dead_reckoned_});
+  records_.push_back({frame.t, placed_.keyframe, placed_.keyframe_from_camera * dead_reckoned_, placed_.segment});
   result.tracked = dense_.last().seen;
   result.predicted = !result.tracked;
   if (result.tracked) {
@@ -28,7 +28,7 @@ void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
     // Where nothing is seen of a movement, it ends rather than goes on.
     velocity_ = interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), kGoesOn);
   }
-  result.segment = map_.keyframe(placed_.keyframe).segment;
+  result.segment = placed_.segment;
   result.odom_from_camera = lastPose() * dead_reckoned_;
   // The movement is told in the first frame's axes, an error of a match in the camera's.
   result.step_covariance =

@@ -13,6 +13,12 @@ namespace {
 constexpr int kBeside = 5;               // keyframes before and after that show the place
 constexpr int kFarthestBeside = 25;      // of them, given up ones in between counted
 constexpr double kLeastAgreement = 0.9;  // of two views of one place
+constexpr double kFar_m = 0.15, kFar_rad = 0.15;
+
+// More than dead reckoning errs by between two frames.
+bool isFar(const Pose3& difference) {
+  return difference.translation().norm() > kFar_m || rotationAngle(difference) > kFar_rad;
+}
 
 void assign(std::vector<std::int64_t>& points, const std::vector<PointMatch>& matches) {
   for (const auto& match : matches) points[static_cast<std::size_t>(match.feature)] = match.point;
@@ -63,7 +69,7 @@ bool Tracker::trackKeyframe(View& view, int keyframe, int min_inliers) const {
 bool Tracker::relocalise(View& view) {
   const auto candidates = mostSimilar(map_, makeThumbnail(view.gray), static_cast<int>(map_.keyframes.size()),
                                       parameters_.relocalisation_candidates);
-  const DepthSketch sketch = sketchDepth(*view.frame, *view.excluded);
+  const DepthSketch sketch = sketchDepth(*view.frame, view.prior->dynamic_regions);
   return std::any_of(candidates.begin(), candidates.end(), [&](int candidate) {
     return trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers) &&
            plausible(candidate, {{&sketch}}, map_.keyframe(candidate).odom_from_camera.inverse() * view.odom_from_camera) &&
@@ -100,13 +106,24 @@ bool Tracker::trackNear(View& view) {
   return trackKeyframe(view, reference_, parameters_.min_inliers) && trackLocalMap(view);
 }
 
-bool Tracker::findPose(View& view, const Pose3& previous, const TrackingPrior& prior) {
+bool Tracker::findPose(View& view, const Pose3& previous) {
   if (trackNear(view)) return true;
-  if (alignDensely(*view.frame, prior)) {
+  if (alignDensely(*view.frame, *view.prior)) {
     view.odom_from_camera = previous * dead_reckoned_;
     if (trackNear(view)) return true;
   }
-  return relocalise(view);
+  if (!relocalise(view)) return false;
+  const bool where_others_say =
+      view.prior->previous_from_current && !isFar((previous * dead_reckoned_).inverse() * view.odom_from_camera);
+  view.jumped = !where_others_say && !seesLastPoints(reference_);
+  return true;
+}
+
+bool Tracker::seesLastPoints(int keyframe) const {
+  const auto seen = map_.covisible(last_points_);
+  return std::any_of(seen.begin(), seen.end(), [&](const auto& entry) {
+    return entry.second == keyframe && entry.first >= parameters_.min_inliers;
+  });
 }
 
 std::vector<std::int64_t> Tracker::localPoints(const View& view) const {

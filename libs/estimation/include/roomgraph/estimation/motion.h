@@ -58,12 +58,18 @@ class MotionSource {
   std::set<double> beginnings_;                      // of segments, s
 };
 
+/// What is known of every pose of a robot that drives on a floor: z, roll and pitch are 0, with these standard deviations.
+struct OnFloor {
+  double sigma_z_m = 0, sigma_tilt_rad = 0;
+};
+
 /// All sources of one run.
 struct Motion {
   MotionSource odometry, visual, lidar;
+  std::optional<OnFloor> floor = std::nullopt;  ///< none: handheld, or not known yet
 
   /// Movement between two times by all sources that cover them, each with the weight of its covariance (less where it contradicts the
-  /// first of scans, images, wheels by several standard deviations); nothing when none covers them.
+  /// first of scans, images, wheels by several standard deviations, much less where it leaves the floor); nothing when none covers them.
   std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
 };
 

@@ -26,6 +26,8 @@ class FrontEnds {
   ~FrontEnds();
 
   const Motion& motion() const { return motion_; }
+  /// The robot drives on a floor: known of all its poses from now on.
+  void setPlanar();
 
   /// False when the stamp does not come after the last one.
   bool add(const OdometryReading& reading);
