@@ -303,63 +303,6 @@ TEST(FeatureOdometry, OpensASegmentInAnUnknownPlace) {
   EXPECT_EQ(segment, 2);
 }
 
-Pose3 turnedBy(double degrees) {
-  Pose3 pose = Pose3::Identity();
-  pose.linear() = expSO3({0, degrees * M_PI / 180, 0});
-  return pose;
-}
-
-// Where the map has drifted, the older place is not where the path says: there is no step from the one to the other.
-TEST(FeatureOdometry, ASegmentBeginsWhereAViewIsFoundFarFromTheLastOne) {
-  tracking::Tracker odometry(featuresAlone());
-  int t = 0;
-  for (; t <= 30; ++t) ASSERT_TRUE(odometry.track(room().render(t, turnedBy(6 * t)), {}).tracked) << t;
-  odometry.takeLoopClosures();
-  const auto back = odometry.track(room().render(t, turnedBy(3)), {});
-  ASSERT_TRUE(back.tracked);
-  EXPECT_EQ(back.segment, 1);
-  EXPECT_EQ(back.step_covariance, Matrix6d(Matrix6d::Identity())) << "nothing known";
-  const auto closures = odometry.takeLoopClosures();
-  ASSERT_EQ(closures.size(), 1u);
-  EXPECT_EQ(closures[0].t_b, t);
-  const Pose3 a_from_b = turnedBy(6 * closures[0].t_a).inverse() * turnedBy(3);
-  EXPECT_LT(rotationAngle(a_from_b.inverse() * closures[0].a_from_b), 0.01);
-
-  const auto next = odometry.track(room().render(t + 1, turnedBy(6)), {});
-  EXPECT_EQ(next.segment, 1);
-  EXPECT_TRUE(odometry.takeLoopClosures().empty());
-  const auto trajectory = odometry.trajectory();
-  EXPECT_FALSE(trajectory.between(t - 1, t));
-  ASSERT_TRUE(trajectory.between(t, t + 1));
-  EXPECT_NEAR(rotationAngle(*trajectory.between(t, t + 1)), 3 * M_PI / 180, 0.005);
-}
-
-TEST(FeatureOdometry, ASegmentGoesOnWhereOtherSensorsSayThatTheViewIsThere) {
-  const auto segmentAfter = [](double degrees_by_wheels) {
-    tracking::Tracker odometry(featuresAlone());
-    int t = 0;
-    for (; t <= 30; ++t) odometry.track(room().render(t, turnedBy(6 * t)), {});
-    odometry.takeLoopClosures();
-    const auto back = odometry.track(room().render(t, turnedBy(3)), {.previous_from_current = turnedBy(degrees_by_wheels)});
-    EXPECT_TRUE(back.tracked);
-    EXPECT_EQ(odometry.takeLoopClosures().size(), back.segment == 0 ? 0 : 1);
-    return back.segment;
-  };
-  EXPECT_EQ(segmentAfter(3 - 180 + 5), 0);
-  EXPECT_EQ(segmentAfter(3 - 180 + 12), 1) << "further off than wheels err by";
-}
-
-TEST(FeatureOdometry, ASegmentGoesOnWhereAKeyframeOfTheSamePlaceFindsTheView) {
-  tracking::Tracker odometry(featuresAlone());
-  int t = 0;
-  for (; t <= 8; ++t) ASSERT_TRUE(odometry.track(room().render(t, turnedBy(3 * t)), {}).tracked) << t;
-  for (; t <= 12; ++t) ASSERT_FALSE(odometry.track(blank(t), {}).tracked);
-  const auto back = odometry.track(room().render(t, turnedBy(-24)), {});
-  ASSERT_TRUE(back.tracked);
-  EXPECT_EQ(back.segment, 0);
-  EXPECT_TRUE(odometry.takeLoopClosures().empty());
-}
-
 TEST(FeatureOdometry, RefusesATinyImage) {
   FeatureOdometry odometry;
   Frame frame = room().render(0, Pose3::Identity());
