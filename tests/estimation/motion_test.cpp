@@ -116,6 +116,14 @@ TEST(MotionSource, APoseThatBeginsASegmentIsKnownInItsOwnLocalMap) {
   EXPECT_NEAR(variance(3), 1e-4 + 1, 1e-12) << "back in an earlier segment, which began elsewhere";
 }
 
+// With one pose there is no velocity to go on with.
+TEST(MotionSource, BeyondThePoseThatBeginsASegmentNothingIsKnown) {
+  MotionSource source(kNoise, false);
+  for (int i = 0; i < 3; ++i) source.add(0.2 * i, poseFromYpr(0.1 * i, 0, 0, 0, 0, 0), i / 2, 1e-6 * Matrix6d::Identity());
+  EXPECT_LT(std::sqrt(source.between(0.2, 0.2, 0.25)->covariance(0, 0)), 0.02);
+  EXPECT_GT(std::sqrt(source.between(0.4, 0.6, 0.25)->covariance(0, 0)), 0.3);
+}
+
 MotionSource movingBy(double metres, double yaw, double variance) {
   MotionSource source(MotionNoise{.floor_m = 1e-5, .per_m = 0, .floor_rad = 1e-5, .per_rad = 0, .rad_per_m = 0}, false);
   source.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
@@ -170,11 +178,24 @@ TEST(Motion, ARobotDoesNotLeaveTheFloorWhereImagesMislead) {
   const MotionSource none(kNoise, true), wheels = movingBy(0.97);
   const auto movement = [](const Motion& motion) { return *motion.movement(0, 1, 0); };
   EXPECT_NEAR(movement({wheels, rising(0.4), none}).translation().z(), 0.4, 0.01) << "handheld, with wheels";
-  EXPECT_NEAR(movement({wheels, rising(0.4), none, kFloor}).translation().z(), 0, 0.02);
+  const Pose3 driven = movement({wheels, rising(0.4), none, kFloor});
+  EXPECT_NEAR(driven.translation().z(), 0, 0.02);
+  EXPECT_NEAR(driven.translation().x(), 0.97, 0.005) << "images that leave the floor are not what wheels are compared with";
+  EXPECT_NEAR(planarPart(driven).yaw, 0, 0.01);
   const Pose3 alone = movement({none, rising(0.4), none, kFloor});
   EXPECT_NEAR(alone.translation().z(), 0, 0.02);
   EXPECT_NEAR(alone.translation().x(), 1, 1e-3) << "nothing else says how far it went";
   EXPECT_NEAR(planarPart(alone).yaw, 0.2, 1e-3);
+}
+
+// Turns do not add up like vectors: as seen from the misled one, wheels would turn about another axis.
+TEST(Motion, WhatImagesTiltDoesNotComeBackWithTheYawOfWheels) {
+  const MotionSource none(kNoise, true), wheels = movingBy(0.1);
+  MotionSource tilting(kNoise, false);
+  tilting.add(0, Pose3::Identity(), 0, Matrix6d::Zero());
+  tilting.add(1, poseFromYpr(0.1, 0, 0, 0.8, 0.1, -0.2), 0, 1e-6 * Matrix6d::Identity());
+  const Pose3 seen = *Motion{wheels, tilting, none, kFloor}.movement(0, 1, 0);
+  EXPECT_NEAR(std::acos(seen.linear()(2, 2)), 0, 0.01);
 }
 
 TEST(Motion, ARobotDoesNotTiltWhereImagesMislead) {

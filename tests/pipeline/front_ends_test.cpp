@@ -53,9 +53,27 @@ TEST_F(FrontEndsTest, WheelsPredictForTheCamera) {
   EXPECT_EQ(fakes::world().by_scans, (std::vector<bool>{false, false}));
 }
 
+TEST_F(FrontEndsTest, AHandheldCameraIsOnNoFloorWheelsAndMountedCamerasAre) {
+  const auto onFloorAfter = [&](const auto& work) {
+    start();
+    EXPECT_FALSE(front_->motion().floor);
+    work();
+    return front_->motion().floor;
+  };
+  Frame handheld = Drive::frame(0);
+  handheld.robot_from_camera = Pose3::Identity();
+  EXPECT_FALSE(onFloorAfter([&] { front_->track(handheld, {}); }));
+  EXPECT_TRUE(onFloorAfter([&] { front_->track(Drive::frame(0), {}); }));
+  const auto floor = onFloorAfter([&] { front_->add(Drive().odometry(0)); });
+  ASSERT_TRUE(floor);
+  EXPECT_EQ(floor->sigma_z_m, setup_->options.backend.planar_sigma_z_m);
+  EXPECT_EQ(floor->sigma_tilt_rad, setup_->options.backend.planar_sigma_tilt_rad);
+}
+
 TEST_F(FrontEndsTest, TheCameraIsToldWhenScansSawTheMovement) {
   setup_ = setupWith("[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n");
   front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  EXPECT_FALSE(front_->motion().floor);
   Drive drive;
   for (const double t : {0.0, 0.1, 0.2}) {
     ASSERT_TRUE(front_->match(drive.scan(t)).matched) << t;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "roomgraph/geometry/covariance.h"
 
@@ -74,6 +75,13 @@ double surpriseOffFloor(const OnFloor& floor, const Movement& movement) {
   return surpriseOf(off, covariance);
 }
 
+// The first source that stays on the floor, else the first one: what others are compared with.
+const Movement& referenceOf(const std::vector<Movement>& seen, const std::optional<OnFloor>& floor) {
+  const auto stays = [&](const Movement& movement) { return !floor || surpriseOffFloor(*floor, movement) < 1; };
+  const auto it = std::find_if(seen.begin(), seen.end(), stays);
+  return it == seen.end() ? seen.front() : *it;
+}
+
 }  // namespace
 
 Movement unknownMovement(double seconds) {
@@ -110,8 +118,9 @@ Matrix6d MotionSource::stepSum(double t_a, double t_b) const {
 // changed since.
 Matrix6d MotionSource::extrapolation(double t) const {
   const auto& poses = poses_.poses();
-  if (poses.size() < 2 || t <= poses.back().t) return Matrix6d::Zero();
+  if (poses.empty() || t <= poses.back().t) return Matrix6d::Zero();
   const double beyond_s = t - poses.back().t;
+  if (beginnings_.contains(poses.back().t)) return unknownMovement(beyond_s).covariance;  // no step told of its velocity
   const double r = beyond_s / (poses.back().t - poses[poses.size() - 2].t);
   Vector6d change;
   change << Eigen::Vector3d::Constant(kAcceleration_m_s2), Eigen::Vector3d::Constant(kAcceleration_rad_s2);
@@ -167,30 +176,27 @@ std::optional<Movement> MotionSource::betweenLocalMaps(double t_a, double t_b, d
   return Movement{*movement, drift};
 }
 
-// Weighted mean of the movements' differences from the first source's. A source that contradicts the first one weighs less (Cauchy); one
-// that leaves the floor weighs next to nothing (Geman and McClure): it would be a few centimetres off with the other weight, as images are
-// sure of what they show even where they mislead.
+// Weighted mean of the movements' differences from one of them. A source that contradicts that one weighs less (Cauchy); one that leaves
+// the floor weighs next to nothing (Geman and McClure): images are sure of what they show even where they mislead.
 std::optional<Pose3> Motion::movement(double t_a, double t_b, double horizon_s) const {
-  std::optional<Movement> first;
-  Matrix6d information = Matrix6d::Zero();
+  std::vector<Movement> all;
+  for (const auto* source : {&lidar, &visual, &odometry})
+    if (const auto seen = source->between(t_a, t_b, horizon_s)) all.push_back(*seen);
+  if (all.empty()) return std::nullopt;
+  const Movement& reference = referenceOf(all, floor);
+  // Rotations are told from the floor, where there is one: tilts of a misled source would not add up with the yaws of another.
+  const Pose3 origin = floor ? toPose3(planarPart(reference.a_from_b)) : reference.a_from_b;
+  Matrix6d information = floor ? floorInformation(*floor) : Matrix6d::Zero();
   Vector6d sum = Vector6d::Zero();
-  for (const auto* source : {&lidar, &visual, &odometry}) {
-    const auto seen = source->between(t_a, t_b, horizon_s);
-    if (!seen) continue;
-    if (!first) first = seen;
-    const Vector6d difference = differenceOf(first->a_from_b, seen->a_from_b);
-    const Matrix6d both = first->covariance + seen->covariance;
-    Matrix6d weight = seen->covariance.inverse() / (1 + surpriseOf(difference, both));
-    if (floor) weight /= std::pow(1 + surpriseOffFloor(*floor, *seen), 2);
+  for (const Movement& seen : all) {
+    const Vector6d difference = differenceOf(reference.a_from_b, seen.a_from_b);
+    const Matrix6d both = reference.covariance + seen.covariance;
+    Matrix6d weight = seen.covariance.inverse() / (1 + surpriseOf(difference, both));
+    if (floor) weight /= std::pow(1 + surpriseOffFloor(*floor, seen), 2);
     information += weight;
-    sum += weight * difference;
+    sum += weight * differenceOf(origin, seen.a_from_b);
   }
-  if (!first) return std::nullopt;
-  if (floor) {
-    information += floorInformation(*floor);
-    sum += floorInformation(*floor) * toFloor(first->a_from_b);
-  }
-  return movedBy(first->a_from_b, information.llt().solve(sum));
+  return movedBy(origin, information.llt().solve(sum));
 }
 
 }  // namespace roomgraph

@@ -2,6 +2,7 @@
 // Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
+#include "mounting.h"
 #include "predicted_movement.h"
 #include "roomgraph/geometry/covariance.h"
 #include "scans_ahead.h"
@@ -38,11 +39,13 @@ void FrontEnds::setPlanar() {
 }
 
 bool FrontEnds::add(const OdometryReading& reading) {
+  setPlanar();
   return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0);
 }
 
 TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {
   robot_from_camera_ = frame.robot_from_camera;
+  if (isMounted(frame)) setPlanar();
   TrackingPrior prior{.dynamic_regions = people};
   if (last_frame_t_)
     if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&motion_.odometry, &motion_.lidar}))
@@ -62,6 +65,7 @@ void FrontEnds::foresee(const Record& record) {
 }
 
 ScanMatch FrontEnds::match(const Scan& scan) {
+  setPlanar();
   std::optional<Pose2> prior;
   if (last_scan_t_)
     if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&motion_.odometry, &motion_.visual})) prior = planarPart(*moved);

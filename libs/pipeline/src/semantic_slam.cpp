@@ -57,15 +57,10 @@ void SemanticSlam::process(const Record& record) {
   for (const auto& sink : sinks_) sink->onStep(report);
 }
 
-void SemanticSlam::setPlanar() {
-  estimator_.setPlanar();
-  front_ends_.setPlanar();
-}
-
 StepReport SemanticSlam::step(const Frame& frame) {
   if (!inOrder(frame.t, last_frame_t_, "frames")) return {};
   ++counts_.frames;
-  if (isMounted(frame)) setPlanar();
+  if (isMounted(frame)) estimator_.setPlanar();
 
   FrameDetections detections = detect(frame);                             // sec. 1.1
   const auto people = boxesOfPeople(detections.boxes, setup_->database);  // sec. 5
@@ -106,7 +101,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
   StepReport report{.kind = StepReport::Kind::kScan, .t = scan.t};
   if (!setup_->stages.scan_matcher || !inOrder(scan.t, last_scan_t_, "scans")) return {};
   ++counts_.scans;
-  setPlanar();
+  estimator_.setPlanar();
 
   Scan clean = scan;
   counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
@@ -133,7 +128,7 @@ StepReport SemanticSlam::step(const Scan& scan) {
 
 StepReport SemanticSlam::step(const OdometryReading& reading) {
   if (!setup_->options.odometry.enabled) return {};
-  setPlanar();
+  estimator_.setPlanar();
   ++counts_.odometry;
   if (!front_ends_.add(reading)) {
     ++counts_.reasons["odometry: stamp does not come after the previous one"];

@@ -165,7 +165,7 @@ TrackingResult Tracker::start(View view) {
   if (!records_.empty()) {
     linkSegments(view.frame->t);
     view.odom_from_camera = lastPose() * dead_reckoned_;
-    segment_ = segments_++;
+    ++segment_;
   }
   view.points.assign(view.features.size(), -1);
   addKeyframe(view, static_cast<int>(map_.keyframes.size()));
@@ -201,6 +201,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   const bool elsewhere = view.jumped || map_.keyframe(reference_).origin != map_.keyframe(placed_.keyframe).origin;
   if (elsewhere) {
     goElsewhere(view);
+    result.reason = "found again in another place";
     result.step_covariance = Matrix6d::Identity();  // no step leads there
   }
   // A step over several frames, or between segments, says nothing about the next one.
@@ -227,12 +228,11 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
 }
 
 void Tracker::goElsewhere(const View& view) {
-  const Keyframe& there = map_.keyframe(reference_);
-  const bool same_frame = there.origin == map_.keyframe(placed_.keyframe).origin;
   if (!view.prior->previous_from_current) linkSegments(view.frame->t);
-  closures_.push_back(loopOf(reference_, view.frame->t, there.odom_from_camera.inverse() * view.odom_from_camera,
+  closures_.push_back(loopOf(reference_, view.frame->t,
+                             map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
                              view.solution.covariance));
-  segment_ = same_frame ? segments_++ : there.segment;
+  ++segment_;
 }
 
 void Tracker::report(const Features& features, const std::vector<std::int64_t>& points,

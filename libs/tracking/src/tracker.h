@@ -95,7 +95,7 @@ class Tracker {
   TrackingResult start(View view);
   TrackingResult lost(const std::string& reason, View* view);
   TrackingResult accept(const View& view, const Pose3& previous);
-  /// A view of an older place whose map has drifted or is another one: tied to that place, in a segment of its own or that one's.
+  /// A view of an older place whose map has drifted or is another one: tied to that place, in a segment of its own.
   void goElsewhere(const View& view);
   /// Where the frame is by dense alignment with the frames since the last one that features placed, when no scans
   /// saw the movement: from then on that is dead reckoning. Whether it is known.
@@ -137,7 +137,7 @@ class Tracker {
   DenseChain dense_;                         ///< since that frame
   bool densely_placed_ = false;              ///< the frame being tracked
   Matrix6d last_covariance_ = Matrix6d::Zero();
-  int segment_ = 0, segments_ = 1;  ///< that of the last record, and how many there are
+  int segment_ = 0;  ///< that of the last record
   int lost_frames_ = 0;   ///< since features placed one
   int blind_frames_ = 0;  ///< since anything placed one
   int reference_ = -1;         ///< keyframe that holds the frames tracked now

@@ -15,7 +15,7 @@ constexpr int kFarthestBeside = 25;      // of them, given up ones in between co
 constexpr double kLeastAgreement = 0.9;  // of two views of one place
 constexpr double kFar_m = 0.15, kFar_rad = 0.15;
 
-// More than dead reckoning errs by between two frames.
+// More than dead reckoning errs by since the last view.
 bool isFar(const Pose3& difference) {
   return difference.translation().norm() > kFar_m || rotationAngle(difference) > kFar_rad;
 }

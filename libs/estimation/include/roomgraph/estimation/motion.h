@@ -69,7 +69,8 @@ struct Motion {
   std::optional<OnFloor> floor = std::nullopt;  ///< none: handheld, or not known yet
 
   /// Movement between two times by all sources that cover them, each with the weight of its covariance (less where it contradicts the
-  /// first of scans, images, wheels by several standard deviations, much less where it leaves the floor); nothing when none covers them.
+  /// first of scans, images, wheels that stays on the floor by several standard deviations, much less where it leaves the floor); nothing
+  /// when none covers them.
   std::optional<Pose3> movement(double t_a, double t_b, double horizon_s) const;
 };
 

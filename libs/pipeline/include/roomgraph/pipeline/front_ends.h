@@ -26,8 +26,6 @@ class FrontEnds {
   ~FrontEnds();
 
   const Motion& motion() const { return motion_; }
-  /// The robot drives on a floor: known of all its poses from now on.
-  void setPlanar();
 
   /// False when the stamp does not come after the last one.
   bool add(const OdometryReading& reading);
@@ -50,6 +48,8 @@ class FrontEnds {
 
  private:
   void toRobot(RelativePose& of_camera) const;
+  /// The robot drives on a floor: known of all its poses from now on.
+  void setPlanar();
 
   const Stages& stages_;
   const Options& options_;

@@ -99,8 +99,6 @@ class SemanticSlam {
   const StageTimes& times() const { return times_; }
 
  private:
-  /// The robot drives on a floor, from now on.
-  void setPlanar();
   StepReport step(const Frame& frame);
   StepReport step(const Scan& scan);
   StepReport step(const OdometryReading& reading);

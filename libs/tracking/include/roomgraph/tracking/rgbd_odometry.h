@@ -31,7 +31,7 @@ struct TrackingResult {
   /// Why not: "too few features", "too few inliers", "no depth", …; of a tracked frame, how, if not in the usual way.
   std::string reason;
   Pose3 odom_from_camera = Pose3::Identity();  ///< pose in the tracker's own, drifting frame
-  int segment = 0;  ///< counts up after each loss: poses of two segments are unrelated but for closures and links
+  int segment = 0;  ///< counts up where no movement leads from the last pose: closures and links tie segments together
   int inliers = 0, matches = 0;
   bool keyframe = false;
   Matrix6d step_covariance =
