@@ -77,5 +77,40 @@ TEST(TrackerSegments, ASegmentGoesOnWhereAKeyframeOfTheSamePlaceFindsTheView) {
   EXPECT_TRUE(tracker.takeLoopClosures().empty());
 }
 
+// Along the corner of a room, 1 cm and half a degree a frame: three planes hold a frame without features.
+Frame cornerOf(const test::TexturedRoom& walls, int i, bool features) {
+  Frame frame = walls.render(i, poseFromYpr(0.6 + 0.01 * i, 0.1, 0.2, 0, 0.5 + 0.009 * i, -0.5));
+  if (!features) frame.gray.setTo(128);
+  return frame;
+}
+
+// Features, none, those of other wallpaper, none, and the first ones again: what ties that view to what.
+std::vector<RelativePose> tiesWhenFoundAgain(const TrackingPrior& of_last) {
+  Tracker tracker((TrackingParameters()));
+  const test::TexturedRoom repapered(77);
+  int i = 0;
+  for (; i < 3; ++i) EXPECT_TRUE(tracker.track(cornerOf(cell(), i, true), {}).tracked);
+  for (; i < 5; ++i) EXPECT_TRUE(tracker.track(cornerOf(cell(), i, false), {}).tracked);
+  for (; i < 20; ++i) tracker.track(cornerOf(repapered, i, true), {});
+  for (; i < 22; ++i) EXPECT_EQ(tracker.track(cornerOf(cell(), i, false), {}).segment, 1);
+  tracker.takeLoopClosures();
+  const auto back = tracker.track(cornerOf(cell(), i, true), of_last);
+  EXPECT_EQ(back.segment, 2);
+  EXPECT_EQ(back.reason, "found again in another place");
+  return tracker.takeLoopClosures();
+}
+
+TEST(TrackerSegments, DenseAlignmentTiesAViewThatIsFoundAgainToTheLastOneWhereNoOtherSensorDoes) {
+  const auto ties = tiesWhenFoundAgain({});
+  ASSERT_EQ(ties.size(), 2u);
+  EXPECT_TRUE(ties[0].link);
+  EXPECT_GT(ties[0].t_a, 5);
+  EXPECT_FALSE(ties[1].link);
+  EXPECT_LT(ties[1].t_a, 5);
+  const auto with_wheels = tiesWhenFoundAgain({.previous_from_current = Pose3::Identity()});
+  ASSERT_EQ(with_wheels.size(), 1u);
+  EXPECT_FALSE(with_wheels[0].link);
+}
+
 }  // namespace
 }  // namespace roomgraph::tracking
