@@ -2,9 +2,11 @@
 // SubmapLoopCloser in simulated rooms: true returns, similar rooms, verification.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "roomgraph/core/config.h"
 #include "submap_loop_closer.h"
 #include "synthetic_scans.h"
 
@@ -41,9 +43,8 @@ struct Found {
   std::vector<Pose2> truth;
 };
 
-Found drive(const std::vector<Pass>& passes) {
+Found drive(const std::vector<Pass>& passes, SubmapLoopCloser& closer) {
   std::mt19937 random(31);
-  SubmapLoopCloser closer;
   closer.prepare();
   Found out;
   Trajectory world;
@@ -60,6 +61,11 @@ Found drive(const std::vector<Pass>& passes) {
       out.truth.push_back(pose);
     }
   return out;
+}
+
+Found drive(const std::vector<Pass>& passes) {
+  SubmapLoopCloser closer;
+  return drive(passes, closer);
 }
 
 TEST(SubmapLoopCloser, FindsTheReturnAndItsRelativePose) {
@@ -93,6 +99,50 @@ TEST(SubmapLoopCloser, FarPlacesAreNotCompared) {
   const auto room = test::asymmetricRoom();
   const Found found = drive({{room, oval(170), {}}, {shifted(room, 0), oval(60), {60, 0, 0}}});
   for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
+}
+
+// Round and round in one room: submaps of later laps repeat those of the first.
+TEST(SubmapLoopCloser, SubmapsThatRepeatOlderOnesAreGivenUpAndLoopsCloseStill) {
+  constexpr int kScans = 1500, kLap = 76;  // about 20 laps
+  const auto room = test::asymmetricRoom();
+  SubmapLoopCloser all, few;
+  Config::fromText("[lidar.loop_closing]\nsubmaps_kept = 4\n").read("lidar.loop_closing", few);
+  const Found with_all = drive({{room, oval(kScans), {}}}, all), with_few = drive({{room, oval(kScans), {}}}, few);
+  EXPECT_GT(all.submapsHeld(), 20);
+  EXPECT_LE(few.submapsHeld(), 4 + 7) << "the latest are not looked at yet";
+  const auto inLastLap = [](const Found& found) {
+    return std::count_if(found.closures.begin(), found.closures.end(),
+                         [](const RelativePose& c) { return c.t_b > 0.2 * (kScans - kLap); });
+  };
+  EXPECT_GT(inLastLap(with_few), 10);
+  EXPECT_GT(inLastLap(with_few), inLastLap(with_all) / 2);
+  for (const RelativePose& c : with_few.closures) {
+    const auto index = [](double t) { return static_cast<std::size_t>(std::lround(t / 0.2)); };
+    const Pose2 error = (with_few.truth[index(c.t_a)].inverse() * with_few.truth[index(c.t_b)]).inverse() * planarPart(c.a_from_b);
+    EXPECT_LT(std::hypot(error.x, error.y), 0.05) << c.t_a << " " << c.t_b;
+  }
+  // What is proposed with a scan that was given up is not confirmed, with one of the first lap it is.
+  const auto proposed = [&](int a, int b) {
+    const auto at = [&](int i) { return with_few.truth[static_cast<std::size_t>(i)]; };
+    return RelativePose{.t_a = 0.2 * a, .t_b = 0.2 * b, .a_from_b = toPose3(at(a).inverse() * at(b))};
+  };
+  EXPECT_TRUE(few.verify(proposed(10, kScans - 10)));
+  EXPECT_FALSE(few.verify(proposed(10, kScans / 2)));
+}
+
+// What is seen the other way round is another place.
+TEST(SubmapLoopCloser, OtherDirectionsAreNotGivenUp) {
+  const auto room = test::asymmetricRoom();
+  const auto heldAfter = [&](bool turned_in_the_end) {
+    std::vector<Pose2> way = oval(900);
+    for (std::size_t i = way.size() / 2; i < way.size(); ++i)
+      if (turned_in_the_end) way[i].yaw = wrapAngle(way[i].yaw + M_PI);
+    SubmapLoopCloser few;
+    Config::fromText("[lidar.loop_closing]\nsubmaps_kept = 4\n").read("lidar.loop_closing", few);
+    drive({{room, way, {}}}, few);
+    return few.submapsHeld();
+  };
+  EXPECT_GT(heldAfter(true), heldAfter(false));
 }
 
 TEST(SubmapLoopCloser, SameInputSameOutput) {

@@ -109,6 +109,20 @@ TEST_F(Views, AreThoseOfTheLandmarksInTheEnd) {
   EXPECT_EQ(views.at(7).at("bbox")[2], 300.0) << "the better of the two";
 }
 
+// A sighting that is given up keeps its picture, and follows its landmark.
+TEST_F(Views, StayWhenTheirSightingsAreGivenUp) {
+  show(0, {decision(1, {100, 100, 300, 300}, 0.5), decision(2, {400, 100, 450, 200}, 0.9)});
+  show(1, {decision(1, {100, 100, 200, 200}, 0.5)});
+  ObjectFrames frames(frames_);
+  frames.giveUp({0});
+  for (auto& sighting : frames.changeFormer())
+    if (sighting.landmark == LandmarkId{1}) sighting.landmark = LandmarkId{7};
+  const std::string text = views_.text(frames);
+  EXPECT_NE(text.find("\"id\":7,"), std::string::npos);
+  EXPECT_NE(text.find("\"id\":2,"), std::string::npos);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << "that of frame 1 is no better";
+}
+
 TEST_F(Views, WithoutPicturesThereAreNone) {
   StepReport report{.kind = StepReport::Kind::kScan};
   views_.onStep(report);

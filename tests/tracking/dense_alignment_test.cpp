@@ -59,7 +59,7 @@ Frame bareWall(double t, const Pose3& world_from_camera) {
 TEST(DenseAlignment, AlongABareWallThePriorIsWhatIsKnown) {
   const DenseImage reference(bareWall(0, Pose3::Identity()), {});
   const DenseImage current(bareWall(1, poseFromYpr(0.1, 0, 0.06, 0, 0.04, 0)), {});
-  const DensePrior prior{poseFromYpr(0.07, 0.01, 0, 0, 0, 0), 0.02, 0.03, 0.1, 0.2};
+  const DensePrior prior{poseFromYpr(0.07, 0.01, 0, 0, 0, 0), sameInAllDirections(0.02, 0.03), sameInAllDirections(0.1, 0.2)};
   const auto found = alignDense(reference, current, prior);
   ASSERT_TRUE(found);
   const Eigen::Vector3d place = found->reference_from_current.translation();
@@ -71,13 +71,47 @@ TEST(DenseAlignment, AlongABareWallThePriorIsWhatIsKnown) {
   EXPECT_LT(std::sqrt(found->covariance(2, 2)), 0.01);
 }
 
+// Small changes in b's axes are those in a's.
+TEST(Adjoint, IsThatOfTheGroup) {
+  const Pose3 a_from_b = poseFromYpr(0.3, -1, 2, 0.7, -0.4, 1.1);
+  for (int i = 0; i < 6; ++i) {
+    const auto moved = [](const Vector6d& small) {
+      Pose3 out = Pose3::Identity();
+      out.linear() = expSO3(small.tail<3>());
+      out.translation() = small.head<3>();
+      return out;
+    };
+    const Vector6d in_b = 1e-6 * Vector6d::Unit(i), in_a = adjoint(a_from_b) * in_b;
+    EXPECT_LT(((a_from_b * moved(in_b)).matrix() - (moved(in_a) * a_from_b).matrix()).norm(), 1e-11) << i;
+  }
+}
+
+// A robot that looks ahead at a wall moves sideways, upwards and tilts less than a hand.
+TEST(DenseAlignment, AlongABareWallARobotStaysOnItsWay) {
+  const DenseImage reference(bareWall(0, Pose3::Identity()), {});
+  const DenseImage current(bareWall(1, poseFromYpr(0, 0, 0.06, 0, 0, 0)), {});
+  DensePrior prior{.reference_from_current = poseFromYpr(0.03, 0.02, 0.05, 0, 0, 0)};
+  Pose3 camera_from_robot = Pose3::Identity();
+  camera_from_robot.linear() = bodyFromOptical().transpose();
+  prior.current_from_body = camera_from_robot;
+  prior.sigma << 0.05, 0.002, 0.02, 0.01, 0.01, 0.05;
+  prior.unseen << 0.2, 0.004, 0.05, 0.02, 0.03, 0.2;
+  const auto found = alignDense(reference, current, prior);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->reference_from_current.translation().z(), 0.06, 0.003) << "seen";
+  EXPECT_NEAR(found->reference_from_current.translation().x(), 0.03, 0.002) << "sideways as predicted";
+  EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.004, 0.001) << "sideways is the camera's x";
+  EXPECT_NEAR(std::sqrt(found->covariance(1, 1)), 0.05, 0.01) << "upwards its y";
+  EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.02, 0.005) << "roll is about its z, and not seen";
+}
+
 // What was found far from where the velocity leads is a likeness.
 TEST(DenseAlignment, AnImplausibleStepIsNone) {
   const TexturedRoom room;
   const Pose3 first = poseFromYpr(1.2, 0.1, 0.2, 0, 0.9, -0.5), moved = poseFromYpr(0.1, 0, 0, 0, 0, 0);
   const DenseImage reference(room.render(0, first), {}), current(room.render(1, first * moved), {});
-  EXPECT_TRUE(alignDense(reference, current, {Pose3::Identity(), 0.03, 0.03}));
-  EXPECT_FALSE(alignDense(reference, current, {Pose3::Identity(), 0.02, 0.02})) << "five standard deviations";
+  EXPECT_TRUE(alignDense(reference, current, {.sigma = sameInAllDirections(0.03, 0.03), .plausible_m = 0.12}));
+  EXPECT_FALSE(alignDense(reference, current, {.sigma = sameInAllDirections(0.03, 0.03), .plausible_m = 0.08}));
 }
 
 // A plane that leans away: each normal against the plane's own, and how far noise turns it.
@@ -117,7 +151,7 @@ TEST(DenseAlignment, AnEdgeThatOneImageShowsHoldsNothing) {
   Frame first = bareWall(0, Pose3::Identity());
   first.gray(cv::Rect(first.gray.cols - 24, 60, 20, 120)) = 20;
   const DenseImage reference(first, {}), current(bareWall(1, poseFromYpr(-0.03, 0, 0, 0, 0, 0)), {});
-  const auto found = alignDense(reference, current, {poseFromYpr(-0.03, 0, 0, 0, 0, 0), 0.05, 0.05, 0.1, 0.2});
+  const auto found = alignDense(reference, current, {poseFromYpr(-0.03, 0, 0, 0, 0, 0), sameInAllDirections(0.05, 0.05), sameInAllDirections(0.1, 0.2)});
   ASSERT_TRUE(found);
   EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
   EXPECT_NEAR(std::sqrt(found->covariance(1, 1)), 0.1, 0.02);
@@ -134,7 +168,7 @@ TEST(DenseAlignment, NoiseOfDepthsHoldsNothingAlongAWall) {
   };
   const DenseImage reference(noisy(bareWall(0, Pose3::Identity())), {});
   const DenseImage current(noisy(bareWall(1, poseFromYpr(0.04, 0, 0, 0, 0, 0))), {});
-  const auto found = alignDense(reference, current, {poseFromYpr(0.05, 0.01, 0, 0, 0, 0), 0.05, 0.05, 0.1, 0.2});
+  const auto found = alignDense(reference, current, {poseFromYpr(0.05, 0.01, 0, 0, 0, 0), sameInAllDirections(0.05, 0.05), sameInAllDirections(0.1, 0.2)});
   ASSERT_TRUE(found);
   EXPECT_NEAR(std::sqrt(found->covariance(0, 0)), 0.1, 0.02);
   EXPECT_NEAR(std::sqrt(found->covariance(5, 5)), 0.2, 0.04);
@@ -163,7 +197,7 @@ TEST(DenseAlignment, NothingWhereImagesDoNotMeet) {
   without.depth.setTo(0);
   EXPECT_FALSE(alignDense(reference, DenseImage(without, {}), {}));
   const DenseImage behind(room.render(1, poseFromYpr(0, 0, 0, 0, M_PI, 0)), {});
-  EXPECT_FALSE(alignDense(reference, behind, {poseFromYpr(0, 0, 0, 0, M_PI, 0), 0.1, 0.1}));
+  EXPECT_FALSE(alignDense(reference, behind, {poseFromYpr(0, 0, 0, 0, M_PI, 0)}));
 }
 
 }  // namespace

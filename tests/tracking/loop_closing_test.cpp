@@ -96,5 +96,31 @@ TEST(LoopClosing, ViewsAroundItHaveAVote) {
   EXPECT_FALSE(closesAfterATurn(43, 45, true));
 }
 
+// A full turn; from the second half on the camera is higher, or rolls. On a robot, or in a hand.
+bool closesOnAnotherHeight(double higher_m, double roll_rad, bool on_robot) {
+  const test::TexturedRoom room;
+  FeatureOdometry odometry;
+  for (int i = 0; i < 49; ++i) {
+    const double share = std::min(1.0, i / 40.0);
+    const Pose3 camera = looking(0.13 * i) * poseFromYpr(0, -share * higher_m, 0, share * roll_rad, 0, 0);
+    Frame frame = room.render(i, camera);
+    if (on_robot) {
+      frame.robot_from_camera.linear() = bodyFromOptical();
+      frame.robot_from_camera.translation().z() = 1;
+    }
+    EXPECT_TRUE(odometry.track(frame, {}).tracked) << i;
+  }
+  return odometry.verifyLoop({0, 48}).has_value();
+}
+
+// Whoever would have left the floor to see a place so was not there.
+TEST(LoopClosing, ARobotIsOnItsFloorWhereItWasBefore) {
+  EXPECT_TRUE(closesOnAnotherHeight(0.05, 0.05, true));
+  EXPECT_TRUE(closesOnAnotherHeight(0.25, 0, false));
+  EXPECT_FALSE(closesOnAnotherHeight(0.25, 0, true));
+  EXPECT_TRUE(closesOnAnotherHeight(0, 0.15, false));
+  EXPECT_FALSE(closesOnAnotherHeight(0, 0.15, true));
+}
+
 }  // namespace
 }  // namespace roomgraph

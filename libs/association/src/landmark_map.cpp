@@ -132,6 +132,13 @@ void LandmarkMap::supported(LandmarkId id, int rays) {
   updateExistence(id, gain);
 }
 
+void LandmarkMap::giveUp(LandmarkId id, const WorldMeasurement& sighting) {
+  const Landmark* landmark = find(id);
+  if (!landmark || sighting.measurement.proposal.class_name != landmark->class_name) return;
+  records_[id].existence_updates.push_back(
+      {sighting.measurement.frame, std::log(likelihoodRatio(*landmark, sighting)), {}});
+}
+
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
                           const ObjectShape& shape, const Eigen::Matrix4d& covariance) {
   Landmark* landmark = get(id);

@@ -236,6 +236,7 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
   GoodViews good_views;
   for (const auto& landmark : landmarks) good_views[landmark.id] = lookedForIn(views.timesInGoodView(landmark), landmark, searched);
   auto sums = sumsBySightings(landmarks, frames, poses, good_views, searched);
+  for (const auto& sighting : frames.former()) sums[sighting.landmark].times.insert(sighting.t);
   const double sure_score = sureScore(frames);
   std::vector<ExistenceEvidence> out;
   for (const auto& landmark : landmarks) {

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kScanAge_s = 0.3;     // of a scan that an image is compared with
 constexpr double kLeastDoubted = 0.2;  // share of its score that a shape keeps which all beams pass through
+constexpr ViewLimits kSightings{.of_a_view = 16};  // they scatter more than depths do
+constexpr int kWellSeen = 40;  // sightings of a landmark: of others none is given up
 constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place repeat each other
 
 void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)>& id_today) {
@@ -141,12 +143,37 @@ std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landma
     for (const auto& frame : frames_)
       for (const auto& decision : frame.decisions)
         if (decision.landmark == landmark.id) sighted.push_back(frame.t);
+    for (const auto& sighting : frames_.former())
+      if (sighting.landmark == landmark.id) sighted.push_back(sighting.t);
+    std::sort(sighted.begin(), sighted.end());
     std::vector<double> searched;
     for (const auto& image : searched_)
       if (!image.without(landmark.class_name)) searched.push_back(image.t);
     out.push_back(lookAt(landmark, views, searched, sighted, database));
   }
   return out;
+}
+
+void ObjectMapper::giveUpRepeated(std::size_t kept) {
+  const Trajectory trajectory = poses_.trajectory();
+  space_->giveUpRepeated(kept, trajectory);
+  if (!frames_watch_.due(frames_.size(), kept)) return;
+  std::vector<double> times;
+  for (const auto& frame : frames_) times.push_back(frame.t);
+  auto repeated = repeatedViews(times, trajectory, kSightings);
+  std::erase_if(repeated, [this](std::size_t i) { return !allWellSeen(frames_[i]); });
+  for (const std::size_t i : repeated)
+    for (const auto& [seen, association, landmark] : frames_[i].decisions)
+      if (association.landmark.valid()) landmarks_.giveUp(landmark, seen);  // else its first, which says nothing of existence
+  frames_.giveUp(repeated);
+  frames_watch_.done(frames_.size());
+}
+
+bool ObjectMapper::allWellSeen(const ObjectFrame& frame) const {
+  return std::all_of(frame.decisions.begin(), frame.decisions.end(), [this](const ObjectDecision& decision) {
+    const Landmark* landmark = landmarks_.find(decision.landmark);
+    return landmark && landmark->observations >= kWellSeen;
+  });
 }
 
 void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people) {
@@ -198,6 +225,7 @@ void ObjectMapper::renameSightings() {
   for (std::size_t i = 0; i < frames_.size(); ++i)
     for (auto& decision : frames_.change(i).decisions)
       rename(decision, [&identity](LandmarkId id) { return identity.today(id); });
+  for (auto& sighting : frames_.changeFormer()) sighting.landmark = identity.today(sighting.landmark);
   associator_->identitiesChanged(identity);
   respan();
 }
@@ -217,6 +245,11 @@ void ObjectMapper::shareSightings(LandmarkId first, LandmarkId second) {
       if ((place - second_place).norm() < (place - first_place).norm())
         rename(decision, [first, second](LandmarkId id) { return id == first ? second : id; });
     }
+  }
+  for (auto& sighting : frames_.changeFormer()) {
+    if (sighting.landmark != first) continue;
+    const Eigen::Vector3d place = poses_.at(sighting.t) * sighting.place_in_robot;
+    if ((place - second_place).norm() < (place - first_place).norm()) sighting.landmark = second;
   }
 }
 
@@ -262,6 +295,7 @@ bool ObjectMapper::reassociate() {
     }
   }
   std::erase_if(kept, [](const auto& entry) { return entry.second <= 0; });
+  for (auto& sighting : frames_.changeFormer()) sighting.landmark = landmarks_.identity().today(sighting.landmark);
   respan();
   tidy();
   for (const Landmark& landmark : optimum)
@@ -326,12 +360,17 @@ void ObjectMapper::apply(const LandmarkEstimates& estimates) {
 
 void ObjectMapper::respan() {
   spans_.clear();
+  for (const auto& sighting : frames_.former()) span(sighting.landmark, sighting.t);
   for (const auto& frame : frames_) span(frame);
 }
 
 void ObjectMapper::span(const ObjectFrame& frame) {
-  for (const auto& decision : frame.decisions)
-    spans_.try_emplace(decision.landmark, SeenSpan{frame.t, frame.t}).first->second.last = frame.t;
+  for (const auto& decision : frame.decisions) span(decision.landmark, frame.t);
+}
+
+void ObjectMapper::span(LandmarkId landmark, double t) {
+  SeenSpan& span = spans_.try_emplace(landmark, SeenSpan{t, t}).first->second;
+  span.first = std::min(span.first, t), span.last = std::max(span.last, t);
 }
 
 }  // namespace roomgraph

@@ -64,6 +64,11 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
                 "thousand back. At its end all have, in the first optimisation and in the last, up to 5000.",
          .min = 1,
          .max = 1000000});
+  v.add("views_kept", o.views_kept,
+        {.doc = "So many images with objects in them, reduced depth images, and scans for the grid are kept in any case. Of more, "
+                "those are given up that repeat others from that place in that direction: memory grows with the area seen.",
+         .min = 0,
+         .max = 100000000});
   v.add("optimize_every_nodes", o.optimize_every_nodes,
         {.doc = "Key poses between two optimisations of the whole graph.", .min = 1, .max = 100000});
   v.add("urgent_closure_m", o.urgent_closure_m,

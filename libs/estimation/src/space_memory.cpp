@@ -75,6 +75,11 @@ void SpaceMemory::add(const Scan& scan, const Pose3& world_from_robot) {
   scans_.push_back(std::make_shared<Scan>(scan));
 }
 
+void SpaceMemory::giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot) {
+  roomgraph::giveUpRepeated(images_, images_watch_, kept, world_from_robot, [](const Image& image) { return image.t; });
+  roomgraph::giveUpRepeated(scans_, scans_watch_, kept, world_from_robot, [](const auto& scan) { return scan->t; });
+}
+
 PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
   PosedViews out;
   if (poses.empty()) return out;

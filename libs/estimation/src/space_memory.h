@@ -11,6 +11,7 @@
 #include "roomgraph/estimation/key_poses.h"
 #include "roomgraph/observations/frame.h"
 #include "roomgraph/observations/landmark.h"
+#include "roomgraph/observations/repeated_views.h"
 #include "roomgraph/observations/scan.h"
 
 namespace roomgraph {
@@ -61,6 +62,8 @@ class SpaceMemory {
   void add(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people = {});
   void add(const Scan& scan, const Pose3& world_from_robot);
   const KeptScans& scans() const { return scans_; }
+  /// Those that repeat others, when there are more than `kept` images or scans.
+  void giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot);
   /// Valid until the next add().
   PosedViews posed(const KeyPoses& poses) const;
 
@@ -73,6 +76,7 @@ class SpaceMemory {
   };
   std::vector<Image> images_;
   KeptScans scans_;
+  GrowthWatch images_watch_, scans_watch_;
   Pose3 last_image_from_ = Pose3::Identity(), last_scan_from_ = Pose3::Identity();
 };
 

@@ -27,6 +27,11 @@ void ViewMemory::add(const Frame& frame, const std::vector<Box2>& people, const 
   views_.push_back(std::move(view));
 }
 
+void ViewMemory::giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot) {
+  constexpr ViewLimits kViews{.of_a_view = 3};  // a map keeps one of a place
+  roomgraph::giveUpRepeated(views_, watch_, kept, world_from_robot, [](const KeyView& view) { return view.t; }, kViews);
+}
+
 std::vector<KeyView> ViewMemory::views(const KeyPoses& poses, const std::vector<KeyView>& earlier) const {
   std::vector<KeyView> all = earlier;
   for (const KeyView& view : views_) {

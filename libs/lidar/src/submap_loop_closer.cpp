@@ -108,6 +108,10 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
         {.doc = "Submaps that are searched for one scan at most.", .min = 1, .max = 100});
   v.add("max_matches_per_search", max_matches_per_search_,
         {.doc = "Matches that one search for closures may try.", .min = 1, .max = 1000});
+  v.add("submaps_kept", submaps_kept_,
+        {.doc = "When there are more, submaps are given up where older ones hold the same place, seen in the same direction.",
+         .min = 0,
+         .max = 1000000});
   v.add("covariance_inflation", covariance_inflation_,
         {.doc = "Factor on the standard deviations that the curvature of the match gives.",
          .min = 0.01,
@@ -137,11 +141,10 @@ int SubmapLoopCloser::nearestScan(double t) const {
 
 std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& proposed) {
   const int a = nearestScan(proposed.t_a), b = nearestScan(proposed.t_b);
-  if (a < 0 || b < 0) return std::nullopt;
+  if (a < 0 || b < 0 || scans_[static_cast<std::size_t>(b)].ranges_m.empty()) return std::nullopt;  // given up
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
-    const Submap& submap = *submaps_[s];
-    const int first = submap.first_insertion, last = first + submap.insertions - 1;
-    if (a < first || a > last || b <= last) continue;
+    const auto& [first, last, map] = submaps_[s];
+    if (!map || a < first || a > last || b <= last) continue;
     // Just beyond what is trusted: the match must be unambiguous.
     const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
     const std::optional<Closure> found = match(candidate, probeOf(b));
@@ -155,6 +158,7 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
 void SubmapLoopCloser::prepare() {
   active_ = submap_settings_.emptySubmaps();
   submaps_.clear();
+  examined_ = 0, given_up_ = 0;
   pyramids_.clear();
   scans_.clear();
   way_.clear();
@@ -191,7 +195,8 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
 void SubmapLoopCloser::store(std::shared_ptr<Submap> submap) {
   if (!submap) return;
   submap->pack();
-  submaps_.push_back(std::move(submap));
+  const int first = submap->first_insertion;
+  submaps_.push_back({first, first + submap->insertions - 1, std::move(submap)});
 }
 
 SubmapLoopCloser::Probe SubmapLoopCloser::probeOf(int scan) const {
@@ -226,6 +231,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
       }
     }
   }
+  giveUpRepeated(world);
   return found;
 }
 
@@ -249,9 +255,8 @@ std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
     std::size_t s, int b, const std::vector<ClosureGraph::Reached>& reached,
     const std::vector<std::optional<Pose2>>& world) const {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
-  const Submap& submap = *submaps_[s];
-  const int first = submap.first_insertion, last = first + submap.insertions - 1;
-  if (b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_path_m_) return std::nullopt;
+  const auto& [first, last, map] = submaps_[s];
+  if (!map || b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_path_m_) return std::nullopt;
   std::optional<Candidate> best;
   for (int a = first; a <= last; ++a) {
     const ClosureGraph::Reached& reach = reached[at(a)];
@@ -279,7 +284,7 @@ SearchWindow SubmapLoopCloser::windowFor(double path_m) const {
 }
 
 std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const Probe& b) {
-  const Submap& submap = *submaps_[candidate.submap];
+  const Submap& submap = *submaps_[candidate.submap].map;
   const ScorePyramid& pyramid = pyramids_.of(candidate.submap, submap.grid);
   const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
   const Pose2 expected = odom_from_a * candidate.a_from_b;

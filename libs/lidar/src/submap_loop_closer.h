@@ -28,6 +28,8 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::vector<RelativePose> search(const Trajectory& world_from_robot) override;
   std::optional<RelativePose> verify(const RelativePose& proposed) override;
   void release() override;
+  /// Submaps that were not given up.
+  int submapsHeld() const { return static_cast<int>(submaps_.size()) - given_up_; }
 
  private:
   void declareSearch(ParameterVisitor& v);
@@ -36,6 +38,11 @@ class SubmapLoopCloser : public ScanLoopCloser {
     int scan = 0;
     PlanarScan planar;
     Points2 points;  ///< thinned
+  };
+  /// A finished submap with the numbers of its first and last scan.
+  struct KeptSubmap {
+    int first = 0, last = 0;
+    std::shared_ptr<const Submap> map;  ///< null: given up
   };
   struct Candidate {
     std::size_t submap = 0;
@@ -54,6 +61,10 @@ class SubmapLoopCloser : public ScanLoopCloser {
   SearchWindow windowFor(double path_m) const;
   std::optional<Closure> match(const Candidate& candidate, const Probe& b);
   int nearestScan(double t) const;
+  /// Submaps whose places older ones hold are given up: memory grows with the area seen, not with time.
+  void giveUpRepeated(const std::vector<std::optional<Pose2>>& world);
+  bool isRepeated(const KeptSubmap& submap, const std::vector<std::optional<Pose2>>& world) const;
+  void giveUp(KeptSubmap& submap);
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;
@@ -73,11 +84,13 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
   double agreeing_path_m_ = 1;
-  int max_candidates_ = 2, max_matches_per_search_ = 12;
+  int max_candidates_ = 2, max_matches_per_search_ = 12, submaps_kept_ = 60;
   double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.005236;
 
   std::unique_ptr<ActiveSubmaps> active_;
-  std::vector<std::shared_ptr<const Submap>> submaps_;
+  std::vector<KeptSubmap> submaps_;
+  std::size_t examined_ = 0;  ///< submaps that were looked at whether they repeat older ones
+  int given_up_ = 0;          ///< of them
   RecentPyramids pyramids_;  ///< of submaps, by index
   std::vector<Scan> scans_;  ///< kept ones
   std::vector<WayPoint> way_;  ///< one per kept scan

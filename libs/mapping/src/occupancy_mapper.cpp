@@ -92,6 +92,12 @@ void OccupancyMapper::add(const Frame& frame, const Plane& ground, const std::ve
   slices_.push_back(fanFromDepth(frame, ground, options_.slice, moving));
 }
 
+void OccupancyMapper::giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot) {
+  const auto time = [](const RangeFan& fan) { return fan.t; };
+  roomgraph::giveUpRepeated(scans_, scans_watch_, kept, world_from_robot, time);
+  roomgraph::giveUpRepeated(slices_, slices_watch_, kept, world_from_robot, time);
+}
+
 void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
                              std::vector<PosedFan>& out) const {
   std::optional<StampedPose> last;

@@ -68,15 +68,21 @@ std::string BestViews::text(const ObjectFrames& frames) const {
   for (const auto& [id, view] : best_)
     if (!view.jpeg.empty()) taken.emplace(view.frame, &view);
   std::map<LandmarkId, const View*> chosen;
+  const auto choose = [&](const View& view, const Box2& box, LandmarkId landmark) {
+    if (!sameBox(box, view.box)) return;
+    const View*& best = chosen[landmark];
+    if (!best || view.rank > best->rank) best = &view;
+  };
   for (const auto& frame : frames) {
     const auto [begin, end] = taken.equal_range(frame.frame);
     for (auto view = begin; view != end; ++view) {
-      for (const auto& decision : frame.decisions) {
-        if (!sameBox(decision.seen.measurement.detection.box, view->second->box)) continue;
-        const View*& best = chosen[decision.landmark];
-        if (!best || view->second->rank > best->rank) best = view->second;
-      }
+      for (const auto& decision : frame.decisions)
+        choose(*view->second, decision.seen.measurement.detection.box, decision.landmark);
     }
+  }
+  for (const auto& sighting : frames.former()) {
+    const auto [begin, end] = taken.equal_range(sighting.frame);
+    for (auto view = begin; view != end; ++view) choose(*view->second, sighting.box, sighting.landmark);
   }
   std::string out;
   for (const auto& [id, view] : chosen) {

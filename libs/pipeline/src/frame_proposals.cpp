@@ -3,7 +3,7 @@
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
-#include "mounting.h"
+#include "roomgraph/observations/mounting.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph {

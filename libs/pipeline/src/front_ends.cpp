@@ -2,9 +2,9 @@
 // Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
-#include "mounting.h"
 #include "predicted_movement.h"
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/observations/mounting.h"
 #include "scans_ahead.h"
 
 namespace roomgraph {

@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 
+#include "frame_lines.h"
 #include "graph_file.h"
 #include "roomgraph/mapping/map_files.h"
 
@@ -15,62 +16,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Names may be no UTF-8.
-std::string textOf(const ordered_json& json, int indent = -1) {
-  return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
-}
-
-ordered_json boxJson(const Box2& box) {
-  return {box.u_min, box.v_min, box.u_max, box.v_max};
-}
-
 void writeStamped(std::ostream& out, double t, const Pose3& pose) {
   const Eigen::Quaterniond q(pose.linear());
   const Eigen::Vector3d p = pose.translation();
   out << std::fixed << std::setprecision(6) << t << std::setprecision(7);
   for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) out << ' ' << value;
   out << '\n';
-}
-
-ordered_json detectionsJson(const StepReport& report) {
-  ordered_json line{{"timestamp", report.t}, {"boxes", ordered_json::array()}};
-  for (const auto& detection : report.detections.boxes) {
-    line["boxes"].push_back(
-        {{"class", detection.class_name}, {"score", detection.score}, {"bbox", boxJson(detection.box)}});
-    if (detection.carried) line["boxes"].back()["carried"] = true;
-    if (!detection.rival_label.empty())
-      line["boxes"].back()["rival"] = {{"label", detection.rival_label}, {"score", detection.rival_score}};
-  }
-  if (!report.detections.unsought.empty()) line["unsought"] = report.detections.unsought;
-  return line;
-}
-
-ordered_json associationsJson(double t, const std::vector<ObjectDecision>& decisions) {
-  ordered_json line{{"timestamp", t}, {"measurements", ordered_json::array()}};
-  for (const auto& decision : decisions) {
-    const auto& measurement = decision.seen.measurement;
-    const Eigen::Vector3d place = decision.seen.world_from_object.translation();
-    ordered_json posterior = ordered_json::array();
-    for (const auto& [id, probability] : decision.association.posterior)
-      posterior.push_back(
-          {{"landmark", id.valid() ? ordered_json(id.value) : ordered_json("new")}, {"p", probability}});
-    line["measurements"].push_back({{"class", measurement.proposal.class_name},
-                                    {"bbox", boxJson(measurement.detection.box)},
-                                    {"landmark", decision.landmark.value},
-                                    {"new", !decision.association.landmark.valid()},
-                                    {"posterior", posterior},
-                                    {"track", measurement.track.value},
-                                    {"beta", measurement.beta},
-                                    {"confidence", measurement.confidence},
-                                    {"world", {place.x(), place.y(), place.z()}},
-                                    {"source", measurement.proposal.source},
-                                    {"score", measurement.proposal.score},
-                                    {"energy",
-                                     {{"unary", measurement.energy.unary},
-                                      {"pairwise", measurement.energy.pairwise},
-                                      {"high_order", measurement.energy.high_order}}}});
-  }
-  return line;
 }
 
 double peakMemoryMb() {
@@ -242,9 +193,9 @@ void RunOutput::onStep(const StepReport& report) {
   if (report.kind == StepReport::Kind::kOther) return;
   views_.onStep(report);
   writeStamped(live_, report.t, report.world_from_robot);
-  if (report.detections.current()) detections_ << textOf(detectionsJson(report)) << '\n';
+  if (report.detections.current()) detections_ << detectionsLine(report) << '\n';
   if (!report.decisions.empty())
-    associations_ << textOf(associationsJson(report.t, report.decisions)) << '\n';
+    associations_ << associationsLine(report.t, report.decisions) << '\n';
   for (OutputFile* file : {&live_, &detections_, &associations_}) file->check();
 }
 
@@ -265,8 +216,7 @@ void RunOutput::writeResult(const SemanticSlam& slam, const SlamResult& result, 
   stream("trajectory.tum", [&](std::ostream& out) { writeTum(out, result.world_from_robot); });
   stream("trajectory_camera.tum", [&](std::ostream& out) { writeTum(out, result.world_from_camera); });
   stream("associations.jsonl", [&](std::ostream& out) {
-    for (const auto& frame : slam.objects().frames())
-      out << textOf(associationsJson(frame.t, frame.decisions)) << '\n';
+    writeAssociations(out, slam.objects().frames());
   });
   const LandmarksOrigin where = originOf(result, origin);
   std::vector<Landmark> candidates;

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "detection_schedule.h"
-#include "mounting.h"
 #include "people_in_view.h"
 #include "roomgraph/core/heap.h"
+#include "roomgraph/observations/mounting.h"
 #include "stage_borders.h"
 
 namespace roomgraph {
@@ -253,9 +253,19 @@ void SemanticSlam::takeOver() {
       objects_.move(solution->later);
       objects_.apply(sound(solution->landmarks));
     }
+    giveUpRepeated();
     giveBackFreedMemory();
   }
   if (const auto work = estimator_.takeWork()) times_.add("whole graph beside the run", *work);
+}
+
+// So that memory grows with the area seen.
+void SemanticSlam::giveUpRepeated() {
+  const auto kept = static_cast<std::size_t>(setup_->options.backend.views_kept);
+  const Trajectory trajectory = estimator_.poses().trajectory();
+  objects_.giveUpRepeated(kept);
+  views_.giveUpRepeated(kept, trajectory);
+  mapper_.giveUpRepeated(kept, trajectory);
 }
 
 // Returns whether there were new ones.

@@ -23,7 +23,6 @@ constexpr double kForgotten = 3;  // standard deviations: what errs by more hard
 constexpr double kLeastSlope = 0.7;  // grey levels per px
 // Where both images have contrast, they must look alike: another place has the same walls.
 constexpr double kContrast = 1, kLeastCorrelation = 0.5;
-constexpr double kImplausible = 4;  // standard deviations of the step: found elsewhere, by a likeness
 // Neighbouring pixels err alike: so many count as one.
 constexpr double kAlike = 40;
 
@@ -157,17 +156,32 @@ Matrix6d positivePart(const Matrix6d& symmetric) {
   return parts.eigenvectors() * parts.eigenvalues().cwiseMax(0).asDiagonal() * parts.eigenvectors().transpose();
 }
 
-Matrix6d informationOf(double sigma_m, double sigma_rad) {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(sigma_m), Eigen::Vector3d::Constant(sigma_rad);
-  return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
+// From small changes in the reference's frame to the axes that the prior speaks of.
+Matrix6d toAxes(const DensePrior& prior) {
+  if (!prior.current_from_body) return Matrix6d::Identity();
+  return adjoint((prior.reference_from_current * *prior.current_from_body).inverse());
 }
 
 }  // namespace
 
+Vector6d sameInAllDirections(double sigma_m, double sigma_rad) {
+  Vector6d out;
+  out << Eigen::Vector3d::Constant(sigma_m), Eigen::Vector3d::Constant(sigma_rad);
+  return out;
+}
+
+Matrix6d adjoint(const Pose3& a_from_b) {
+  Matrix6d out = Matrix6d::Zero();
+  const Eigen::Matrix3d turn = a_from_b.linear();
+  out.topLeftCorner<3, 3>() = out.bottomRightCorner<3, 3>() = turn;
+  for (int i = 0; i < 3; ++i) out.topRightCorner<3, 3>().col(i) = a_from_b.translation().cross(turn.col(i));
+  return out;
+}
+
 std::optional<DenseAlignment> alignDense(const DenseImage& reference, const DenseImage& current,
                                          const DensePrior& prior) {
-  const Matrix6d predicted = informationOf(prior.sigma_m, prior.sigma_rad);
+  const Matrix6d to_axes = toAxes(prior), in_sigmas = prior.sigma.cwiseInverse().asDiagonal() * to_axes;
+  const Matrix6d predicted = in_sigmas.transpose() * in_sigmas;
   DenseAlignment out{prior.reference_from_current};
   Normal normal{};
   double loose = kLooseAtFirst;
@@ -187,9 +201,10 @@ std::optional<DenseAlignment> alignDense(const DenseImage& reference, const Dens
   }
   out.overlap = static_cast<double>(normal.met) / std::max(1, normal.pixels);
   const Vector6d unexpected = changeBetween(prior.reference_from_current, out.reference_from_current);
-  const double jump = std::max(unexpected.head<3>().norm() / prior.sigma_m, unexpected.tail<3>().norm() / prior.sigma_rad);
-  if (out.overlap < kLeastOverlap || jump > kImplausible || !normal.brightness.isAlike()) return std::nullopt;
-  out.covariance = (positivePart(normal.information) / kAlike + informationOf(prior.unseen_m, prior.unseen_rad)).inverse();
+  const bool plausible = unexpected.head<3>().norm() <= prior.plausible_m && unexpected.tail<3>().norm() <= prior.plausible_rad;
+  if (out.overlap < kLeastOverlap || !plausible || !normal.brightness.isAlike()) return std::nullopt;
+  const Matrix6d unseen = prior.unseen.cwiseInverse().asDiagonal() * to_axes;
+  out.covariance = (positivePart(normal.information) / kAlike + unseen.transpose() * unseen).inverse();
   return out;
 }
 

@@ -9,13 +9,21 @@
 
 namespace roomgraph::tracking {
 
-/// What is known of a movement before the images are aligned: standard deviations of its translation (m) and
-/// rotation (rad), in every direction.
+/// Standard deviations of translation (m) and rotation (rad).
+Vector6d sameInAllDirections(double sigma_m, double sigma_rad);
+
+/// What is known of a movement before the images are aligned. Standard deviations are those of translation and rotation along
+/// and about the reference's axes or, of a body that carries the camera, the body's.
 struct DensePrior {
   Pose3 reference_from_current = Pose3::Identity();
-  double sigma_m = 0.1, sigma_rad = 0.1;    ///< of the last frame's step, by a velocity that hardly changes
-  double unseen_m = 0.1, unseen_rad = 0.1;  ///< of all that was predicted since the reference
+  Vector6d sigma = sameInAllDirections(0.1, 0.1);   ///< of the last frame's step, by a velocity that hardly changes
+  Vector6d unseen = sameInAllDirections(0.1, 0.1);  ///< of all that was predicted since the reference
+  std::optional<Pose3> current_from_body = {};
+  double plausible_m = 0.4, plausible_rad = 0.4;  ///< from where it is predicted to be; more is a likeness
 };
+
+/// Of small changes (translation, rotation): those in b's axes, in a's.
+Matrix6d adjoint(const Pose3& a_from_b);
 
 struct DenseAlignment {
   Pose3 reference_from_current = Pose3::Identity();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace roomgraph::tracking {
 namespace {
@@ -16,8 +17,19 @@ constexpr double kAcceleration = 0.7, kTurning = 2;  // m/s^2, rad/s^2
 constexpr double kLeastStep_m = 0.005, kLeastStep_rad = 0.01;
 constexpr double kAnyVelocity = 0.4, kAnyTurn = 0.6;  // m/s, rad/s
 constexpr double kCoast_s = 1.5;
+constexpr double kPlausible = 4;  // standard deviations of the step: beyond is elsewhere, found by a likeness
 // Standard deviations of what was not seen: of a direction in images, and of all, m/s, rad/s.
 constexpr double kVelocity = 0.15, kTurn = 0.25, kBlindVelocity = 0.3, kBlindTurn = 0.5;
+
+// Habits are not laws.
+constexpr double kHabit = 3, kLeastHabit_m = 0.01, kLeastHabit_rad = 0.005;  // factor; over the square root of a second
+
+// As much as is known without the body, or as little as it moves in so many seconds.
+Vector6d limited(const Vector6d& sigma, const std::optional<CarryingBody>& body, double seconds) {
+  if (!body) return sigma;
+  const Vector6d habit = kHabit * body->scatter.cwiseMax(sameInAllDirections(kLeastHabit_m, kLeastHabit_rad));
+  return sigma.cwiseMin(std::sqrt(seconds) * habit);
+}
 
 // Of first_from_reference * reference_from_current: a turn of the first part moves the end of the second.
 ChainedMovement chained(const ChainedMovement& to_reference, const DenseAlignment& step) {
@@ -48,19 +60,21 @@ bool DenseChain::unbroken(double t) const {
 }
 
 std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std::vector<Box2>& excluded,
-                                                  const Pose3& predicted) {
+                                                  const Pose3& predicted, const std::optional<CarryingBody>& body) {
   broken_ = !unbroken(frame.t);
   if (broken_) return std::nullopt;
   if (!reference_) reference_ = std::make_shared<DenseImage>(first_, excluded_);
   const auto current = std::make_shared<const DenseImage>(frame, excluded);
   const double step = frame.t - last_t_, since = frame.t - reference_t_;
-  const DensePrior prior{to_reference_.first_from_current.inverse() * predicted,
-                         moving_ ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
-                         moving_ ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step,
-                         kVelocity * since, kTurn * since};
+  const Vector6d sigma = sameInAllDirections(
+      moving_ ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
+      moving_ ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
+  const DensePrior prior{to_reference_.first_from_current.inverse() * predicted, limited(sigma, body, step),
+                         limited(sameInAllDirections(kVelocity * since, kTurn * since), body, since),
+                         body ? std::optional(body->camera_from_body) : std::nullopt, kPlausible * sigma[0], kPlausible * sigma[5]};
   last_t_ = frame.t;
   const auto found = alignDense(*reference_, *current, prior);
-  if (!found) return coast(frame.t, current, predicted);
+  if (!found) return coast(frame.t, current, predicted, body);
   last_ = seen_ = chained(to_reference_, *found);
   seen_t_ = frame.t;
   moving_ = true;
@@ -70,11 +84,12 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
 
 // For a moment the velocity is believed; what comes then is compared with what was seen last on the way.
 ChainedMovement DenseChain::coast(double t, const std::shared_ptr<const DenseImage>& image,
-                                  const Pose3& predicted) {
+                                  const Pose3& predicted, const std::optional<CarryingBody>& body) {
   const double unseen = t - seen_t_;
   DenseAlignment step{seen_.first_from_current.inverse() * predicted};
-  step.covariance.diagonal() << Eigen::Vector3d::Constant(kBlindVelocity * unseen).cwiseAbs2(),
-      Eigen::Vector3d::Constant(kBlindTurn * unseen).cwiseAbs2();
+  const Vector6d sigma = limited(sameInAllDirections(kBlindVelocity * unseen, kBlindTurn * unseen), body, unseen);
+  const Matrix6d axes = body ? adjoint(step.reference_from_current * body->camera_from_body) : Matrix6d::Identity();
+  step.covariance = axes * Matrix6d(sigma.cwiseAbs2().asDiagonal()) * axes.transpose();
   last_ = to_reference_ = chained(seen_, step);
   last_.seen = false;
   reference_ = image, reference_t_ = t;

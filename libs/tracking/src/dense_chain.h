@@ -17,6 +17,13 @@ struct ChainedMovement {
   Matrix6d covariance = Matrix6d::Zero();  ///< of (translation, rotation) in the first frame's axes
 };
 
+/// The robot that carries the camera, and how little it moves but ahead and about its z axis: over the square root of a second
+/// (MovementHabits).
+struct CarryingBody {
+  Pose3 camera_from_body = Pose3::Identity();
+  Vector6d scatter = Vector6d::Zero();
+};
+
 /// Aligns frames one after the other with the same reference for as long as they show enough of it, so that errors add up
 /// with new references only.
 class DenseChain {
@@ -26,13 +33,15 @@ class DenseChain {
   void begin(const Frame& frame, const std::vector<Box2>& excluded, bool moving);
   /// `predicted`: movement since the beginning, by the velocity before, which is the answer for a moment where the images do
   /// not say how the camera moved. Nothing after that: the chain is broken until it begins again.
-  std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted);
+  std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted,
+                                        const std::optional<CarryingBody>& body = {});
   /// Whether all since the beginning is known, or was seen a moment before time t (s).
   bool unbroken(double t) const;
   const ChainedMovement& last() const { return last_; }
 
  private:
-  ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted);
+  ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted,
+                        const std::optional<CarryingBody>& body);
 
   bool begun_ = false, broken_ = false;
   bool moving_ = false;  ///< the velocity is known

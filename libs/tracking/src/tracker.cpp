@@ -14,6 +14,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/result_store.h"
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/observations/mounting.h"
 #include "view_bytes.h"
 
 namespace roomgraph::tracking {
@@ -56,10 +57,11 @@ Pose3 Tracker::lastPose() const {
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   // Without other sensors the last velocity is trusted for a moment only.
+  robot_from_camera_ = isMounted(frame) ? std::optional(frame.robot_from_camera) : std::nullopt;
   const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
   const Pose3 guess = goes_on ? velocity_.value_or(Pose3::Identity()) : Pose3::Identity();
   dead_reckoned_before_ = dead_reckoned_;
-  dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(guess));
+  dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(expected(guess)));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
   last_t_ = frame.t;
   const auto known = results_ ? results_->recall("view", frame.t) : std::nullopt;
@@ -67,10 +69,13 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   densely_placed_ = false;
   TrackingResult result = known && !known->empty() ? recall(frame, prior, *known) : look(frame, prior);
   if (!parameters_.dense_alignment) return result;
-  if (result.tracked)
+  if (result.tracked) {
     dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
-  else
+    learnHabits(frame.t);
+  } else {
+    habit_from_.reset();
     acceptDense(frame, result);
+  }
   return result;
 }
 
@@ -172,6 +177,7 @@ TrackingResult Tracker::start(View view) {
   records_.push_back({view.frame->t, reference_, Pose3::Identity(), segment_});
   placed_ = records_.back();
   if (!densely_placed_) velocity_.reset();
+  habit_from_.reset();
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   last_covariance_.setZero();
@@ -205,7 +211,10 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
     result.step_covariance = Matrix6d::Identity();  // no step leads there
   }
   // A step over several frames, or between segments, says nothing about the next one.
-  if (blind_frames_ > 0 || elsewhere) velocity_.reset();
+  if (blind_frames_ > 0 || elsewhere) {
+    velocity_.reset();
+    habit_from_.reset();
+  }
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   result.inliers = view.solution.inliers;
@@ -297,7 +306,8 @@ std::optional<PoseSolution> Tracker::seenFrom(int other, int index) const {
   const Keyframe& keyframe = map_.keyframe(index);
   const PoseSolution found = recognize(map_, other, keyframe.features, keyframe.camera, parameters_).solution;
   if (found.inliers < parameters_.loop_min_inliers) return std::nullopt;
-  if (!plausible(other, around(index), found.camera_from_world.inverse())) return std::nullopt;
+  const Pose3 other_from_keyframe = found.camera_from_world.inverse();
+  if (offFloor(other_from_keyframe) || !plausible(other, around(index), other_from_keyframe)) return std::nullopt;
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include "dense_chain.h"
 #include "feature_extractor.h"
 #include "local_map.h"
+#include "movement_habits.h"
 #include "pose_solver.h"
 #include "roomgraph/core/read_ahead.h"
 #include "roomgraph/tracking/rgbd_odometry.h"
@@ -100,6 +101,10 @@ class Tracker {
   /// Where the frame is by dense alignment with the frames since the last one that features placed, when no scans
   /// saw the movement: from then on that is dead reckoning. Whether it is known.
   bool alignDensely(const Frame& frame, const TrackingPrior& prior);
+  /// The movements since a frame that features placed become habits, when they went far enough.
+  void learnHabits(double t);
+  /// A step of the camera as it is expected to go on, by the habits of the robot that carries it.
+  Pose3 expected(const Pose3& step) const;
   /// Fills in what a frame that only dense alignment or the velocity placed reports.
   void acceptDense(const Frame& frame, TrackingResult& result);
   /// A segment begins at this time: its link to the last one, if dense alignment knows it.
@@ -121,6 +126,8 @@ class Tracker {
   std::vector<int> keyframesNear(double t) const;
   RelativePose loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
                       const Matrix6d& covariance) const;
+  /// Whether a robot would have left its floor, or tilted, to see this from the keyframe's place.
+  bool offFloor(const Pose3& keyframe_from_camera) const;
   Matrix6d stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution);
   Pose3 lastPose() const;
 
@@ -136,6 +143,9 @@ class Tracker {
   Pose3 dead_reckoned_ = Pose3::Identity(), dead_reckoned_before_ = Pose3::Identity();
   DenseChain dense_;                         ///< since that frame
   bool densely_placed_ = false;              ///< the frame being tracked
+  MovementHabits habits_;
+  std::optional<Pose3> robot_from_camera_;   ///< of the last frame; nothing: handheld
+  std::optional<StampedPose> habit_from_;    ///< odom_from_camera of the frame since when a movement is learnt
   Matrix6d last_covariance_ = Matrix6d::Zero();
   int segment_ = 0;  ///< that of the last record
   int lost_frames_ = 0;   ///< since features placed one

@@ -6,12 +6,34 @@
 namespace roomgraph::tracking {
 namespace {
 constexpr double kGoesOn = 0.8;  // share of a velocity that the next step is taken to have
+constexpr double kLearnt_m = 0.15, kLearnt_rad = 0.3, kLongest_s = 2;  // of movements that habits are learnt from
+}  // namespace
+
+void Tracker::learnHabits(double t) {
+  if (!robot_from_camera_) return;
+  const Pose3 odom_from_camera = lastPose();
+  if (!habit_from_ || t - habit_from_->t > kLongest_s) {
+    habit_from_ = StampedPose{t, odom_from_camera};
+    return;
+  }
+  const Pose3 moved = habit_from_->pose.inverse() * odom_from_camera;
+  if (moved.translation().norm() < kLearnt_m && rotationAngle(moved) < kLearnt_rad) return;
+  habits_.learn(*robot_from_camera_ * moved * robot_from_camera_->inverse(), t - habit_from_->t);
+  habit_from_ = StampedPose{t, odom_from_camera};
+}
+
+Pose3 Tracker::expected(const Pose3& step) const {
+  if (!robot_from_camera_) return step;
+  return robot_from_camera_->inverse() * habits_.expected(*robot_from_camera_ * step * robot_from_camera_->inverse()) *
+         *robot_from_camera_;
 }
 
 bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
   // Tried beside scans, too: no better in three flats, worse in one (docs/results.md).
   if (!parameters_.dense_alignment || prior.by_scans) return false;
-  const auto moved = dense_.follow(frame, prior.dynamic_regions, dead_reckoned_);
+  std::optional<CarryingBody> body;
+  if (robot_from_camera_) body = CarryingBody{robot_from_camera_->inverse(), habits_.scatter()};
+  const auto moved = dense_.follow(frame, prior.dynamic_regions, dead_reckoned_, body);
   densely_placed_ = moved.has_value();
   if (moved) dead_reckoned_ = moved->first_from_current;
   return densely_placed_;

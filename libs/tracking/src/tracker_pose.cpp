@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pose of a frame from the last frame's points, a keyframe, relocalisation or the local map.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 
@@ -13,6 +14,7 @@ namespace {
 constexpr int kBeside = 5;               // keyframes before and after that show the place
 constexpr int kFarthestBeside = 25;      // of them, given up ones in between counted
 constexpr double kLeastAgreement = 0.9;  // of two views of one place
+constexpr double kMostRise_m = 0.15, kMostTilt_rad = 0.1;  // of a robot, from where it saw a place before: its floor is even
 constexpr double kFar_m = 0.15, kFar_rad = 0.15;
 
 // More than dead reckoning errs by since the last view.
@@ -71,10 +73,16 @@ bool Tracker::relocalise(View& view) {
                                       parameters_.relocalisation_candidates);
   const DepthSketch sketch = sketchDepth(*view.frame, view.prior->dynamic_regions);
   return std::any_of(candidates.begin(), candidates.end(), [&](int candidate) {
-    return trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers) &&
-           plausible(candidate, {{&sketch}}, map_.keyframe(candidate).odom_from_camera.inverse() * view.odom_from_camera) &&
-           trackLocalMap(view);
+    if (!trackKeyframe(view, candidate, parameters_.relocalisation_min_inliers)) return false;
+    const Pose3 keyframe_from_view = map_.keyframe(candidate).odom_from_camera.inverse() * view.odom_from_camera;
+    return !offFloor(keyframe_from_view) && plausible(candidate, {{&sketch}}, keyframe_from_view) && trackLocalMap(view);
   });
+}
+
+bool Tracker::offFloor(const Pose3& keyframe_from_camera) const {
+  if (!robot_from_camera_) return false;
+  const Pose3 moved = *robot_from_camera_ * keyframe_from_camera * robot_from_camera_->inverse();
+  return std::abs(moved.translation().z()) > kMostRise_m || moved.linear()(2, 2) < std::cos(kMostTilt_rad);
 }
 
 // Views of one segment that came shortly before and after a keyframe's, in its frame.

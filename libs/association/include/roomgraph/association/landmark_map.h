@@ -39,6 +39,9 @@ class LandmarkMap {
   void seenThrough(LandmarkId id, int rays);
   void supported(LandmarkId id, int rays);
 
+  /// This sighting will not be among those of adopt(): what it says about existence is remembered.
+  void giveUp(LandmarkId id, const WorldMeasurement& sighting);
+
   /// Sets place (m, world), yaw (rad) and covariance of (x, y, z, yaw) after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const ObjectShape& shape,
                const Eigen::Matrix4d& covariance);

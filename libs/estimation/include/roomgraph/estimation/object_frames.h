@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "roomgraph/estimation/object_decision.h"
+#include "roomgraph/observations/repeated_views.h"
 
 namespace roomgraph {
 
@@ -23,6 +24,18 @@ struct SearchedImage {
     return std::find(unsought.begin(), unsought.end(), class_name) != unsought.end();
   }
 };
+
+/// What is known of the sightings of a frame when it is given up.
+inline std::vector<FormerSighting> formerSightings(const ObjectFrame& frame) {
+  std::vector<FormerSighting> out;
+  for (const auto& [seen, association, landmark] : frame.decisions) {
+    const ObjectMeasurement& measurement = seen.measurement;
+    const Pose3 robot_from_object = frame.robot_from_camera * measurement.proposal.camera_from_object;
+    out.push_back({frame.t, frame.frame, measurement.proposal.class_name, measurement.detection.box, landmark,
+                   association.probability, robot_from_object.translation()});
+  }
+  return out;
+}
 
 /// In order of time. A copy for another thread costs little; what is changed since is changed in one's own only.
 class ObjectFrames {
@@ -53,6 +66,17 @@ class ObjectFrames {
     return *frames_[i];
   }
 
+  /// The frames at these positions, which are in ascending order: of their sightings little is kept.
+  void giveUp(const std::vector<std::size_t>& positions) {
+    for (const std::size_t i : positions)
+      for (FormerSighting& sighting : formerSightings(*frames_[i])) former_.push_back(std::move(sighting));
+    std::stable_sort(former_.begin(), former_.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    eraseAt(frames_, positions);
+  }
+  /// In order of time.
+  const std::vector<FormerSighting>& former() const { return former_; }
+  std::vector<FormerSighting>& changeFormer() { return former_; }
+
   const ObjectFrame& operator[](std::size_t i) const { return *frames_[i]; }
   const ObjectFrame& back() const { return *frames_.back(); }
   std::size_t size() const { return frames_.size(); }
@@ -62,6 +86,7 @@ class ObjectFrames {
 
  private:
   std::vector<std::shared_ptr<ObjectFrame>> frames_;
+  std::vector<FormerSighting> former_;
 };
 
 }  // namespace roomgraph

@@ -78,6 +78,10 @@ class ObjectMapper {
   std::vector<PlaceLook> looksAt(const std::vector<Landmark>& landmarks,
                                  const ObjectDatabase& database) const;
 
+  /// Gives up sightings, images and scans of which there are more than `kept` of a kind, where others from that place in that
+  /// direction repeat them; called now and then. Of landmarks that were seen seldom every sighting is kept. Who is who of the sightings stays known, and what they say about existence.
+  void giveUpRepeated(std::size_t kept);
+
   /// Moves the landmarks that were first seen then or later.
   void move(const PathShift& shift);
 
@@ -100,6 +104,8 @@ class ObjectMapper {
   void shareSightings(LandmarkId first, LandmarkId second);
   void respan();
   void span(const ObjectFrame& frame);
+  void span(LandmarkId landmark, double t);
+  bool allWellSeen(const ObjectFrame& frame) const;
 
   std::shared_ptr<Associator> associator_;
   LandmarkMap landmarks_;
@@ -107,6 +113,7 @@ class ObjectMapper {
   bool hindsight_;
   const KeyPoses& poses_;
   ObjectFrames frames_;
+  GrowthWatch frames_watch_;
   SeenSpans spans_;
   std::optional<Pose3> last_rays_from_;
   std::optional<Scan> latest_scan_;  ///< without returns on people

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "roomgraph/mapping/occupancy_options.h"
-#include "roomgraph/observations/trajectory.h"
+#include "roomgraph/observations/repeated_views.h"
 
 namespace roomgraph {
 
@@ -21,6 +21,8 @@ class OccupancyMapper {
   /// `ground`: floor in the camera frame. `moving`: boxes (px) of what moves by itself, which is not drawn. A
   /// frame without depth is left out.
   void add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {});
+  /// Gives up scans and images that repeat others from that place in that direction, when there are more than `kept` of a kind.
+  void giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot);
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
   /// without any. Cells hold the probability of being free (MRPT). Throws RunError when the grid would be too
   /// large to be right (a wrong trajectory). With an `earlier` grid, in world too, the result is that grid,
@@ -35,6 +37,7 @@ class OccupancyMapper {
 
   OccupancyOptions options_;
   std::vector<RangeFan> scans_, slices_;
+  GrowthWatch scans_watch_, slices_watch_;
 };
 
 }  // namespace roomgraph

@@ -125,6 +125,7 @@ class SemanticSlam {
 
   void localize(double t);
   void takeOver();
+  void giveUpRepeated();
   bool closeLoopsOfScans();
   void addClosures(const std::vector<RelativePose>& closures);
   ObjectsInGraph inGraph() const;
