@@ -14,8 +14,8 @@
 namespace roomgraph::test {
 namespace {
 
-constexpr int kFrames = 61;
-constexpr std::size_t kKept = 20;  // of those, more than stay of one view
+constexpr int kFrames = 121;
+constexpr std::size_t kLooked = 50, kLeft = 40;  // frames from which on they are looked through; that are left of one landmark's
 
 ObjectMeasurement sofaAt(const Frame& frame, double x, double y, double score = 0.9) {
   ObjectMeasurement out;
@@ -60,15 +60,15 @@ TEST_F(FormerSightings, FewAreKeptOfOneViewAndOfOthersItIsKnownWhoIsWho) {
   see(mapper);
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
   const Landmark before = mapper.landmarks().landmarks()[0];
-  mapper.giveUpRepeated(kFrames);
+  mapper.giveUpRepeated(kFrames, poses_.trajectory());
   EXPECT_EQ(mapper.frames().size(), static_cast<std::size_t>(kFrames));  // not more than are kept in any case
   EXPECT_TRUE(mapper.frames().former().empty());
-  mapper.giveUpRepeated(kKept);
-  EXPECT_EQ(mapper.frames().size(), 16u);
+  mapper.giveUpRepeated(kLooked, poses_.trajectory());
+  EXPECT_EQ(mapper.frames().size(), kLeft);
   EXPECT_EQ(mapper.frames()[0].t, 0);
   EXPECT_EQ(mapper.frames().back().t, kFrames - 1);
   const auto& former = mapper.frames().former();
-  ASSERT_EQ(former.size(), kFrames - 16u);
+  ASSERT_EQ(former.size(), kFrames - kLeft);
   std::set<double> times;
   for (const FormerSighting& sighting : former) {
     times.insert(sighting.t);
@@ -89,7 +89,7 @@ TEST_F(FormerSightings, ExistenceAndSpansStayThroughReassociation) {
   const auto after = [&](bool given_up) {
     ObjectMapper mapper(associator("SoftAssociator"), {}, 0.03, poses_);
     see(mapper);
-    if (given_up) mapper.giveUpRepeated(kKept);
+    if (given_up) mapper.giveUpRepeated(kLooked, poses_.trajectory());
     EXPECT_TRUE(mapper.reassociate());
     EXPECT_EQ(mapper.landmarks().landmarks().size(), 1u);
     const LandmarkId id = mapper.landmarks().landmarks().at(0).id;
@@ -103,11 +103,57 @@ TEST_F(FormerSightings, ExistenceAndSpansStayThroughReassociation) {
   EXPECT_NEAR(logOdds(some), logOdds(all), 0.5);
 }
 
+// Poses and landmarks move, as when the run is recognised in an earlier map: what was seen before is where the landmark is.
+TEST_F(FormerSightings, AreJudgedByThePosesOfNow) {
+  ObjectMapper mapper(associator("SoftAssociator"), {}, 0.03, poses_);
+  see(mapper);
+  const Pose3 moved = poseFromYpr(5, -3, 0, 2, 0, 0);
+  for (int i = 0; i < kFrames; ++i) poses_.set(NodeId{i}, moved);
+  mapper.move({0, moved});
+  mapper.giveUpRepeated(kLooked, poses_.trajectory());
+  ASSERT_EQ(mapper.frames().former().size(), kFrames - kLeft);
+  for (const FormerSighting& sighting : mapper.frames().former()) EXPECT_GT(sighting.existence_log_ratio, 0.1);
+}
+
+// Of the last moments nothing is given up, and of two landmarks each keeps its forty.
+TEST_F(FormerSightings, WhatIsNewOrSeldomStays) {
+  ObjectMapper mapper(associator("NearestNeighborAssociator"), {}, 0.03, poses_);
+  for (int i = 0; i < kFrames; ++i) {
+    const Frame frame = frameAt(i, i);
+    std::vector<ObjectMeasurement> seen{sofaAt(frame, 3, 0)};
+    if (i % 3 == 0) seen.push_back(sofaAt(frame, 6, 3));
+    mapper.associate(seen, frame, {}, noDrift());
+  }
+  ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
+  Trajectory until_lately;
+  for (int i = 0; i <= 80; ++i) until_lately.add(i, Pose3::Identity());
+  mapper.giveUpRepeated(kLooked, until_lately);
+  std::map<LandmarkId, int> kept;
+  for (const auto& frame : mapper.frames())
+    for (const auto& decision : frame.decisions) ++kept[decision.landmark];
+  for (const auto& [landmark, sightings] : kept) EXPECT_GE(sightings, 40);
+  ASSERT_FALSE(mapper.frames().former().empty());
+  EXPECT_LE(mapper.frames().former().back().t, 80);
+}
+
+// Landmarks whose sightings are given up become one, and take the id of an earlier map.
+TEST_F(FormerSightings, FollowTheirLandmarkWhenItIsMergedOrRenamed) {
+  ObjectMapper mapper(associator("SoftAssociator"), {}, 0.03, poses_);
+  mapper.reserveIds(LandmarkId{70});
+  see(mapper);
+  mapper.giveUpRepeated(kLooked, poses_.trajectory());
+  Landmark earlier = mapper.landmarks().landmarks().at(0);
+  earlier.id = LandmarkId{7};
+  mapper.continueIds({earlier});
+  for (const FormerSighting& sighting : mapper.frames().former()) EXPECT_EQ(sighting.landmark, earlier.id);
+  EXPECT_EQ(mapper.seenSpans().size(), 1u);
+}
+
 TEST_F(FormerSightings, WhenALandmarkIsSplitTheyAre) {
   ObjectMapper mapper(associator("NearestNeighborAssociator", "[association]\nmax_distance_ratio = 5\n"), {}, 0.03, poses_);
   see(mapper, 0.9);
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 1u);
-  mapper.giveUpRepeated(kKept);
+  mapper.giveUpRepeated(kLooked, poses_.trajectory());
   mapper.tidy();
   ASSERT_EQ(mapper.landmarks().landmarks().size(), 2u);
   std::set<LandmarkId> left, right;

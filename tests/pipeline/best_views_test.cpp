@@ -114,7 +114,8 @@ TEST_F(Views, StayWhenTheirSightingsAreGivenUp) {
   show(0, {decision(1, {100, 100, 300, 300}, 0.5), decision(2, {400, 100, 450, 200}, 0.9)});
   show(1, {decision(1, {100, 100, 200, 200}, 0.5)});
   ObjectFrames frames(frames_);
-  frames.giveUp({0});
+  frames.giveUp({0}, {{.frame = FrameId{0}, .box = {100, 100, 300, 300}, .landmark = LandmarkId{1}},
+                      {.frame = FrameId{0}, .box = {400, 100, 450, 200}, .landmark = LandmarkId{2}}});
   for (auto& sighting : frames.changeFormer())
     if (sighting.landmark == LandmarkId{1}) sighting.landmark = LandmarkId{7};
   const std::string text = views_.text(frames);

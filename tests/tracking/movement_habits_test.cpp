@@ -7,6 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "feature_odometry.h"
+#include "textured_room.h"
+
 namespace roomgraph::tracking {
 namespace {
 
@@ -55,6 +58,14 @@ TEST(MovementHabits, WhoDrivesSidewaysMayGoOnDoingSo) {
   EXPECT_LT((logSO3(expected.linear()) - Eigen::Vector3d(0, 0, turn.z())).norm(), 1e-12);
 }
 
+// Now and then is often enough.
+TEST(MovementHabits, WhoDrivesSidewaysOneTimeInFiveMayDoSo) {
+  MovementHabits habits;
+  for (int i = 0; i < 60; ++i) habits.learn(i % 5 == 0 ? poseFromYpr(0, 0.15, 0, 0, 0, 0) : arc(0.2, 0.1), kSeconds);
+  EXPECT_GT(habits.scatter()[1], 0.1);
+  EXPECT_EQ(habits.expected(poseFromYpr(0, 0.05, 0, 0, 0, 0)).translation().y(), 0.05);
+}
+
 TEST(MovementHabits, OfWheelsAnArcIsExpected) {
   const Pose3 expected = driven(60, 0, 0.003, 0.002).expected(poseFromYpr(0.1, -0.06, 0.02, 0.4, 0.05, -0.02));
   EXPECT_NEAR(expected.translation().x(), 0.1, 1e-12);
@@ -70,6 +81,47 @@ TEST(MovementHabits, UntilEnoughIsLearntItIsOnWheels) {
   EXPECT_EQ(few.expected(anything).translation().z(), 0);
   EXPECT_GT(enough.scatter().segment<4>(1).minCoeff(), 0.05);
   EXPECT_LT((enough.expected(anything).translation() - anything.translation()).norm(), 1e-12);
+}
+
+// Where a frame of nothing is said to be after a camera moved to the right and ahead, 2 cm a frame each, on a robot or in a
+// hand; before that it may have gone to and fro sideways for a while.
+Eigen::Vector3d goesOn(bool on_robot, int to_and_fro) {
+  const test::TexturedRoom room;
+  FeatureOdometry odometry;
+  Eigen::Vector3d place(0, 0, 0);
+  int t = 0;
+  const auto track = [&](bool visible) {
+    Pose3 camera = Pose3::Identity();
+    camera.translation() = place;
+    Frame frame = room.render(t++, camera);
+    if (!visible) frame.gray.setTo(128), frame.depth.setTo(0);
+    if (on_robot) {
+      frame.robot_from_camera.linear() = bodyFromOptical();
+      frame.robot_from_camera.translation() << 0.2, 0, 1;
+    }
+    const TrackingResult result = odometry.track(frame, {});
+    EXPECT_EQ(result.tracked, visible) << t;
+    return result.odom_from_camera;
+  };
+  track(true);
+  for (int i = 0; i < to_and_fro; ++i)
+    for (const double step : {0.06, 0.06, 0.06, -0.06, -0.06, -0.06}) {
+      place.x() += step;
+      track(true);
+    }
+  Pose3 last = Pose3::Identity();
+  for (int i = 0; i < 4; ++i) {
+    place += Eigen::Vector3d(0.02, 0, 0.02);
+    last = track(true);
+  }
+  return (last.inverse() * track(false)).translation();
+}
+
+TEST(Tracker, AVelocityGoesOnAsTheRobotsHabitsAre) {
+  const Eigen::Vector3d by_hand = goesOn(false, 0), on_wheels = goesOn(true, 0), strafing = goesOn(true, 8);
+  EXPECT_LT((by_hand - Eigen::Vector3d(0.02, 0, 0.02)).norm(), 0.008);
+  EXPECT_LT((on_wheels - Eigen::Vector3d(0, 0, 0.02)).norm(), 0.008);
+  EXPECT_LT((strafing - Eigen::Vector3d(0.02, 0, 0.02)).norm(), 0.008);
 }
 
 TEST(MovementHabits, ChangeWithWhatWasSeenLately) {

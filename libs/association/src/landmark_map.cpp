@@ -132,11 +132,10 @@ void LandmarkMap::supported(LandmarkId id, int rays) {
   updateExistence(id, gain);
 }
 
-void LandmarkMap::giveUp(LandmarkId id, const WorldMeasurement& sighting) {
+double LandmarkMap::existenceLogRatio(LandmarkId id, const WorldMeasurement& sighting) const {
   const Landmark* landmark = find(id);
-  if (!landmark || sighting.measurement.proposal.class_name != landmark->class_name) return;
-  records_[id].existence_updates.push_back(
-      {sighting.measurement.frame, std::log(likelihoodRatio(*landmark, sighting)), {}});
+  if (!landmark || sighting.measurement.proposal.class_name != landmark->class_name) return 0;
+  return std::log(likelihoodRatio(*landmark, sighting));
 }
 
 void LandmarkMap::correct(LandmarkId id, const Eigen::Vector3d& position, double yaw,
@@ -246,7 +245,7 @@ std::set<std::pair<LandmarkId, FrameId>> seenIn(const std::vector<std::vector<Wo
 }  // namespace
 
 void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame,
-                        const Reassociation& result) {
+                        const Reassociation& result, const std::vector<FormerSighting>& former) {
   const std::size_t known_changes = identity_.changes().size();
   identity_ = result.identity;
   for (std::size_t i = known_changes; i < identity_.changes().size(); ++i) {
@@ -257,6 +256,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   // Whoever is now said to be seen in a frame was not missed in it, though another one was taken for it then;
   // and of landmarks that were merged only one was missed.
   auto not_missed = seenIn(by_frame, result);
+  for (const FormerSighting& sighting : former) not_missed.emplace(sighting.landmark, sighting.frame);
   std::multimap<FrameId, std::pair<LandmarkId, ExistenceUpdate>> existence_updates;
   for (const auto& landmark : result.landmarks)
     for (const ExistenceUpdate& update : records_[landmark.id].existence_updates)
@@ -271,9 +271,13 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   }
   records_.clear(), together_.clear(), in_frame_.clear();
   auto next = existence_updates.begin();
+  auto next_former = former.begin();
   const auto weighUntil = [&](FrameId frame) {
-    for (; next != existence_updates.end() && next->first < frame; ++next)
+    for (; next != existence_updates.end() && next->first < frame; ++next) {
+      countFormerUntil(next->first, next_former, former);
       updateExistence(next->second.first, next->second.second.log_ratio, next->second.second.missed_in);
+    }
+    countFormerUntil(frame, next_former, former);
   };
   for (std::size_t f = 0; f < by_frame.size(); ++f) {
     if (!by_frame[f].empty()) weighUntil(by_frame[f].front().measurement.frame);
@@ -289,6 +293,20 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
     if (landmark.class_name == estimate.class_name) {
       correct(landmark.id, estimate.position, estimate.yaw, estimate.shape, estimate.covariance);
     }
+  }
+}
+
+// Of the former sightings, in order of time, those in frames before this one.
+void LandmarkMap::countFormerUntil(FrameId frame, std::vector<FormerSighting>::const_iterator& next,
+                                   const std::vector<FormerSighting>& former) {
+  for (; next != former.end() && next->frame < frame; ++next) {
+    Landmark* landmark = get(next->landmark);
+    if (!landmark) continue;
+    weigh(*landmark, std::exp(next->existence_log_ratio));
+    ++landmark->observations;
+    LandmarkRecord& record = records_[landmark->id];
+    record.evidence += next->weight;
+    record.labels[next->class_name] += next->weight;
   }
 }
 

@@ -78,7 +78,7 @@ struct PosesInGraph {
 
 constexpr std::size_t kBody = 10;           // key poses that move together
 constexpr std::size_t kShortBodies = 1000;  // latest key poses whose bodies are no longer
-constexpr std::size_t kMostFree = 5000;     // key poses of which all are free
+constexpr std::size_t kMostFree = 2000;     // key poses of which all are free
 
 // Key poses that move together where one is the latest but age - 1. Twice as many at twice the age: a long run adds few bodies.
 std::size_t bodyLength(std::size_t age, std::size_t all, std::size_t free) {

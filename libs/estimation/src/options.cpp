@@ -61,12 +61,13 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
   v.add("free_nodes", o.free_nodes,
         {.doc = "So many latest key poses, and all that were in none before, have a pose of their own in optimisations of the "
                 "whole graph during a run; older ones move rigidly with the first one of their ten, or of more where they are more than a "
-                "thousand back. At its end all have, in the first optimisation and in the last, up to 5000.",
+                "thousand back. At its end all have, in the first optimisation and in the last, up to 2000.",
          .min = 1,
          .max = 1000000});
   v.add("views_kept", o.views_kept,
-        {.doc = "So many images with objects in them, reduced depth images, and scans for the grid are kept in any case. Of more, "
-                "those are given up that repeat others from that place in that direction: memory grows with the area seen.",
+        {.doc = "When there are more images with objects in them, reduced depth images, scans and slices for the grid, or views for "
+                "relocalisation, those are given up that repeat others from that place in that direction: memory grows with the "
+                "area seen.",
          .min = 0,
          .max = 100000000});
   v.add("optimize_every_nodes", o.optimize_every_nodes,

@@ -64,7 +64,7 @@ class SpaceMemory {
   const KeptScans& scans() const { return scans_; }
   /// Those that repeat others, when there are more than `kept` images or scans.
   void giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot);
-  /// Valid until the next add().
+  /// Valid until the next add() or giveUpRepeated().
   PosedViews posed(const KeyPoses& poses) const;
 
  private:

@@ -142,11 +142,13 @@ int SubmapLoopCloser::nearestScan(double t) const {
 std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& proposed) {
   const int a = nearestScan(proposed.t_a), b = nearestScan(proposed.t_b);
   if (a < 0 || b < 0 || scans_[static_cast<std::size_t>(b)].ranges_m.empty()) return std::nullopt;  // given up
+  const auto kept = keptFor(a);
+  if (!kept) return std::nullopt;
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
     const auto& [first, last, map] = submaps_[s];
-    if (!map || a < first || a > last || b <= last) continue;
+    if (!map || kept->scan < first || kept->scan > last || b <= last) continue;
     // Just beyond what is trusted: the match must be unambiguous.
-    const Candidate candidate{s, a, planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
+    const Candidate candidate{s, kept->scan, kept->kept_from_this * planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
     const std::optional<Closure> found = match(candidate, probeOf(b));
     if (!found) continue;
     graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);

@@ -65,6 +65,12 @@ class SubmapLoopCloser : public ScanLoopCloser {
   void giveUpRepeated(const std::vector<std::optional<Pose2>>& world);
   bool isRepeated(const KeptSubmap& submap, const std::vector<std::optional<Pose2>>& world) const;
   void giveUp(KeptSubmap& submap);
+  /// A scan of a submap that is kept, and its movement to this one: itself, or the nearest by ways over closures.
+  struct KeptScan {
+    int scan;
+    Pose2 kept_from_this;
+  };
+  std::optional<KeptScan> keptFor(int scan) const;
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;
@@ -84,7 +90,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   double trusted_path_m_ = 8;
   int agreeing_closures_ = 3;
   double agreeing_path_m_ = 1;
-  int max_candidates_ = 2, max_matches_per_search_ = 12, submaps_kept_ = 60;
+  int max_candidates_ = 2, max_matches_per_search_ = 12, submaps_kept_ = 40;
   double covariance_inflation_ = 1, floor_sigma_m_ = 0.02, floor_sigma_rad_ = 0.005236;
 
   std::unique_ptr<ActiveSubmaps> active_;

@@ -42,6 +42,20 @@ bool SubmapLoopCloser::isRepeated(const KeptSubmap& submap, const std::vector<st
   return repeated >= kLeastRepeated * (submap.last - submap.first + 1);
 }
 
+std::optional<SubmapLoopCloser::KeptScan> SubmapLoopCloser::keptFor(int scan) const {
+  std::optional<KeptScan> best;
+  double least_m = kTied_m;
+  const auto reached = graph_.reachedFrom(scan);
+  for (const KeptSubmap& submap : submaps_) {
+    if (!submap.map) continue;
+    for (int held = submap.first; held <= submap.last; ++held) {
+      const ClosureGraph::Reached& way = reached[static_cast<std::size_t>(held)];
+      if (way.length_m < least_m) best = KeptScan{held, way.start_from_node.inverse()}, least_m = way.length_m;
+    }
+  }
+  return best;
+}
+
 void SubmapLoopCloser::giveUp(KeptSubmap& submap) {
   submap.map.reset();
   ++given_up_;

@@ -16,6 +16,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMovementHorizon_s = 0.15;
+constexpr double kLately_s = 60;  // nothing that was seen since is given up as a repetition
 constexpr int kMaxClosingRounds = 3, kMaxDescents = 5;
 
 }  // namespace
@@ -252,8 +253,8 @@ void SemanticSlam::takeOver() {
     if (const auto solution = estimator_.takeOver()) {
       objects_.move(solution->later);
       objects_.apply(sound(solution->landmarks));
+      giveUpRepeated();
     }
-    giveUpRepeated();
     giveBackFreedMemory();
   }
   if (const auto work = estimator_.takeWork()) times_.add("whole graph beside the run", *work);
@@ -262,10 +263,13 @@ void SemanticSlam::takeOver() {
 // So that memory grows with the area seen.
 void SemanticSlam::giveUpRepeated() {
   const auto kept = static_cast<std::size_t>(setup_->options.backend.views_kept);
-  const Trajectory trajectory = estimator_.poses().trajectory();
-  objects_.giveUpRepeated(kept);
-  views_.giveUpRepeated(kept, trajectory);
-  mapper_.giveUpRepeated(kept, trajectory);
+  const auto& nodes = estimator_.poses().nodes();
+  Trajectory until_lately;
+  for (const KeyPose& node : nodes)
+    if (node.t < nodes.back().t - kLately_s) until_lately.add(node.t, node.world_from_robot);
+  objects_.giveUpRepeated(kept, until_lately);
+  views_.giveUpRepeated(kept, until_lately);
+  mapper_.giveUpRepeated(kept, until_lately);
 }
 
 // Returns whether there were new ones.

@@ -24,6 +24,12 @@ constexpr double kVelocity = 0.15, kTurn = 0.25, kBlindVelocity = 0.3, kBlindTur
 // Habits are not laws.
 constexpr double kHabit = 3, kLeastHabit_m = 0.01, kLeastHabit_rad = 0.005;  // factor; over the square root of a second
 
+// Half the way back along an arc: a turn moves its end sideways by half the way, which is no sideways movement.
+Pose3 pivotOf(const CarryingBody& body, const Pose3& step) {
+  const double ahead = (body.camera_from_body.inverse() * step * body.camera_from_body).translation().x();
+  return body.camera_from_body * Eigen::Translation3d(-ahead / 2, 0, 0);
+}
+
 // As much as is known without the body, or as little as it moves in so many seconds.
 Vector6d limited(const Vector6d& sigma, const std::optional<CarryingBody>& body, double seconds) {
   if (!body) return sigma;
@@ -31,13 +37,20 @@ Vector6d limited(const Vector6d& sigma, const std::optional<CarryingBody>& body,
   return sigma.cwiseMin(std::sqrt(seconds) * habit);
 }
 
-// Of first_from_reference * reference_from_current: a turn of the first part moves the end of the second.
+// How far a turn about the beginning of a way moves its end.
+Matrix6d leverOf(const Eigen::Vector3d& way) {
+  Matrix6d out = Matrix6d::Identity();
+  out.topRightCorner<3, 3>() = Eigen::Matrix3d::Identity().colwise().cross(way);
+  return out;
+}
+
+// Of first_from_reference * reference_from_current: a turn of the first part moves the end of the second. What is known of a
+// step is told about the reference's origin, a movement by its end.
 ChainedMovement chained(const ChainedMovement& to_reference, const DenseAlignment& step) {
   const Eigen::Matrix3d turn = to_reference.first_from_current.linear();
-  Matrix6d lever = Matrix6d::Identity();
-  lever.topRightCorner<3, 3>() = Eigen::Matrix3d::Identity().colwise().cross(
-      Eigen::Vector3d(turn * step.reference_from_current.translation()));
-  Matrix6d own = rotateCovariance(step.covariance, turn);
+  const Matrix6d lever = leverOf(turn * step.reference_from_current.translation());
+  const Matrix6d to_end = leverOf(step.reference_from_current.translation());
+  Matrix6d own = rotateCovariance(Matrix6d(to_end * step.covariance * to_end.transpose()), turn);
   own.diagonal().head<3>().array() += kFloor_m * kFloor_m;
   own.diagonal().tail<3>().array() += kFloor_rad * kFloor_rad;
   return {true, normalized(to_reference.first_from_current * step.reference_from_current),
@@ -69,9 +82,10 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
   const Vector6d sigma = sameInAllDirections(
       moving_ ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
       moving_ ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
-  const DensePrior prior{to_reference_.first_from_current.inverse() * predicted, limited(sigma, body, step),
+  const Pose3 expected = to_reference_.first_from_current.inverse() * predicted;
+  const DensePrior prior{expected, limited(sigma, body, step),
                          limited(sameInAllDirections(kVelocity * since, kTurn * since), body, since),
-                         body ? std::optional(body->camera_from_body) : std::nullopt, kPlausible * sigma[0], kPlausible * sigma[5]};
+                         body ? std::optional(pivotOf(*body, expected)) : std::nullopt, kPlausible * sigma[0], kPlausible * sigma[5]};
   last_t_ = frame.t;
   const auto found = alignDense(*reference_, *current, prior);
   if (!found) return coast(frame.t, current, predicted, body);
@@ -88,7 +102,8 @@ ChainedMovement DenseChain::coast(double t, const std::shared_ptr<const DenseIma
   const double unseen = t - seen_t_;
   DenseAlignment step{seen_.first_from_current.inverse() * predicted};
   const Vector6d sigma = limited(sameInAllDirections(kBlindVelocity * unseen, kBlindTurn * unseen), body, unseen);
-  const Matrix6d axes = body ? adjoint(step.reference_from_current * body->camera_from_body) : Matrix6d::Identity();
+  const Pose3 current_from_axes = body ? pivotOf(*body, step.reference_from_current) : Pose3::Identity();
+  const Matrix6d axes = adjoint(step.reference_from_current * current_from_axes);
   step.covariance = axes * Matrix6d(sigma.cwiseAbs2().asDiagonal()) * axes.transpose();
   last_ = to_reference_ = chained(seen_, step);
   last_.seen = false;

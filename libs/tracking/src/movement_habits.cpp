@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Median sizes of what left the arc in the latest movements.
+// Usual sizes of what left the arc in the latest movements.
 #include "movement_habits.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLeast = 12, kMost = 60;  // movements
 constexpr double kRare = 0.05;                  // m, rad: scatter of what is not expected to go on
-constexpr double kSigmaOfMedian = 1.4826;       // of normal errors
+constexpr double kShare = 0.85, kSigmasOfShare = 1.4395;  // of normal errors so many are within so many standard deviations
 constexpr double kFarthestTurn_rad = 1.5;       // of an arc whose chord says how it lies
 
 double sidewaysOnArc(double ahead_m, double yaw_rad) {
@@ -39,7 +39,7 @@ Vector6d MovementHabits::scatter() const {
   for (const int i : {1, 2, 3, 4}) {
     std::vector<double> sizes;
     for (const Vector6d& off : latest_) sizes.push_back(off[i]);
-    out[i] = kSigmaOfMedian * quantile(std::move(sizes), 0.5);
+    out[i] = quantile(std::move(sizes), kShare) / kSigmasOfShare;
   }
   return out;
 }

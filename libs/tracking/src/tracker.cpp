@@ -68,14 +68,15 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
   keeps_view_ = results_ && !known;
   densely_placed_ = false;
   TrackingResult result = known && !known->empty() ? recall(frame, prior, *known) : look(frame, prior);
-  if (!parameters_.dense_alignment) return result;
-  if (result.tracked) {
-    dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
+  if (result.tracked)
     learnHabits(frame.t);
-  } else {
+  else
     habit_from_.reset();
+  if (!parameters_.dense_alignment) return result;
+  if (result.tracked)
+    dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
+  else
     acceptDense(frame, result);
-  }
   return result;
 }
 

@@ -6,7 +6,7 @@
 namespace roomgraph::tracking {
 namespace {
 constexpr double kGoesOn = 0.8;  // share of a velocity that the next step is taken to have
-constexpr double kLearnt_m = 0.15, kLearnt_rad = 0.3, kLongest_s = 2;  // of movements that habits are learnt from
+constexpr double kLearnt_m = 0.15, kLearnt_rad = 0.3, kLongest_s = 6;  // of movements that habits are learnt from
 }  // namespace
 
 void Tracker::learnHabits(double t) {

@@ -19,7 +19,7 @@ struct PlaceSketch {
   double weight = 1;
 };
 
-/// Change of a landmark's existence by something other than a sighting that is at hand: a miss, rays, one that was given up.
+/// Change of a landmark's existence by something other than a sighting: a miss, or rays.
 struct ExistenceUpdate {
   FrameId after;         ///< the last frame with measurements before it
   double log_ratio = 0;  ///< added to the log odds of existence
@@ -30,7 +30,7 @@ struct ExistenceUpdate {
 struct LandmarkRecord {
   double evidence = 0;                             ///< sum of the sightings' weights
   double ray_support = 0;                          ///< log odds of existence gained from rays
-  std::vector<ExistenceUpdate> existence_updates;  ///< in order of time, but for sightings that were given up
+  std::vector<ExistenceUpdate> existence_updates;  ///< in order of time
   std::map<std::string, double> labels;            ///< class -> sum of the sightings' weights
   double front = 0, back = 0;                      ///< votes for the landmark's yaw and for the opposite one
   double size_weight = 0;                          ///< of the sightings in its size

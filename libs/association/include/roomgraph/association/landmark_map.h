@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "roomgraph/association/associator.h"
+#include "roomgraph/association/former_sighting.h"
 #include "roomgraph/association/landmark_fusion.h"
 #include "roomgraph/association/landmark_identity.h"
 #include "roomgraph/association/landmark_options.h"
@@ -39,8 +40,8 @@ class LandmarkMap {
   void seenThrough(LandmarkId id, int rays);
   void supported(LandmarkId id, int rays);
 
-  /// This sighting will not be among those of adopt(): what it says about existence is remembered.
-  void giveUp(LandmarkId id, const WorldMeasurement& sighting);
+  /// What a sighting says about the landmark's existence, added to its log odds; 0 for an unknown landmark.
+  double existenceLogRatio(LandmarkId id, const WorldMeasurement& sighting) const;
 
   /// Sets place (m, world), yaw (rad) and covariance of (x, y, z, yaw) after an optimisation of the graph.
   void correct(LandmarkId id, const Eigen::Vector3d& position, double yaw, const ObjectShape& shape,
@@ -57,8 +58,10 @@ class LandmarkMap {
   std::vector<std::pair<LandmarkId, LandmarkId>> splitMixed();
 
   /// Replaces the landmarks by those of a re-association of all measurements. Existence is computed anew from
-  /// the sightings assigned to each landmark and, in the order of time, its recorded misses and rays.
-  void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result);
+  /// the sightings assigned to each landmark and, in the order of time, its recorded misses and rays, and `former` sightings
+  /// (with the ids of `result`), which are not in `by_frame`.
+  void adopt(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result,
+             const std::vector<FormerSighting>& former = {});
 
   /// Ids up to this one belong to the landmarks of an earlier map: new ones come after it.
   void reserveIds(LandmarkId last) { identity_.reserve(last); }
@@ -79,6 +82,8 @@ class LandmarkMap {
   void weigh(Landmark& landmark, double ratio) const;
   void updateExistence(LandmarkId id, double log_ratio, FrameId missed_in = {});
   double likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const;
+  void countFormerUntil(FrameId frame, std::vector<FormerSighting>::const_iterator& next,
+                        const std::vector<FormerSighting>& former);
   void countTogether(FrameId frame, LandmarkId id);
   void join(Landmark& kept, const Landmark& removed);
   int together(LandmarkId a, LandmarkId b) const;

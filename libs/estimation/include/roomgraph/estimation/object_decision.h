@@ -2,10 +2,10 @@
 // One object measurement with the landmark it was given to, and all those of one frame.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "roomgraph/association/associator.h"
+#include "roomgraph/association/former_sighting.h"
 #include "roomgraph/observations/feature_track.h"
 
 namespace roomgraph {
@@ -15,17 +15,6 @@ struct ObjectDecision {
   WorldMeasurement seen;
   Association association;
   LandmarkId landmark;  ///< the landmark it was fused into (a new one's id when it was made)
-};
-
-/// A sighting that others repeat and that was given up for them: what is known of it still.
-struct FormerSighting {
-  double t = 0;
-  FrameId frame;
-  std::string class_name;  ///< that was measured
-  Box2 box;                ///< px
-  LandmarkId landmark;
-  double probability = 1;  ///< of the decision
-  Eigen::Vector3d place_in_robot = Eigen::Vector3d::Zero();  ///< m
 };
 
 /// The objects measured in one frame, as a run remembers them.

@@ -25,18 +25,6 @@ struct SearchedImage {
   }
 };
 
-/// What is known of the sightings of a frame when it is given up.
-inline std::vector<FormerSighting> formerSightings(const ObjectFrame& frame) {
-  std::vector<FormerSighting> out;
-  for (const auto& [seen, association, landmark] : frame.decisions) {
-    const ObjectMeasurement& measurement = seen.measurement;
-    const Pose3 robot_from_object = frame.robot_from_camera * measurement.proposal.camera_from_object;
-    out.push_back({frame.t, frame.frame, measurement.proposal.class_name, measurement.detection.box, landmark,
-                   association.probability, robot_from_object.translation()});
-  }
-  return out;
-}
-
 /// In order of time. A copy for another thread costs little; what is changed since is changed in one's own only.
 class ObjectFrames {
  public:
@@ -66,16 +54,21 @@ class ObjectFrames {
     return *frames_[i];
   }
 
-  /// The frames at these positions, which are in ascending order: of their sightings little is kept.
-  void giveUp(const std::vector<std::size_t>& positions) {
-    for (const std::size_t i : positions)
-      for (FormerSighting& sighting : formerSightings(*frames_[i])) former_.push_back(std::move(sighting));
-    std::stable_sort(former_.begin(), former_.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  /// The frames at these positions, which are in ascending order; `known`: what is kept of their sightings.
+  void giveUp(const std::vector<std::size_t>& positions, const std::vector<FormerSighting>& known) {
     eraseAt(frames_, positions);
+    std::vector<FormerSighting>& all = changeFormer();
+    const auto middle = static_cast<std::ptrdiff_t>(all.size());
+    all.insert(all.end(), known.begin(), known.end());
+    std::inplace_merge(all.begin(), all.begin() + middle, all.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   }
   /// In order of time.
-  const std::vector<FormerSighting>& former() const { return former_; }
-  std::vector<FormerSighting>& changeFormer() { return former_; }
+  const std::vector<FormerSighting>& former() const { return *former_; }
+  /// To be changed as frames are.
+  std::vector<FormerSighting>& changeFormer() {
+    if (former_.use_count() > 1) former_ = std::make_shared<std::vector<FormerSighting>>(*former_);
+    return *former_;
+  }
 
   const ObjectFrame& operator[](std::size_t i) const { return *frames_[i]; }
   const ObjectFrame& back() const { return *frames_.back(); }
@@ -86,7 +79,7 @@ class ObjectFrames {
 
  private:
   std::vector<std::shared_ptr<ObjectFrame>> frames_;
-  std::vector<FormerSighting> former_;
+  std::shared_ptr<std::vector<FormerSighting>> former_ = std::make_shared<std::vector<FormerSighting>>();
 };
 
 }  // namespace roomgraph

@@ -78,9 +78,11 @@ class ObjectMapper {
   std::vector<PlaceLook> looksAt(const std::vector<Landmark>& landmarks,
                                  const ObjectDatabase& database) const;
 
-  /// Gives up sightings, images and scans of which there are more than `kept` of a kind, where others from that place in that
-  /// direction repeat them; called now and then. Of landmarks that were seen seldom every sighting is kept. Who is who of the sightings stays known, and what they say about existence.
-  void giveUpRepeated(std::size_t kept);
+  /// Looks through sightings, images and scans when there are more than `kept` of a kind, and gives up those that others from
+  /// that place in that direction repeat; called now and then. `until_lately`: the robot's poses but those of the last moments, of
+  /// which nothing is given up. Of every landmark forty sightings at least are kept. Who is who of the others stays known, and
+  /// what they say about existence.
+  void giveUpRepeated(std::size_t kept, const Trajectory& until_lately);
 
   /// Moves the landmarks that were first seen then or later.
   void move(const PathShift& shift);
@@ -105,7 +107,7 @@ class ObjectMapper {
   void respan();
   void span(const ObjectFrame& frame);
   void span(LandmarkId landmark, double t);
-  bool allWellSeen(const ObjectFrame& frame) const;
+  FormerSighting former(const ObjectFrame& frame, const ObjectDecision& decision) const;
 
   std::shared_ptr<Associator> associator_;
   LandmarkMap landmarks_;

@@ -24,7 +24,7 @@ struct BackendOptions : Configurable {
   double node_distance_m = 0.15, node_angle_rad = 0.15, node_interval_s = 5;
   int window_nodes = 10, optimize_every_nodes = 10, max_iterations = 30;
   int local_map_nodes = 10, free_nodes = 100;
-  int views_kept = 2000;
+  int views_kept = 1000;
   double live_tolerance = 1e-4, final_tolerance = 1e-6;
   double urgent_closure_m = 0.1, urgent_closure_rad = 0.03;
   double closure_robust_width = 1.0, landmark_robust_width = 1.0;
