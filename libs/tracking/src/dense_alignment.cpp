@@ -200,7 +200,7 @@ std::optional<DenseAlignment> alignDense(const DenseImage& reference, const Dens
     }
   }
   out.overlap = static_cast<double>(normal.met) / std::max(1, normal.pixels);
-  const Vector6d unexpected = changeBetween(prior.reference_from_current, out.reference_from_current);
+  const Vector6d unexpected = to_axes * changeBetween(prior.reference_from_current, out.reference_from_current);
   const bool plausible = unexpected.head<3>().norm() <= prior.plausible_m && unexpected.tail<3>().norm() <= prior.plausible_rad;
   if (out.overlap < kLeastOverlap || !plausible || !normal.brightness.isAlike()) return std::nullopt;
   const Matrix6d unseen = prior.unseen.cwiseInverse().asDiagonal() * to_axes;
