@@ -101,6 +101,51 @@ TEST(LandmarkEvidence, HindsightWeighsDoubtsAtTheirTime) {
   EXPECT_NEAR(map.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9);
 }
 
+// What a sighting is known by still when it is given up.
+FormerSighting formerOf(const LandmarkMap& map, const WorldMeasurement& seen, LandmarkId landmark) {
+  return {.t = seen.measurement.t,
+          .frame = seen.measurement.frame,
+          .class_name = seen.measurement.proposal.class_name,
+          .landmark = landmark,
+          .existence_log_ratio = map.existenceLogRatio(landmark, seen),
+          .weight = sightingWeight(seen.measurement)};
+}
+
+// As above, but two of the sightings are given up.
+TEST(LandmarkEvidence, HindsightWeighsFormerSightingsAtTheirTime) {
+  LandmarkMap map;
+  std::vector<std::vector<WorldMeasurement>> kept;
+  std::vector<FormerSighting> former;
+  LandmarkId id;
+  for (int frame = 0; frame < 4; ++frame) {
+    WorldMeasurement seen = sightingAt(1, 1);
+    seen.measurement.frame = FrameId{frame};
+    seen.measurement.t = frame;
+    seen.measurement.proposal.score = 0.9;
+    id = map.update(seen, belongsTo(id));
+    if (frame == 0)
+      for (int i = 0; i < 60; ++i) map.miss(id);
+    if (frame % 3 == 0)
+      kept.push_back({seen});
+    else
+      former.push_back(formerOf(map, seen, id));
+  }
+  EXPECT_NEAR(former[0].existence_log_ratio, 5 * (0.9 - 0.2), 1e-12);
+  EXPECT_EQ(map.existenceLogRatio(LandmarkId{99}, kept[0][0]), 0);
+  WorldMeasurement of_another_class = kept[0][0];
+  of_another_class.measurement.proposal.class_name = "bench";
+  EXPECT_EQ(map.existenceLogRatio(id, of_another_class), 0);
+  const double odds = 0.01 / 0.99 * std::exp(3 * 5 * (0.9 - 0.2)), weight = map.weightOf(id);
+  const Reassociation result = reassociate(kept, map.landmarks(), map.identity(), AssociationModel{}, map.rules());
+  ASSERT_EQ(result.landmarks.size(), 1u);
+  for (int again = 0; again < 2; ++again) {
+    map.adopt(kept, result, former);
+    EXPECT_NEAR(map.find(id)->existence, odds / (1 + odds), 1e-9) << again;
+    EXPECT_EQ(map.find(id)->observations, 4);
+    EXPECT_NEAR(map.weightOf(id), weight, 1e-12);
+  }
+}
+
 // A chair was taken for two, of which each was missed when the other one was seen. In hindsight they are one,
 // seen in all frames but the last two, and missed once in each of these.
 TEST(LandmarkEvidence, HindsightForgetsTheMissesOfWhoeverWasSeen) {
@@ -122,11 +167,23 @@ TEST(LandmarkEvidence, HindsightForgetsTheMissesOfWhoeverWasSeen) {
   const Reassociation result =
       reassociate(frames, map.landmarks(), map.identity(), AssociationModel{}, map.rules());
   ASSERT_EQ(result.landmarks.size(), 1u);
+  LandmarkMap with_former = map;
   map.adopt(frames, result);
   const double birth = map.rules().birth_existence;
   const double odds =
       birth / (1 - birth) * std::exp(10 * 5 * (0.4 - 0.2)) * std::pow((1 - 0.6) / (1 - 0.15), 2);
   EXPECT_NEAR(map.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9);
+  // Nor were those missed who are said to be seen where the sightings were given up.
+  std::vector<std::vector<WorldMeasurement>> kept;
+  std::vector<FormerSighting> former;
+  for (const auto& frame : frames) {
+    if (frame[0].measurement.t < 3 || frame[0].measurement.t > 7)
+      kept.push_back(frame);
+    else
+      former.push_back(formerOf(map, frame[0], result.landmarks[0].id));
+  }
+  with_former.adopt(kept, reassociate(kept, result.landmarks, result.identity, AssociationModel{}, map.rules()), former);
+  EXPECT_NEAR(with_former.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9);
   map.adopt(frames, result);
   EXPECT_NEAR(map.find(result.landmarks[0].id)->existence, odds / (1 + odds), 1e-9) << "once more";
 }

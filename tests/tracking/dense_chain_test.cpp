@@ -41,9 +41,9 @@ TEST(DenseChain, WhereNothingIsSeenARobotIsOnAnArcAhead) {
   chain.begin(withoutPicture(0, false), {}, true);
   Pose3 ahead = Pose3::Identity();
   ahead.translation().z() = 0.4;
-  const auto by_hand = chain.follow(withoutPicture(1, false), {}, ahead);
+  const auto by_hand = chain.follow(withoutPicture(1, false), {}, {ahead});
   chain.begin(withoutPicture(0, false), {}, true);
-  const auto on_wheels = chain.follow(withoutPicture(1, false), {}, ahead, onWheels());
+  const auto on_wheels = chain.follow(withoutPicture(1, false), {}, {ahead, false, onWheels()});
   ASSERT_TRUE(by_hand && on_wheels);
   EXPECT_FALSE(on_wheels->seen);
   const Vector6d hand = sigmasAlongTheRobot(*by_hand), wheels = sigmasAlongTheRobot(*on_wheels);
@@ -67,12 +67,26 @@ TEST(DenseChain, AlongABareWallARobotDoesNotSlip) {
   const auto sigmaSideways = [&](const std::optional<CarryingBody>& body) {
     DenseChain chain;
     chain.begin(withoutPicture(0, true), {}, true);
-    const auto moved = chain.follow(withoutPicture(0.5, true), {}, sideways, body);
+    const auto moved = chain.follow(withoutPicture(0.5, true), {}, {sideways, false, body});
     EXPECT_TRUE(moved && moved->seen);
     return moved ? sigmasAlongTheRobot(*moved)[1] : 0;
   };
   EXPECT_NEAR(sigmaSideways({}), 0.15 * 0.5, 0.015);
   EXPECT_LT(sigmaSideways(onWheels()), 0.03);
+}
+
+// Five centimetres in a tenth of a second are possible where the velocity is not known; wheels know it.
+TEST(DenseChain, WhatOtherSensorsMeasuredIsNotDeniedByALikeness) {
+  const TexturedRoom room;
+  const auto seenAs = [&](bool measured) {
+    DenseChain chain;
+    chain.begin(room.render(0, Pose3::Identity()), {}, false);
+    const auto moved = chain.follow(room.render(0.1, poseFromYpr(0.05, 0, 0, 0, 0, 0)), {}, {Pose3::Identity(), measured, {}});
+    EXPECT_TRUE(moved);
+    return moved && moved->seen;
+  };
+  EXPECT_TRUE(seenAs(false));
+  EXPECT_FALSE(seenAs(true));
 }
 
 }  // namespace

@@ -19,9 +19,6 @@ namespace {
 
 constexpr double kScanAge_s = 0.3;     // of a scan that an image is compared with
 constexpr double kLeastDoubted = 0.2;  // share of its score that a shape keeps which all beams pass through
-constexpr ViewLimits kSightings{.of_a_view = 16};  // they scatter more than depths do
-constexpr double kNearHome_m = 0.7;
-constexpr int kLeastSightings = 40;  // of a landmark that are kept
 constexpr double kRayDistance_m = 0.2, kRayAngle_rad = 0.2;  // scans from one place repeat each other
 
 void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)>& id_today) {
@@ -40,28 +37,6 @@ std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& d
   for (const auto& feature : features)
     if (feature.depth_m > 0 && on_objects.contains(feature.point)) out.push_back(feature);
   return out;
-}
-
-// Whether all its landmarks have sightings to spare; the frame's own are taken off then.
-bool spares(const ObjectFrame& frame, std::map<LandmarkId, int>& sightings) {
-  const auto has = [&](const ObjectDecision& decision) { return sightings[decision.landmark] > kLeastSightings; };
-  if (!std::all_of(frame.decisions.begin(), frame.decisions.end(), has)) return false;
-  for (const auto& decision : frame.decisions) --sightings[decision.landmark];
-  return true;
-}
-
-// The landmark of a former sighting after a re-association; of one that lost all its other sightings the nearest of the class.
-LandmarkId homeOf(const FormerSighting& sighting, const Reassociation& result, const KeyPoses& poses) {
-  const LandmarkId today = result.identity.today(sighting.landmark);
-  const Eigen::Vector3d place = poses.at(sighting.t) * sighting.place_in_robot;
-  LandmarkId nearest = today;
-  double least_m = kNearHome_m;
-  for (const Landmark& landmark : result.landmarks) {
-    if (landmark.id == today) return today;
-    const double distance = (landmark.position - place).head<2>().norm();
-    if (landmark.class_name == sighting.class_name && distance < least_m) nearest = landmark.id, least_m = distance;
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -177,39 +152,6 @@ std::vector<PlaceLook> ObjectMapper::looksAt(const std::vector<Landmark>& landma
   return out;
 }
 
-void ObjectMapper::giveUpRepeated(std::size_t kept, const Trajectory& until_lately) {
-  space_->giveUpRepeated(kept, until_lately);
-  if (!frames_watch_.due(frames_.size(), kept)) return;
-  std::vector<double> times;
-  for (const auto& frame : frames_) times.push_back(frame.t);
-  auto repeated = repeatedViews(times, until_lately, kSightings);
-  std::map<LandmarkId, int> sightings;
-  for (const auto& frame : frames_)
-    for (const auto& decision : frame.decisions) ++sightings[decision.landmark];
-  std::erase_if(repeated, [&](std::size_t i) { return !spares(frames_[i], sightings); });
-  std::vector<FormerSighting> known;
-  for (const std::size_t i : repeated)
-    for (const auto& decision : frames_[i].decisions) known.push_back(former(frames_[i], decision));
-  frames_.giveUp(repeated, known);
-  frames_watch_.done(frames_.size());
-}
-
-FormerSighting ObjectMapper::former(const ObjectFrame& frame, const ObjectDecision& decision) const {
-  const ObjectMeasurement& measurement = decision.seen.measurement;
-  // Where it would be seen by the poses of now, as in reassociate().
-  const Pose3 world_from_camera = poses_.at(frame.t) * frame.robot_from_camera;
-  const WorldMeasurement now = measurementInWorld(measurement, frame.camera, world_from_camera, pose_sigma_m_);
-  return {.t = frame.t,
-          .frame = frame.frame,
-          .class_name = measurement.proposal.class_name,
-          .box = measurement.detection.box,
-          .landmark = decision.landmark,
-          .probability = decision.association.probability,
-          .existence_log_ratio = landmarks_.existenceLogRatio(decision.landmark, now),
-          .weight = sightingWeight(measurement),
-          .place_in_robot = (frame.robot_from_camera * measurement.proposal.camera_from_object).translation()};
-}
-
 void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot, const std::vector<Box2>& people) {
   space_->add(frame, world_from_robot, people);
 }
@@ -318,7 +260,7 @@ bool ObjectMapper::reassociate() {
                                      landmarks_.rules())
             : roomgraph::reassociate(by_frame, landmarks_.landmarks(), landmarks_.identity(),
                                      frameByFrame(*associator_, by_frame), {}, landmarks_.rules());
-  for (auto& sighting : frames_.changeFormer()) sighting.landmark = homeOf(sighting, result, poses_);
+  findHomes(result);
   landmarks_.adopt(by_frame, result, frames_.former());
   std::map<LandmarkId, int> kept;  // more sightings that stayed than came
   for (std::size_t f = 0; f < frames_.size(); ++f) {

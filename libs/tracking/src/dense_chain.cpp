@@ -73,22 +73,24 @@ bool DenseChain::unbroken(double t) const {
 }
 
 std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std::vector<Box2>& excluded,
-                                                  const Pose3& predicted, const std::optional<CarryingBody>& body) {
+                                                  const Prediction& predicted) {
   broken_ = !unbroken(frame.t);
   if (broken_) return std::nullopt;
   if (!reference_) reference_ = std::make_shared<DenseImage>(first_, excluded_);
   const auto current = std::make_shared<const DenseImage>(frame, excluded);
   const double step = frame.t - last_t_, since = frame.t - reference_t_;
+  const bool known = moving_ || predicted.measured;
   const Vector6d sigma = sameInAllDirections(
-      moving_ ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
-      moving_ ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
-  const Pose3 expected = to_reference_.first_from_current.inverse() * predicted;
+      known ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
+      known ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
+  const Pose3 expected = to_reference_.first_from_current.inverse() * predicted.first_from_current;
+  const auto& body = predicted.body;
   const DensePrior prior{expected, limited(sigma, body, step),
                          limited(sameInAllDirections(kVelocity * since, kTurn * since), body, since),
                          body ? std::optional(pivotOf(*body, expected)) : std::nullopt, kPlausible * sigma[0], kPlausible * sigma[5]};
   last_t_ = frame.t;
   const auto found = alignDense(*reference_, *current, prior);
-  if (!found) return coast(frame.t, current, predicted, body);
+  if (!found) return coast(frame.t, current, predicted);
   last_ = seen_ = chained(to_reference_, *found);
   seen_t_ = frame.t;
   moving_ = true;
@@ -98,9 +100,10 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
 
 // For a moment the velocity is believed; what comes then is compared with what was seen last on the way.
 ChainedMovement DenseChain::coast(double t, const std::shared_ptr<const DenseImage>& image,
-                                  const Pose3& predicted, const std::optional<CarryingBody>& body) {
+                                  const Prediction& predicted) {
   const double unseen = t - seen_t_;
-  DenseAlignment step{seen_.first_from_current.inverse() * predicted};
+  const auto& body = predicted.body;
+  DenseAlignment step{seen_.first_from_current.inverse() * predicted.first_from_current};
   const Vector6d sigma = limited(sameInAllDirections(kBlindVelocity * unseen, kBlindTurn * unseen), body, unseen);
   const Pose3 current_from_axes = body ? pivotOf(*body, step.reference_from_current) : Pose3::Identity();
   const Matrix6d axes = adjoint(step.reference_from_current * current_from_axes);

@@ -31,17 +31,21 @@ class DenseChain {
   /// From now on movements are those since this frame. Its images are shared, not copied.
   /// `moving`: the velocity is known that predicted movements come from.
   void begin(const Frame& frame, const std::vector<Box2>& excluded, bool moving);
-  /// `predicted`: movement since the beginning, by the velocity before, which is the answer for a moment where the images do
-  /// not say how the camera moved. Nothing after that: the chain is broken until it begins again.
-  std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Pose3& predicted,
-                                        const std::optional<CarryingBody>& body = {});
+  /// What is known of a frame's movement before it is looked at.
+  struct Prediction {
+    /// Movement since the beginning, by the velocity before or by other sensors, which is the answer for a moment where the
+    /// images do not say how the camera moved. Nothing after that: the chain is broken until it begins again.
+    Pose3 first_from_current = Pose3::Identity();
+    bool measured = false;  ///< by other sensors
+    std::optional<CarryingBody> body = {};
+  };
+  std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Prediction& predicted);
   /// Whether all since the beginning is known, or was seen a moment before time t (s).
   bool unbroken(double t) const;
   const ChainedMovement& last() const { return last_; }
 
  private:
-  ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Pose3& predicted,
-                        const std::optional<CarryingBody>& body);
+  ChainedMovement coast(double t, const std::shared_ptr<const DenseImage>& image, const Prediction& predicted);
 
   bool begun_ = false, broken_ = false;
   bool moving_ = false;  ///< the velocity is known

@@ -31,9 +31,9 @@ Pose3 Tracker::expected(const Pose3& step) const {
 bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
   // Tried beside scans, too: no better in three flats, worse in one (docs/results.md).
   if (!parameters_.dense_alignment || prior.by_scans) return false;
-  std::optional<CarryingBody> body;
-  if (robot_from_camera_) body = CarryingBody{robot_from_camera_->inverse(), habits_.scatter()};
-  const auto moved = dense_.follow(frame, prior.dynamic_regions, dead_reckoned_, body);
+  DenseChain::Prediction predicted{dead_reckoned_, prior.previous_from_current.has_value(), {}};
+  if (robot_from_camera_) predicted.body = CarryingBody{robot_from_camera_->inverse(), habits_.scatter()};
+  const auto moved = dense_.follow(frame, prior.dynamic_regions, predicted);
   densely_placed_ = moved.has_value();
   if (moved) dead_reckoned_ = moved->first_from_current;
   return densely_placed_;

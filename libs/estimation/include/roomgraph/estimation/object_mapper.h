@@ -108,6 +108,7 @@ class ObjectMapper {
   void span(const ObjectFrame& frame);
   void span(LandmarkId landmark, double t);
   FormerSighting former(const ObjectFrame& frame, const ObjectDecision& decision) const;
+  void findHomes(const Reassociation& result);
 
   std::shared_ptr<Associator> associator_;
   LandmarkMap landmarks_;
