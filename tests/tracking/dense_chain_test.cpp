@@ -43,7 +43,7 @@ TEST(DenseChain, WhereNothingIsSeenARobotIsOnAnArcAhead) {
   ahead.translation().z() = 0.4;
   const auto by_hand = chain.follow(withoutPicture(1, false), {}, {ahead});
   chain.begin(withoutPicture(0, false), {}, true);
-  const auto on_wheels = chain.follow(withoutPicture(1, false), {}, {ahead, false, onWheels()});
+  const auto on_wheels = chain.follow(withoutPicture(1, false), {}, {ahead, false, {}, onWheels()});
   ASSERT_TRUE(by_hand && on_wheels);
   EXPECT_FALSE(on_wheels->seen);
   const Vector6d hand = sigmasAlongTheRobot(*by_hand), wheels = sigmasAlongTheRobot(*on_wheels);
@@ -67,7 +67,7 @@ TEST(DenseChain, AlongABareWallARobotDoesNotSlip) {
   const auto sigmaSideways = [&](const std::optional<CarryingBody>& body) {
     DenseChain chain;
     chain.begin(withoutPicture(0, true), {}, true);
-    const auto moved = chain.follow(withoutPicture(0.5, true), {}, {sideways, false, body});
+    const auto moved = chain.follow(withoutPicture(0.5, true), {}, {sideways, false, {}, body});
     EXPECT_TRUE(moved && moved->seen);
     return moved ? sigmasAlongTheRobot(*moved)[1] : 0;
   };
@@ -81,12 +81,20 @@ TEST(DenseChain, WhatOtherSensorsMeasuredIsNotDeniedByALikeness) {
   const auto seenAs = [&](bool measured) {
     DenseChain chain;
     chain.begin(room.render(0, Pose3::Identity()), {}, false);
-    const auto moved = chain.follow(room.render(0.1, poseFromYpr(0.05, 0, 0, 0, 0, 0)), {}, {Pose3::Identity(), measured, {}});
+    const auto moved = chain.follow(room.render(0.1, poseFromYpr(0.05, 0, 0, 0, 0, 0)), {}, {Pose3::Identity(), measured});
     EXPECT_TRUE(moved);
     return moved && moved->seen;
   };
   EXPECT_TRUE(seenAs(false));
   EXPECT_FALSE(seenAs(true));
+  // But where the velocity led there, wheels have slipped.
+  DenseChain chain;
+  const Pose3 moved = poseFromYpr(0.05, 0, 0, 0, 0, 0);
+  chain.begin(room.render(0, Pose3::Identity()), {}, true);
+  const auto by_velocity = chain.follow(room.render(0.1, moved), {}, {poseFromYpr(0.4, 0, 0, 0, 0, 0), true, moved});
+  ASSERT_TRUE(by_velocity);
+  EXPECT_TRUE(by_velocity->seen);
+  EXPECT_LT((by_velocity->first_from_current.translation() - moved.translation()).norm(), 0.005);
 }
 
 }  // namespace

@@ -82,8 +82,7 @@ constexpr std::size_t kMostFree = 2000;     // key poses of which all are free
 
 // Key poses that move together where one is the latest but age - 1. Twice as many at twice the age: a long run adds few bodies.
 std::size_t bodyLength(std::size_t age, std::size_t all, std::size_t free) {
-  if (free == kAllFree) return all > kMostFree ? kBody : 1;
-  if (age <= free) return 1;
+  if (free == kAllFree ? all <= kMostFree : age <= free) return 1;
   std::size_t length = kBody;
   for (std::size_t oldest = kShortBodies; age > oldest; oldest *= 2) length *= 2;
   return length;

@@ -61,7 +61,7 @@ void declareKeyPoses(BackendOptions& o, ParameterVisitor& v) {
   v.add("free_nodes", o.free_nodes,
         {.doc = "So many latest key poses, and all that were in none before, have a pose of their own in optimisations of the "
                 "whole graph during a run; older ones move rigidly with the first one of their ten, or of more where they are more than a "
-                "thousand back. At its end all have, in the first optimisation and in the last, up to 2000.",
+                "thousand back. At its end all have, in the first optimisation and in the last, if they are not more than 2000.",
          .min = 1,
          .max = 1000000});
   v.add("views_kept", o.views_kept,

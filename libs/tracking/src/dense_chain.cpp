@@ -83,13 +83,18 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
   const Vector6d sigma = sameInAllDirections(
       known ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
       known ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
-  const Pose3 expected = to_reference_.first_from_current.inverse() * predicted.first_from_current;
   const auto& body = predicted.body;
-  const DensePrior prior{expected, limited(sigma, body, step),
-                         limited(sameInAllDirections(kVelocity * since, kTurn * since), body, since),
-                         body ? std::optional(pivotOf(*body, expected)) : std::nullopt, kPlausible * sigma[0], kPlausible * sigma[5]};
+  const auto alignedFrom = [&](const Pose3& first_from_current) {
+    const Pose3 expected = to_reference_.first_from_current.inverse() * first_from_current;
+    return alignDense(*reference_, *current,
+                      {expected, limited(sigma, body, step),
+                       limited(sameInAllDirections(kVelocity * since, kTurn * since), body, since),
+                       body ? std::optional(pivotOf(*body, expected)) : std::nullopt, kPlausible * sigma[0],
+                       kPlausible * sigma[5]});
+  };
   last_t_ = frame.t;
-  const auto found = alignDense(*reference_, *current, prior);
+  auto found = alignedFrom(predicted.first_from_current);
+  if (!found && predicted.otherwise) found = alignedFrom(*predicted.otherwise);
   if (!found) return coast(frame.t, current, predicted);
   last_ = seen_ = chained(to_reference_, *found);
   seen_t_ = frame.t;

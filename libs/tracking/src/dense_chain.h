@@ -37,6 +37,7 @@ class DenseChain {
     /// images do not say how the camera moved. Nothing after that: the chain is broken until it begins again.
     Pose3 first_from_current = Pose3::Identity();
     bool measured = false;  ///< by other sensors
+    std::optional<Pose3> otherwise = {};  ///< where the velocity leads, should these have erred: wheels slip
     std::optional<CarryingBody> body = {};
   };
   std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Prediction& predicted);
