@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a view is looked for first: where other sensors say, or where the velocity leads.
+// Views that are not where other sensors say.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
@@ -10,7 +10,7 @@ namespace roomgraph::tracking {
 namespace {
 
 constexpr double kDepth_m = 2, kStep_m = 0.03;
-constexpr int kPeriod_px = 64;
+constexpr int kPeriod_px = 48;
 
 // A wall straight ahead with one pattern again and again: only near where it is expected a feature can be told from its likes.
 Frame wallpaperFrom(double t, double x) {
@@ -20,10 +20,10 @@ Frame wallpaperFrom(double t, double x) {
   cv::Mat tile(kPeriod_px / 4, kPeriod_px / 4, CV_8UC1), wall;
   cv::RNG(5).fill(tile, cv::RNG::UNIFORM, 0, 256);
   cv::resize(tile, tile, {kPeriod_px, kPeriod_px}, 0, 0, cv::INTER_NEAREST);
-  wall = cv::repeat(tile, 5, 20);
+  wall = cv::repeat(tile, 6, 24);
   cv::GaussianBlur(wall, wall, {}, 1.0);
   const double shift_px = frame.camera.fx * x / kDepth_m;
-  const cv::Mat move = (cv::Mat_<double>(2, 3) << 1, 0, -shift_px - 256, 0, 1, 0);
+  const cv::Mat move = (cv::Mat_<double>(2, 3) << 1, 0, -shift_px - 5 * kPeriod_px, 0, 1, 0);
   cv::warpAffine(wall, frame.gray, move, {frame.camera.width, frame.camera.height});
   frame.depth = cv::Mat(frame.gray.size(), CV_32FC1, cv::Scalar(kDepth_m));
   return frame;
@@ -44,8 +44,8 @@ TrackingResult sixthFrame(double by_sensors_m) {
   return tracker.track(wallpaperFrom(5, 5 * kStep_m), {.previous_from_current = movedBy(by_sensors_m)});
 }
 
-TEST(TrackerPrediction, WhereWheelsSlipTheVelocityLeadsOn) {
-  for (const double by_wheels : {kStep_m, 0.25}) {
+TEST(TrackerPrediction, AViewIsFoundWhereWheelsSlip) {
+  for (const double by_wheels : {kStep_m, kStep_m + 0.18}) {
     const TrackingResult result = sixthFrame(by_wheels);
     ASSERT_TRUE(result.tracked) << by_wheels << ": " << result.reason;
     EXPECT_NEAR(result.odom_from_camera.translation().x(), 5 * kStep_m, 0.005) << by_wheels;

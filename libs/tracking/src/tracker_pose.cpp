@@ -116,12 +116,6 @@ bool Tracker::trackNear(View& view) {
 
 bool Tracker::findPose(View& view, const Pose3& previous) {
   if (trackNear(view)) return true;
-  // Wheels may slip where nothing else failed.
-  if (view.prior->previous_from_current && velocity_) {
-    view.odom_from_camera = previous * dead_reckoned_before_ * expected(*velocity_);
-    if (trackNear(view)) return true;
-    view.odom_from_camera = previous * dead_reckoned_;
-  }
   if (alignDensely(*view.frame, *view.prior)) {
     view.odom_from_camera = previous * dead_reckoned_;
     if (trackNear(view)) return true;
