@@ -2,9 +2,9 @@
 // Detections, decisions and former sightings as JSON.
 #include "frame_lines.h"
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace roomgraph {
 namespace {
