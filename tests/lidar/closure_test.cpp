@@ -10,6 +10,15 @@
 namespace roomgraph {
 namespace {
 
+void expectSamePath(const ClosureGraph::Reached& is, const ClosureGraph::Reached& expected) {
+  ASSERT_EQ(std::isinf(is.length_m), std::isinf(expected.length_m));
+  if (std::isinf(expected.length_m)) return;
+  EXPECT_NEAR(is.length_m, expected.length_m, 1e-9);
+  EXPECT_NEAR(is.start_from_node.x, expected.start_from_node.x, 1e-9);
+  EXPECT_NEAR(is.start_from_node.y, expected.start_from_node.y, 1e-9);
+  EXPECT_NEAR(wrapAngle(is.start_from_node.yaw - expected.start_from_node.yaw), 0, 1e-9);
+}
+
 TEST(ClosureGraph, ShortestPathsUseClosures) {
   ClosureGraph graph;
   for (int i = 0; i < 5; ++i) graph.addNode(true, {1, 0, 0}, 1);
@@ -66,12 +75,69 @@ TEST(ClosureGraph, ShortestPathsAreThoseOfAllPairs) {
     const auto reached = graph.reachedFrom(i);
     for (std::size_t j = 0; j < kNodes; ++j) {
       const auto& expected = all[static_cast<std::size_t>(i)][j];
-      EXPECT_NEAR(reached[j].length_m, expected.length_m, 1e-9) << i << " " << j;
-      EXPECT_NEAR(reached[j].start_from_node.x, expected.start_from_node.x, 1e-9);
-      EXPECT_NEAR(reached[j].start_from_node.y, expected.start_from_node.y, 1e-9);
-      EXPECT_NEAR(wrapAngle(reached[j].start_from_node.yaw - expected.start_from_node.yaw), 0, 1e-9);
+      SCOPED_TRACE(testing::Message() << i << " to " << j);
+      expectSamePath(reached[static_cast<int>(j)], expected);
     }
   }
+}
+
+// A graph that grows and loses nodes, beside one that only grows.
+TEST(ClosureGraph, WhatIsTakenOutLeavesTheShortestPathsOfTheOthers) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1), length(0.5, 2);
+  ClosureGraph all, few;
+  std::vector<int> there;
+  const auto anyNode = [&] { return there[std::uniform_int_distribution<std::size_t>(0, there.size() - 1)(random)]; };
+  for (int i = 0; i < 120; ++i) {
+    const Pose2 step{unit(random), unit(random), unit(random)};
+    const double way = length(random);
+    for (auto* graph : {&all, &few}) graph->addNode(i % 50 != 0, step, way);
+    there.push_back(i);
+    const int a = anyNode(), b = anyNode();
+    const Pose2 closure{unit(random), unit(random), unit(random)};
+    const double closure_way = length(random) / 4;
+    if (a != b)
+      for (auto* graph : {&all, &few}) graph->addClosure(a, b, closure, closure_way);
+    if (i % 3 == 0 || there.size() < 4) continue;
+    const int taken = there[std::uniform_int_distribution<std::size_t>(0, there.size() - 2)(random)];
+    few.remove(taken);
+    std::erase(there, taken);
+  }
+  EXPECT_EQ(few.size(), 120);
+  EXPECT_EQ(few.held(), static_cast<int>(there.size()));
+  EXPECT_LT(few.held(), 50);
+  for (const int from : there) {
+    const auto expected = all.reachedFrom(from), is = few.reachedFrom(from);
+    for (const int to : there) {
+      SCOPED_TRACE(testing::Message() << from << " to " << to);
+      expectSamePath(is[to], expected[to]);
+    }
+  }
+}
+
+TEST(ClosureGraph, WhatIsTakenOutIsOutOfReach) {
+  ClosureGraph graph;
+  for (int i = 0; i < 5; ++i) graph.addNode(true, {1, 0, 0}, 1);
+  graph.remove(1);
+  EXPECT_TRUE(std::isinf(graph.reachedFrom(4)[1].length_m));
+  EXPECT_TRUE(std::isinf(graph.reachedFrom(1)[4].length_m));
+  graph.addClosure(1, 4, {}, 0.1);
+  EXPECT_TRUE(std::isinf(graph.reachedFrom(4)[1].length_m));
+  graph.addNode(true, {1, 0, 0}, 1);  // where node 1 was kept
+  EXPECT_TRUE(std::isinf(graph.reachedFrom(4)[1].length_m));
+  EXPECT_NEAR(graph.reachedFrom(5)[0].length_m, 5, 1e-12);
+  EXPECT_NEAR(graph.reachedFrom(5)[0].start_from_node.x, -5, 1e-12);
+}
+
+TEST(ClosureGraph, APathBeginsAtTheNearestOfSome) {
+  ClosureGraph graph;
+  for (int i = 0; i < 7; ++i) graph.addNode(i != 5, {1, 0, 0}, 1);
+  const auto reached = graph.reachedFromAny({0, 4});
+  EXPECT_EQ(reached[1].start, 0);
+  EXPECT_EQ(reached[3].start, 4);
+  EXPECT_NEAR(reached[3].length_m, 1, 1e-12);
+  EXPECT_NEAR(reached[3].start_from_node.x, -1, 1e-12);
+  EXPECT_EQ(reached[6].start, -1);
 }
 
 class Confirmation : public ::testing::Test {

@@ -65,7 +65,7 @@ TEST(TruthFiles, ObjectsHavePoseSizeAndFootprint) {
   const test::TemporaryFolder folder;
   World world = test::exampleWorld();
   world.furniture[0].yaw_rad = 0.5;
-  writeObjects(folder.file("objects.json"), Scene(world));
+  writeObjects(folder.file("objects.json"), Scene(world), 0);
   const json objects = json::parse(folder.read("objects.json"))["objects"];
   ASSERT_EQ(objects.size(), 3u);
   const json &block = objects[0], &door = objects[1], &person = objects[2];

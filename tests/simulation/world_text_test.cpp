@@ -45,6 +45,12 @@ void expectSame(const Furniture& a, const Furniture& b) {
     EXPECT_LT((*a.size_m - *b.size_m).norm(), kClose);
   }
   EXPECT_EQ(a.color.has_value(), b.color.has_value());
+  ASSERT_EQ(a.moves.size(), b.moves.size());
+  for (std::size_t i = 0; i < a.moves.size(); ++i) {
+    EXPECT_NEAR(a.moves[i].at_s, b.moves[i].at_s, kClose);
+    EXPECT_LT((a.moves[i].at_m - b.moves[i].at_m).norm(), kClose);
+    EXPECT_NEAR(a.moves[i].yaw_rad, b.moves[i].yaw_rad, kClose);
+  }
 }
 
 void expectSame(const Person& a, const Person& b) {
@@ -134,12 +140,14 @@ TEST(WorldText, ShippedWorldsAreReadBackAsTheyWere) {
 TEST(WorldText, OptionalKeysAreReadBackToo) {
   std::string text = test::changed("\"name\": \"example\"", "\"name\": \"example\", \"light\": 0.6, \"duration_s\": 2.5");
   const std::string item = "\"color\": \"#000000\"", camera = "\"camera\": {";
-  text.replace(text.find(item), item.size(), item + ", \"shape\": 7, \"yaw_deg\": 33");
+  text.replace(text.find(item), item.size(), item + ", \"shape\": 7, \"yaw_deg\": 33, \"moves\": [{\"at_s\": 3.5, \"at_m\": [4, 2], \"yaw_deg\": 20}, "
+                                               "{\"at_s\": 7, \"at_m\": [4.2, 2.1], \"z_m\": 0.2}]");
   text.replace(text.find(camera), camera.size(), "\"detections\": {\"errors\": \"persistent\", \"mislead\": 0.7, \"memory_s\": 2, "
                                                  "\"duplicates\": 0.1}, " + camera);
   const World world = parseWorld(text, "w.json");
   EXPECT_EQ(world.light, 0.6);
   EXPECT_EQ(world.furniture[0].shape, 7);
+  EXPECT_EQ(world.furniture[0].moves.size(), 2u);
   ASSERT_TRUE(world.detections);
   EXPECT_TRUE(world.detections->persistent);
   EXPECT_EQ(world.detections->mislead, 0.7);

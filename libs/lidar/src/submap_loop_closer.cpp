@@ -130,13 +130,11 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
 
 // Kept scan nearest in time, -1: none within the horizon.
 int SubmapLoopCloser::nearestScan(double t) const {
-  int best = -1;
-  for (int i = 0; i < static_cast<int>(scans_.size()); ++i) {
-    const double distance = std::abs(scans_[static_cast<std::size_t>(i)].t - t);
-    if (distance > kVerifyHorizon_s) continue;
-    if (best < 0 || distance < std::abs(scans_[static_cast<std::size_t>(best)].t - t)) best = i;
-  }
-  return best;
+  const auto after = std::lower_bound(scans_.begin(), scans_.end(), t, [](const Scan& scan, double time) { return scan.t < time; });
+  auto best = scans_.end();
+  for (const auto& it : {after == scans_.begin() ? scans_.end() : std::prev(after), after})
+    if (it != scans_.end() && (best == scans_.end() || std::abs(it->t - t) < std::abs(best->t - t))) best = it;
+  return best == scans_.end() || std::abs(best->t - t) > kVerifyHorizon_s ? -1 : static_cast<int>(best - scans_.begin());
 }
 
 std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& proposed) {
@@ -165,6 +163,7 @@ void SubmapLoopCloser::prepare() {
   scans_.clear();
   way_.clear();
   graph_ = ClosureGraph();
+  stands_for_.clear();
   confirmation_ = ClosureConfirmation();
   waiting_.clear();
 }
@@ -213,11 +212,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
     waiting_.clear();
     return found;
   }
-  std::vector<std::optional<Pose2>> world;
-  for (const Scan& scan : scans_) {
-    const std::optional<Pose3> pose = world_from_robot.at(scan.t);
-    world.push_back(pose ? std::optional(planarPart(*pose)) : std::nullopt);
-  }
+  PlacesInWorld world(world_from_robot, scans_);
   const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_path_m_};
   for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
     const Probe b = probeOf(waiting_.front());
@@ -237,11 +232,17 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
   return found;
 }
 
-std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(
-    const Probe& b, const std::vector<std::optional<Pose2>>& world) const {
+const std::optional<Pose2>& SubmapLoopCloser::PlacesInWorld::of(int scan) {
+  const auto [it, first] = known_.try_emplace(scan);
+  if (first)
+    if (const auto pose = world_from_robot_.at(scans_[static_cast<std::size_t>(scan)].t)) it->second = planarPart(*pose);
+  return it->second;
+}
+
+std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(const Probe& b, PlacesInWorld& world) const {
   std::vector<Candidate> candidates;
   if (static_cast<int>(b.points.size()) < submap_settings_.min_points) return candidates;
-  const std::vector<ClosureGraph::Reached> reached = graph_.reachedFrom(b.scan);
+  const ClosureGraph::Paths reached = graph_.reachedFrom(b.scan);
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
     const auto candidate = nearestIn(s, b.scan, reached, world);
     if (candidate) candidates.push_back(*candidate);
@@ -253,21 +254,22 @@ std::vector<SubmapLoopCloser::Candidate> SubmapLoopCloser::candidatesFor(
   return candidates;
 }
 
-std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(
-    std::size_t s, int b, const std::vector<ClosureGraph::Reached>& reached,
-    const std::vector<std::optional<Pose2>>& world) const {
+std::optional<SubmapLoopCloser::Candidate> SubmapLoopCloser::nearestIn(std::size_t s, int b,
+                                                                       const ClosureGraph::Paths& reached,
+                                                                       PlacesInWorld& world) const {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const auto& [first, last, map] = submaps_[s];
   if (!map || b <= last || way_[at(b)].path_m - way_[at(last)].path_m < min_path_m_) return std::nullopt;
   std::optional<Candidate> best;
   for (int a = first; a <= last; ++a) {
-    const ClosureGraph::Reached& reach = reached[at(a)];
+    const ClosureGraph::Reached& reach = reached[a];
     Candidate c{s, a, reach.start_from_node.inverse(), 0, reach.length_m};
     // Over a short path the composed movement is the better guess: the world may not know the last closures
     // yet.
     if (reach.length_m > trusted_path_m_) {
-      if (!world[at(a)] || !world[at(b)]) continue;
-      c.a_from_b = world[at(a)]->inverse() * *world[at(b)];
+      const std::optional<Pose2>&there = world.of(a), &here = world.of(b);
+      if (!there || !here) continue;
+      c.a_from_b = there->inverse() * *here;
     }
     c.distance_m = std::hypot(c.a_from_b.x, c.a_from_b.y);
     if (!best || c.distance_m < best->distance_m) best = c;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 
 #include "closure_confirmation.h"
 #include "closure_graph.h"
@@ -44,6 +46,17 @@ class SubmapLoopCloser : public ScanLoopCloser {
     int first = 0, last = 0;
     std::shared_ptr<const Submap> map;  ///< null: given up
   };
+  /// Where kept scans are in world, looked up once each; nothing where the world does not know.
+  class PlacesInWorld {
+   public:
+    PlacesInWorld(const Trajectory& world_from_robot, const std::vector<Scan>& scans) : world_from_robot_(world_from_robot), scans_(scans) {}
+    const std::optional<Pose2>& of(int scan);
+
+   private:
+    const Trajectory& world_from_robot_;
+    const std::vector<Scan>& scans_;
+    std::unordered_map<int, std::optional<Pose2>> known_;
+  };
   struct Candidate {
     std::size_t submap = 0;
     int a = 0;              ///< kept scan of the submap next to the scan
@@ -54,16 +67,15 @@ class SubmapLoopCloser : public ScanLoopCloser {
 
   void store(std::shared_ptr<Submap> submap);
   Probe probeOf(int scan) const;
-  std::vector<Candidate> candidatesFor(const Probe& b, const std::vector<std::optional<Pose2>>& world) const;
-  std::optional<Candidate> nearestIn(std::size_t submap, int b,
-                                     const std::vector<ClosureGraph::Reached>& reached,
-                                     const std::vector<std::optional<Pose2>>& world) const;
+  std::vector<Candidate> candidatesFor(const Probe& b, PlacesInWorld& world) const;
+  std::optional<Candidate> nearestIn(std::size_t submap, int b, const ClosureGraph::Paths& reached,
+                                     PlacesInWorld& world) const;
   SearchWindow windowFor(double path_m) const;
   std::optional<Closure> match(const Candidate& candidate, const Probe& b);
   int nearestScan(double t) const;
-  /// Submaps whose places older ones hold are given up: memory grows with the area seen, not with time.
-  void giveUpRepeated(const std::vector<std::optional<Pose2>>& world);
-  bool isRepeated(const KeptSubmap& submap, const std::vector<std::optional<Pose2>>& world) const;
+  /// Submaps whose places older ones hold are given up: memory, and the time of a search, grow with the area seen, not with time.
+  void giveUpRepeated(PlacesInWorld& world);
+  bool isRepeated(const KeptSubmap& submap, PlacesInWorld& world) const;
   void giveUp(KeptSubmap& submap);
   /// A scan of a submap that is kept, and its movement to this one: itself, or the nearest by ways over closures.
   struct KeptScan {
@@ -71,6 +83,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
     Pose2 kept_from_this;
   };
   std::optional<KeptScan> keptFor(int scan) const;
+  std::vector<int> scansHeldBefore(int scan) const;
   bool ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                  const SearchWindow& window, const SearchResult& best) const;
   RelativePose toRelativePose(const Closure& closure) const;
@@ -100,7 +113,8 @@ class SubmapLoopCloser : public ScanLoopCloser {
   RecentPyramids pyramids_;  ///< of submaps, by index
   std::vector<Scan> scans_;  ///< kept ones
   std::vector<WayPoint> way_;  ///< one per kept scan
-  ClosureGraph graph_;
+  ClosureGraph graph_;           ///< of kept scans, without those that were given up
+  std::map<int, KeptScan> stands_for_;  ///< by scan that was given up: the nearest of an older submap
   ClosureConfirmation confirmation_;
   std::deque<int> waiting_;  ///< kept scans not searched yet
 };

@@ -19,37 +19,43 @@ bool isSameView(const Pose2& a, const Pose2& b) {
 
 }  // namespace
 
-void SubmapLoopCloser::giveUpRepeated(const std::vector<std::optional<Pose2>>& world) {
+void SubmapLoopCloser::giveUpRepeated(PlacesInWorld& world) {
   if (submapsHeld() <= submaps_kept_ || examined_ + kRecentSubmaps >= submaps_.size()) return;
   KeptSubmap& submap = submaps_[examined_++];
   if (isRepeated(submap, world)) giveUp(submap);
 }
 
-bool SubmapLoopCloser::isRepeated(const KeptSubmap& submap, const std::vector<std::optional<Pose2>>& world) const {
+// Of submaps that end before this scan; they have been looked at, and stay.
+std::vector<int> SubmapLoopCloser::scansHeldBefore(int scan) const {
+  std::vector<int> out;
+  for (const KeptSubmap& submap : submaps_)
+    if (submap.map && submap.last < scan)
+      for (int held = submap.first; held <= submap.last; ++held) out.push_back(held);
+  return out;
+}
+
+bool SubmapLoopCloser::isRepeated(const KeptSubmap& submap, PlacesInWorld& world) const {
   const auto reached = graph_.reachedFrom((submap.first + submap.last) / 2);
-  const auto repeats = [&](int older, int scan) {
-    const auto &there = world[static_cast<std::size_t>(older)], &here = world[static_cast<std::size_t>(scan)];
-    return there && here && reached[static_cast<std::size_t>(older)].length_m < kTied_m && isSameView(*there, *here);
-  };
+  std::vector<Pose2> tied;
+  for (const int older : scansHeldBefore(submap.first))
+    if (reached[older].length_m < kTied_m)
+      if (const auto& place = world.of(older)) tied.push_back(*place);
   int repeated = 0;
   for (int scan = submap.first; scan <= submap.last; ++scan)
-    repeated += std::any_of(submaps_.begin(), submaps_.end(), [&](const KeptSubmap& other) {
-      if (!other.map || other.last >= submap.first) return false;
-      for (int older = other.first; older <= other.last; ++older)
-        if (repeats(older, scan)) return true;
-      return false;
-    });
+    if (const auto& here = world.of(scan))
+      repeated += std::any_of(tied.begin(), tied.end(), [&](const Pose2& there) { return isSameView(there, *here); });
   return repeated >= kLeastRepeated * (submap.last - submap.first + 1);
 }
 
 std::optional<SubmapLoopCloser::KeptScan> SubmapLoopCloser::keptFor(int scan) const {
+  if (const auto it = stands_for_.find(scan); it != stands_for_.end()) return it->second;
   std::optional<KeptScan> best;
   double least_m = kTied_m;
   const auto reached = graph_.reachedFrom(scan);
   for (const KeptSubmap& submap : submaps_) {
     if (!submap.map) continue;
     for (int held = submap.first; held <= submap.last; ++held) {
-      const ClosureGraph::Reached& way = reached[static_cast<std::size_t>(held)];
+      const ClosureGraph::Reached& way = reached[held];
       if (way.length_m < least_m) best = KeptScan{held, way.start_from_node.inverse()}, least_m = way.length_m;
     }
   }
@@ -59,12 +65,21 @@ std::optional<SubmapLoopCloser::KeptScan> SubmapLoopCloser::keptFor(int scan) co
 void SubmapLoopCloser::giveUp(KeptSubmap& submap) {
   submap.map.reset();
   ++given_up_;
+  std::vector<int> scans;
   for (int scan = submap.first; scan <= submap.last; ++scan) {
     const bool waits = !waiting_.empty() && scan >= waiting_.front();
     const bool needed = waits || std::any_of(submaps_.begin(), submaps_.end(), [scan](const KeptSubmap& other) {
       return other.map && other.first <= scan && scan <= other.last;
     });
-    if (needed) continue;
+    if (!needed) scans.push_back(scan);
+  }
+  {
+    const ClosureGraph::Paths nearest = graph_.reachedFromAny(scansHeldBefore(submap.first));
+    for (const int scan : scans)
+      if (nearest[scan].length_m < kTied_m) stands_for_[scan] = {nearest[scan].start, nearest[scan].start_from_node};
+  }
+  for (const int scan : scans) {
+    graph_.remove(scan);
     Scan& empty = scans_[static_cast<std::size_t>(scan)];
     empty.ranges_m = {}, empty.valid = {};
     empty.ranges_m.shrink_to_fit(), empty.valid.shrink_to_fit();

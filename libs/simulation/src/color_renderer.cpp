@@ -118,12 +118,12 @@ ColorRenderer::Content::Content(const Scene& source, const PinholeCamera& model)
   for (const auto& material : scene.materials()) textures.push_back(textureOf(material));
   Drawables fixed;
   for (const auto& part : scene.parts())
-    if (part.person < 0) addTo(fixed, part.mesh);
+    if (part.fixed) addTo(fixed, part.mesh);
   // A crowd has more textures than there may be: its last ones are of one colour each.
   std::size_t textured = fixed.size();
   for (std::size_t i = 0; i < scene.parts().size(); ++i) {
     const auto& part = scene.parts()[i];
-    if (part.person < 0) continue;
+    if (part.fixed) continue;
     const std::size_t needed = materialsOf(part.mesh);
     if (textured + needed > kTextures) {
       addMovingPlain(i);

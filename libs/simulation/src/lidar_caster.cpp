@@ -31,14 +31,24 @@ void cut(const ScenePart& part, const Pose3& world_from_part, double height, std
 
 LidarCaster::LidarCaster(const Scene& scene, double height_m) : scene_(scene), height_m_(height_m) {
   for (const auto& part : scene.parts())
-    if (part.person < 0) cut(part, Pose3::Identity(), height_m, fixed_);
+    if (part.fixed) cut(part, Pose3::Identity(), height_m, fixed_);
+}
+
+std::vector<Segment> LidarCaster::furnishedOutlines(double seconds) const {
+  std::vector<Segment> out = fixed_;
+  const auto poses = scene_.partPoses(seconds);
+  for (std::size_t i = 0; i < scene_.parts().size(); ++i) {
+    const ScenePart& part = scene_.parts()[i];
+    if (!part.fixed && part.person < 0) cut(part, poses[i], height_m_, out);
+  }
+  return out;
 }
 
 std::vector<double> LidarCaster::cast(const Pose2& world_from_lidar, int beams, double seconds) const {
   std::vector<Segment> moving;
   const auto poses = scene_.partPoses(seconds);
   for (std::size_t i = 0; i < scene_.parts().size(); ++i)
-    if (scene_.parts()[i].person >= 0) cut(scene_.parts()[i], poses[i], height_m_, moving);
+    if (!scene_.parts()[i].fixed) cut(scene_.parts()[i], poses[i], height_m_, moving);
   std::vector<double> out(static_cast<std::size_t>(beams), std::numeric_limits<double>::infinity());
   const Pose2 to_lidar = world_from_lidar.inverse();
   const double step = 2 * std::numbers::pi / (beams - 1);

@@ -197,7 +197,7 @@ CObservationDetections PersistentDetector::detect(const IdImage& exact, const Po
     if (seen.visible < spec_.min_visible || seen.box.height < spec_.min_height_px) continue;
     const auto person = moving.find(seen.object);
     const Pose3 pose = person != moving.end() ? toPose3(person->second)
-                                              : scene_.objects()[static_cast<std::size_t>(seen.object)].world_from_object;
+                                              : scene_.worldFromObject(seen.object, seconds);
     detectObject(seen, viewOf(pose, world_from_camera), seconds, fresh, out);
   }
   maybeNewPhantom(exact, world_from_camera, fresh);

@@ -37,6 +37,8 @@ Mesh doorShape(const Doorway& doorway, double thickness, MaterialList& materials
   return mesh.moved(poseFromYpr(-thickness / 2, 0, 0, 0, 0, 0));
 }
 
+Pose3 standing(const Eigen::Vector3d& at, double yaw) { return poseFromYpr(at.x(), at.y(), at.z(), yaw, 0, 0); }
+
 }  // namespace
 
 Scene::Scene(const World& world) {
@@ -79,6 +81,7 @@ void Scene::addPart(Mesh mesh, int object, int person) {
   part.mesh = std::move(mesh);
   part.object = object;
   part.person = person;
+  part.fixed = person < 0 && (object < 0 || objects_[static_cast<std::size_t>(object)].moves.empty());
   parts_.push_back(std::move(part));
 }
 
@@ -86,6 +89,7 @@ void Scene::add(SceneObject object, const Mesh& mesh_in_plan) {
   const Mesh mesh = mesh_in_plan.moved(world_from_plan_);
   object.id = static_cast<int>(objects_.size()) + 1;
   object.world_from_object = world_from_plan_ * object.world_from_object;
+  for (auto& [since_s, pose] : object.moves) pose = world_from_plan_ * pose;
   if (object.footprint.empty()) object.footprint = lowHull(mesh);
   objects_.push_back(std::move(object));
   addPart(mesh, static_cast<int>(objects_.size()) - 1, -1);
@@ -100,7 +104,8 @@ void Scene::addFurniture(const World& world) {
     object.kind = model.kind;
     object.model = modelName(item.model, item.mesh_file);
     object.size_wdh = item.size_m.value_or(model.size_m);
-    object.world_from_object = poseFromYpr(item.at_m.x(), item.at_m.y(), item.at_m.z(), item.yaw_rad, 0, 0);
+    object.world_from_object = standing(item.at_m, item.yaw_rad);
+    for (const auto& move : item.moves) object.moves.emplace_back(move.at_s, standing(move.at_m, move.yaw_rad));
     const Mesh mesh = item.mesh_file.empty()
                           ? furnitureMesh(item.model, object.size_wdh, item.color.value_or(model.color),
                                           variant, materials_, item.shape)
@@ -165,7 +170,9 @@ std::vector<Pose3> Scene::partPoses(double seconds) const {
   out.reserve(parts_.size());
   for (std::size_t i = 0; i < parts_.size();) {
     if (parts_[i].person < 0) {
-      out.push_back(Pose3::Identity());
+      const int object = parts_[i].object;
+      out.push_back(parts_[i].fixed ? Pose3::Identity()
+                                    : worldFromObject(object, seconds) * worldFromObject(object, 0).inverse());
       ++i;
       continue;
     }
@@ -175,6 +182,14 @@ std::vector<Pose3> Scene::partPoses(double seconds) const {
     i = out.size();
   }
   return out;
+}
+
+const Pose3& Scene::worldFromObject(int object, double seconds) const {
+  const SceneObject& all = objects_[static_cast<std::size_t>(object)];
+  const Pose3* out = &all.world_from_object;
+  for (const auto& [since_s, pose] : all.moves)
+    if (since_s <= seconds) out = &pose;
+  return *out;
 }
 
 std::vector<std::pair<int, Pose2>> Scene::persons(double seconds) const {

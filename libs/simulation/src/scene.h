@@ -17,16 +17,18 @@ struct SceneObject {
   int id = 0;  ///< from 1
   std::string class_name, kind, model;
   Eigen::Vector3d size_wdh;  ///< m
-  Pose3 world_from_object;   ///< bottom centre, x to the front; at the first instant when it moves
+  Pose3 world_from_object;   ///< bottom centre, x to the front; at the first instant when it moves by itself
+  std::vector<std::pair<double, Pose3>> moves;  ///< of furniture: world_from_object from so many seconds on, by time
   std::vector<Eigen::Vector2d> footprint;  ///< world; hull of what is lower than 1 m
   bool moving = false;
 };
 
 /// One rigid piece of the scene.
 struct ScenePart {
-  Mesh mesh;        ///< fixed parts: in world
+  Mesh mesh;        ///< of all but persons: in world, at the first instant
   int object = -1;  ///< index of objects(); -1: the building
-  int person = -1;  ///< index of the person it belongs to; -1: it never moves
+  int person = -1;  ///< index of the person it belongs to; -1: none
+  bool fixed = true;  ///< it never moves
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of a sphere around the mesh, in the mesh's frame
   double radius = 0;
 };
@@ -41,6 +43,8 @@ class Scene {
   const std::vector<Material>& materials() const { return materials_.all(); }
   /// world_from_part of every part.
   std::vector<Pose3> partPoses(double seconds) const;
+  /// Of an object that does not move by itself.
+  const Pose3& worldFromObject(int object, double seconds) const;
   /// (object index, world_from_person) of everybody.
   std::vector<std::pair<int, Pose2>> persons(double seconds) const;
   /// Robot base in the world; for a hand-held camera a frame fixed to it that is level on the floor below it

@@ -36,8 +36,8 @@ class LidarCaster {
   /// Distance to the first surface in every beam's direction; infinite where there is none. Beam i points at
   /// -pi + i 2 pi / (beams - 1) relative to `world_from_lidar`.
   std::vector<double> cast(const Pose2& world_from_lidar, int beams, double seconds) const;
-  /// Outlines of all that does not move.
-  const std::vector<Segment>& fixedOutlines() const { return fixed_; }
+  /// Outlines of all but people, with furniture where it stands then.
+  std::vector<Segment> furnishedOutlines(double seconds) const;
 
  private:
   const Scene& scene_;

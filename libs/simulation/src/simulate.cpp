@@ -244,11 +244,11 @@ SimulateResult Simulation::run() {
 void Simulation::finish() {
   rawlog_.finish();
   for (auto* file : {&camera_truth_, &robot_truth_, &odometry_truth_, &boxes_, &persons_}) file->finish();
-  writeObjects(folder_.pending("objects.json"), scene_);
+  writeObjects(folder_.pending("objects.json"), scene_, result_.seconds);
   writeCalibration(folder_.pending("calibration.json"), world_, scene_);
   const double height = world_.lidar ? world_.lidar->at_m.z() : LidarSpec{}.at_m.z();
   writeMapTruth(folder_.pending("map_truth.pgm"), folder_.pending("map_truth.yaml"),
-                LidarCaster(scene_, height).fixedOutlines());
+                LidarCaster(scene_, height).furnishedOutlines(result_.seconds));
   if (!options_.world_text.empty()) {
     OutputFile world(folder_.pending("world.json"));
     world << options_.world_text;

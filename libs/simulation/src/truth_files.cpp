@@ -66,12 +66,36 @@ void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectVi
   file << "{\"frame\":" << frame << ",\"t\":" << stamp << ",\"objects\":" << objects.dump() << "}\n";
 }
 
-void writeObjects(const std::filesystem::path& file, const Scene& scene) {
+namespace {
+
+Json placeJson(double since_s, const Pose3& pose) {
+  const Eigen::Vector3d at = pose.translation();
+  return {{"since_s", rounded(since_s)},
+          {"x", rounded(at.x())},
+          {"y", rounded(at.y())},
+          {"z", rounded(at.z())},
+          {"yaw", rounded(planarPart(pose).yaw)}};
+}
+
+// Where it stood, one place after the other.
+Json placesJson(const SceneObject& object, double seconds) {
+  Json out = Json::array({placeJson(0, object.world_from_object)});
+  for (const auto& [since_s, pose] : object.moves)
+    if (since_s <= seconds) out.push_back(placeJson(since_s, pose));
+  return out;
+}
+
+}  // namespace
+
+void writeObjects(const std::filesystem::path& file, const Scene& scene, double seconds) {
   Json objects = Json::array();
-  for (const auto& object : scene.objects()) {
-    const Eigen::Vector3d at = object.world_from_object.translation();
+  for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+    const SceneObject& object = scene.objects()[i];
+    const Pose3& pose = scene.worldFromObject(static_cast<int>(i), seconds);
+    const Eigen::Vector3d at = pose.translation();
+    const Pose2 moved = planarPart(pose * object.world_from_object.inverse());
     Json footprint = Json::array();
-    for (const auto& corner : object.footprint) footprint.push_back(list(corner));
+    for (const auto& corner : object.footprint) footprint.push_back(list(moved * corner));
     Json item{{"id", object.id},
               {"class", object.class_name},
               {"kind", object.kind},
@@ -79,11 +103,12 @@ void writeObjects(const std::filesystem::path& file, const Scene& scene) {
               {"x", rounded(at.x())},
               {"y", rounded(at.y())},
               {"z", rounded(at.z())},
-              {"yaw", rounded(planarPart(object.world_from_object).yaw)},
+              {"yaw", rounded(planarPart(pose).yaw)},
               {"size_wdh", list(object.size_wdh)},
               {"moving", object.moving},
               {"footprint", footprint},
               {"center", list(at + Eigen::Vector3d(0, 0, object.size_wdh.z() / 2))}};
+    if (!object.moves.empty()) item["places"] = placesJson(object, seconds);
     if (object.moving) item["note"] = "pose and footprint at the first instant; see persons.txt";
     objects.push_back(std::move(item));
   }

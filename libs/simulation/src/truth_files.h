@@ -23,7 +23,8 @@ void writePose(TruthFile& file, double t, const Pose3& pose);
 /// One line of boxes.jsonl.
 void writeBoxes(TruthFile& file, int frame, double t, const std::vector<ObjectView>& views,
                 const Scene& scene);
-void writeObjects(const std::filesystem::path& file, const Scene& scene);
+/// With furniture where it stands after so many seconds.
+void writeObjects(const std::filesystem::path& file, const Scene& scene, double seconds);
 void writeCalibration(const std::filesystem::path& file, const World& world, const Scene& scene);
 /// A picture and its yaml: outlines at the lidar's height occupied, what can be reached from the start free.
 void writeMapTruth(const std::filesystem::path& pgm, const std::filesystem::path& yaml,

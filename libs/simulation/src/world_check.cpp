@@ -2,7 +2,9 @@
 // Overlaps of rooms and furniture, doorways, posters, and collisions of paths.
 #include "world_check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "floor_plan.h"
@@ -74,8 +76,44 @@ std::vector<Eigen::Vector2d> footprintOf(const Furniture& item, double grow = 0)
   return out;
 }
 
-void checkFurniture(const World& world, const std::vector<PlanBox>& areas) {
+/// The item at each of its places, one after the other.
+std::vector<Furniture> placesOf(const Furniture& item) {
+  std::vector<Furniture> out{item};
+  for (std::size_t i = 0; i < item.moves.size(); ++i) {
+    out.push_back(item);
+    out.back().at_m = item.moves[i].at_m;
+    out.back().yaw_rad = item.moves[i].yaw_rad;
+    out.back().place += ".moves[" + std::to_string(i) + "]";
+  }
+  return out;
+}
+
+std::vector<Furniture> allPlaces(const World& world) {
+  std::vector<Furniture> out;
+  for (const auto& item : world.furniture)
+    for (auto& place : placesOf(item)) out.push_back(std::move(place));
+  return out;
+}
+
+std::vector<Furniture> placesAt(const World& world, double seconds) {
+  std::vector<Furniture> out;
   for (const auto& item : world.furniture) {
+    const auto later = std::find_if(item.moves.begin(), item.moves.end(), [&](const auto& move) { return move.at_s > seconds; });
+    out.push_back(placesOf(item)[static_cast<std::size_t>(later - item.moves.begin())]);
+  }
+  return out;
+}
+
+/// When the furniture stands otherwise: the beginning, and the instants of moves.
+std::set<double> arrangementsOf(const World& world) {
+  std::set<double> out{0};
+  for (const auto& item : world.furniture)
+    for (const auto& move : item.moves) out.insert(move.at_s);
+  return out;
+}
+
+void checkFurniture(const World& world, const std::vector<PlanBox>& areas) {
+  for (const auto& item : allPlaces(world)) {
     for (const auto& corner : footprintOf(item, -0.005))
       if (!discIsFree(areas, corner, 0))
         fail(world, item.place, "the " + item.model + " stands in a wall at " + text(corner));
@@ -93,10 +131,10 @@ bool inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& 
   return true;
 }
 
-void checkPoint(const World& world, const std::vector<PlanBox>& areas, const std::string& place,
-                const Eigen::Vector2d& at, double radius) {
+void checkPoint(const World& world, const std::vector<PlanBox>& areas, const std::vector<Furniture>& furniture,
+                const std::string& place, const Eigen::Vector2d& at, double radius) {
   if (!discIsFree(areas, at, radius)) fail(world, place, "the path goes through a wall at " + text(at));
-  for (const auto& item : world.furniture)
+  for (const auto& item : furniture)
     if (item.at_m.z() < 1.5 && inside(footprintOf(item, radius), at))
       fail(world, place, "the path goes through " + item.place + " (" + item.model + ") at " + text(at));
 }
@@ -108,15 +146,24 @@ void checkDoorsOnPath(const World& world, const std::string& place, const Eigen:
         fail(world, place, "the path goes through a closed door, " + doorway.place);
 }
 
-void checkPaths(const World& world, const std::vector<PlanBox>& areas) {
-  if (world.robot) {
-    const SensorPath path(*world.robot);
-    for (double t = 0; t <= path.duration(); t += 0.05) {
+void checkRobotPath(const World& world, const std::vector<PlanBox>& areas) {
+  const SensorPath path(*world.robot);
+  const std::string place = world.robot->place + ".path_m";
+  const std::set<double> arrangements = arrangementsOf(world);
+  for (auto from = arrangements.begin(); from != arrangements.end(); ++from) {
+    const std::vector<Furniture> furniture = placesAt(world, *from);
+    const auto next = std::next(from);
+    const double until = next == arrangements.end() ? path.duration() : std::min(*next, path.duration());
+    for (double t = *from; t <= until; t += 0.05) {
       const Eigen::Vector2d at = path.at(t).translation().head<2>();
-      checkPoint(world, areas, world.robot->place + ".path_m", at, world.robot->radius_m);
-      checkDoorsOnPath(world, world.robot->place + ".path_m", at);
+      checkPoint(world, areas, furniture, place, at, world.robot->radius_m);
+      checkDoorsOnPath(world, place, at);
     }
   }
+}
+
+void checkPaths(const World& world, const std::vector<PlanBox>& areas) {
+  if (world.robot) checkRobotPath(world, areas);
   if (world.handheld) {
     const SensorPath path(*world.handheld);
     for (double t = 0; t <= path.duration(); t += 0.05) {
@@ -126,6 +173,7 @@ void checkPaths(const World& world, const std::vector<PlanBox>& areas) {
              "the path goes through a wall at " + text(at.head<2>()));
     }
   }
+  const std::vector<Furniture> everywhere = allPlaces(world);  // people do not wait for it to be moved
   for (const auto& person : world.people) {
     for (std::size_t i = 0; i < person.path_m.size(); ++i) {
       const Eigen::Vector2d a = person.path_m[i],
@@ -133,7 +181,7 @@ void checkPaths(const World& world, const std::vector<PlanBox>& areas) {
       const int steps = 1 + static_cast<int>((b - a).norm() / 0.05);
       for (int k = 0; k <= steps; ++k) {
         const Eigen::Vector2d at = a + (b - a) * k / steps;
-        if (person.path_m.size() > 1) checkPoint(world, areas, person.place + ".path_m", at, 0.15);
+        if (person.path_m.size() > 1) checkPoint(world, areas, everywhere, person.place + ".path_m", at, 0.15);
         if (!discIsFree(areas, at, 0.15))
           fail(world, person.place + ".path_m", "stands in a wall at " + text(at));
         checkDoorsOnPath(world, person.place + ".path_m", at);

@@ -84,13 +84,31 @@ Room room(JsonEntry& entry, double wall_height) {
   return out;
 }
 
+Eigen::Vector3d bottomCentre(JsonEntry& entry) {
+  const auto at = entry.numbers("at_m", 2);
+  return {at[0], at[1], entry.number("z_m", 0, 0, 20)};
+}
+
+double yaw(JsonEntry& entry) {
+  return kDegree * entry.number("yaw_deg", 0, -360, 360);
+}
+
+FurnitureMove furnitureMove(JsonEntry& entry, const std::vector<FurnitureMove>& before) {
+  FurnitureMove out;
+  out.at_s = entry.number("at_s", std::nullopt, 0, 1e5);
+  if (!before.empty() && out.at_s <= before.back().at_s) entry.fail("at_s", "must come after the move before it");
+  out.at_m = bottomCentre(entry);
+  out.yaw_rad = yaw(entry);
+  entry.finish();
+  return out;
+}
+
 Furniture furniture(JsonEntry& entry) {
   Furniture out;
   out.place = entry.place();
   out.model = entry.choice("model", std::nullopt, furnitureModels());
-  const auto at = entry.numbers("at_m", 2);
-  out.at_m = {at[0], at[1], entry.number("z_m", 0, 0, 20)};
-  out.yaw_rad = kDegree * entry.number("yaw_deg", 0, -360, 360);
+  out.at_m = bottomCentre(entry);
+  out.yaw_rad = yaw(entry);
   if (entry.has("size_m")) {
     const auto size = entry.numbers("size_m", 3);
     for (const double edge : size)
@@ -100,6 +118,7 @@ Furniture furniture(JsonEntry& entry) {
   if (entry.has("color")) out.color = entry.color("color", {});
   out.shape = entry.integer("shape", 0, 0, 1000000);
   out.mesh_file = meshFile(entry);
+  for (auto& item : entry.children("moves")) out.moves.push_back(furnitureMove(item, out.moves));
   entry.finish();
   return out;
 }
@@ -110,7 +129,7 @@ Person person(JsonEntry& entry) {
   out.path_m = entry.path("path_m");
   out.speed_m_s = entry.number("speed_m_s", out.speed_m_s, 0.05, 3);
   out.start_s = entry.number("start_s", 0, 0, 1e5);
-  out.yaw_rad = kDegree * entry.number("yaw_deg", 0, -360, 360);
+  out.yaw_rad = yaw(entry);
   out.sits = entry.flag("sits", false);
   if (out.sits && out.path_m.size() != 1) entry.fail("path_m", "a sitting person has one point");
   out.seat_height_m = entry.number("seat_height_m", out.seat_height_m, 0.2, 1);

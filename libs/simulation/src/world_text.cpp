@@ -79,6 +79,11 @@ WorldJson furnitureJson(const Furniture& item) {
   if (item.color) out["color"] = colorText(*item.color);
   if (item.shape != 0) out["shape"] = item.shape;
   if (!item.mesh_file.empty()) out["mesh"] = item.mesh_file;
+  for (const auto& move : item.moves)
+    out["moves"].push_back({{"at_s", neat(move.at_s)},
+                            {"at_m", neat(move.at_m.head<2>())},
+                            {"z_m", neat(move.at_m.z())},
+                            {"yaw_deg", degrees(move.yaw_rad)}});
   return out;
 }
 

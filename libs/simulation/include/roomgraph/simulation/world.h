@@ -45,6 +45,13 @@ struct Room {
   std::string place;
 };
 
+/// Another place, where furniture stands from then on.
+struct FurnitureMove {
+  double at_s = 0;
+  Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< bottom centre
+  double yaw_rad = 0;
+};
+
 struct Furniture {
   std::string model;                               ///< see models.h
   Eigen::Vector3d at_m = Eigen::Vector3d::Zero();  ///< bottom centre
@@ -54,6 +61,7 @@ struct Furniture {
   int shape = 0;          ///< proportions of a seat: 0 the usual ones, any other number others
   std::string mesh_file;  ///< replaces the built shape, fitted to the size; empty: built
   std::string place;
+  std::vector<FurnitureMove> moves;  ///< by time
 };
 
 struct Person {
