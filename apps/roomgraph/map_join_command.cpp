@@ -45,7 +45,8 @@ std::optional<std::vector<StampedPose>> cameraPathOf(const fs::path& run) {
   const fs::path file = run / "trajectory_camera.tum";
   std::error_code none;
   if (fs::file_size(file, none) == 0 || none) return std::nullopt;
-  return readTrajectory(file).trajectory.poses();
+  const Trajectory path = readTrajectory(file).trajectory;
+  return std::vector<StampedPose>(path.poses().begin(), path.poses().end());
 }
 
 std::string describePiece(const std::string& run, const PieceUnion& joined) {

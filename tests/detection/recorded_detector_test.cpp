@@ -149,6 +149,15 @@ TEST_F(RecordedDetectorTest, NearestRecordWinsBeforeOrAfterTheFrame) {
   EXPECT_EQ((*detector_.detect(frameAt(9.98)))[0].class_name, "sofa");
 }
 
+TEST_F(RecordedDetectorTest, WhatIsLongPastIsGivenUp) {
+  prepare("tolerance_s = 0.05");
+  for (const double t : {10.0, 45.0, 100.0}) detector_.feed(record(t, "chair"));
+  EXPECT_TRUE(detector_.detect(frameAt(10)));
+  EXPECT_TRUE(detector_.detect(frameAt(100)));
+  EXPECT_TRUE(detector_.detect(frameAt(45))) << "a frame that comes late";
+  EXPECT_FALSE(detector_.detect(frameAt(10)));
+}
+
 TEST_F(RecordedDetectorTest, OutsideTheToleranceThereIsAReason) {
   prepare("tolerance_s = 0.05");
   EXPECT_FALSE(detector_.detect(frameAt(10.0)));

@@ -194,14 +194,14 @@ TEST(GraphBuilder, OldKeyPosesMoveTogether) {
 }
 
 // A straight drive, a key pose each second, measured by scans.
-FactorGraph longDrive(int key_poses, std::size_t free) {
+FactorGraph longDrive(int key_poses, std::size_t free, const Measurements& measurements = {}) {
   const MotionSource none(MotionNoise{}, true);
   Scenario scenario{{none, none, MotionSource(kScanNoise, true)}, {}, {}, {}};
   for (int k = 0; k <= 10 * key_poses; ++k)
     scenario.motion.lidar.add(0.1 * k, poseFromYpr(0.02 * k, 0, 0, 0, 0, 0), 0, Matrix6d::Identity() * 1e-6);
   KeyPoses poses(scenario.motion);
   for (int i = 0; i < key_poses; ++i) poses.add(i, poseFromYpr(0.2 * i, 0, 0, 0, 0, 0));
-  return buildGraph(poses, scenario.motion, {}, {}, scenario.options, nullptr, free);
+  return buildGraph(poses, scenario.motion, measurements, {}, scenario.options, nullptr, free);
 }
 
 TEST(GraphBuilder, BodiesAreTwiceAsLongWhereTwiceAsManyKeyPosesCame) {
@@ -215,6 +215,36 @@ TEST(GraphBuilder, BodiesAreTwiceAsLongWhereTwiceAsManyKeyPosesCame) {
     maps += i % 10 == 0 && length <= 10;
   }
   EXPECT_EQ(graph.poses(), leaders + maps) << "local maps have a pose of their own where bodies are no longer";
+}
+
+TEST(GraphBuilder, LongBodiesAreHeldToTheFloorByTenOfTheirKeyPoses) {
+  constexpr int kAll = 4500;
+  std::size_t expected = 0;
+  for (int i = 1; i < kAll; ++i) {
+    const int age = kAll - i, length = age <= 50 ? 1 : age <= 1000 ? 10 : age <= 2000 ? 20 : age <= 4000 ? 40 : 80;
+    expected += i % std::max(1, length / 10) == 0;
+  }
+  for (int i = 0; i < kAll; i += 10) expected += kAll - i <= 1000;  // local maps with a pose of their own
+  const FactorGraph on_floor = longDrive(kAll, 50), in_hand = longDrive(kAll, 50, {{}, {}, false});
+  EXPECT_EQ(on_floor.factors() - in_hand.factors(), expected);
+}
+
+TEST(GraphBuilder, ClosuresBetweenTwoBodiesBecomeOneFactor) {
+  constexpr int kAll = 2200;
+  Measurements measurements;
+  const auto close = [&](int a, int b) {
+    RelativePose closure{.t_a = static_cast<double>(a), .t_b = static_cast<double>(b), .a_from_b = poseFromYpr(0.2 * (b - a), 0, 0, 0, 0, 0)};
+    closure.covariance = Matrix6d::Identity() * 1e-4;
+    measurements.closures.push_back(closure);
+  };
+  const std::size_t before = longDrive(kAll, 50).factors();
+  for (int i = 0; i < 7; ++i) close(i, 1320 + i);
+  EXPECT_EQ(longDrive(kAll, 50, measurements).factors(), before + 1);
+  close(100, 1320);
+  EXPECT_EQ(longDrive(kAll, 50, measurements).factors(), before + 2) << "of another body";
+  close(100, kAll - 2);
+  close(101, kAll - 2);
+  EXPECT_EQ(longDrive(kAll, 50, measurements).factors(), before + 4) << "of a pose by itself each stays";
 }
 
 TEST(GraphBuilder, OfVeryManyKeyPosesBodiesMoveInTheEndAsWell) {

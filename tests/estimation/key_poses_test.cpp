@@ -55,6 +55,23 @@ TEST(KeyPoses, HoldsStillWhereNoSourceReaches) {
   expectPlace(poses.at(-100), 0, 0);
 }
 
+TEST(KeyPoses, BetweenIsWhatTheirTrajectorySays) {
+  const Motion motion = straightOn();
+  KeyPoses poses(motion);
+  EXPECT_FALSE(poses.between(1));
+  poses.add(1, heading(0, 0));
+  poses.add(3, poseFromYpr(0.2, -2, 0.1, 0.4, 0.1, 0.2));
+  poses.add(3.5, poseFromYpr(1, -2, 0.1, 1.4, 0, 0.2));
+  const Trajectory trajectory = poses.trajectory();
+  for (const double t : {0.9, 1.0, 1.2, 2.7, 3.0, 3.1, 3.5, 3.6}) {
+    const auto expected = trajectory.at(t), is = poses.between(t);
+    ASSERT_EQ(is.has_value(), expected.has_value()) << t;
+    if (expected) {
+      EXPECT_EQ(is->matrix(), expected->matrix()) << t;
+    }
+  }
+}
+
 TEST(KeyPoses, NearestInTime) {
   const Motion motion = straightOn();
   KeyPoses poses(motion);

@@ -42,7 +42,7 @@ struct Estimation {
   Motion motion{drifting(1.03, 1.04, kWheelNoise), none, none};
   BackendOptions options;
   PoseEstimator estimator{options, motion};
-  std::vector<RelativePose> closures;
+  GrowingList<RelativePose> closures;
 };
 
 // Without waiting for the turn of what is found.

@@ -56,7 +56,7 @@ Found drive(const std::vector<Pass>& passes, SubmapLoopCloser& closer) {
       match.odom_from_robot = pass.odom_from_world * pose;
       world.add(t, toPose3(match.odom_from_robot));
       closer.add(test::castScan(pass.walls, pose, t, random), match);
-      for (const RelativePose& closure : closer.search(world)) out.closures.push_back(closure);
+      for (const RelativePose& closure : closer.search([&](double at) { return world.at(at); })) out.closures.push_back(closure);
       out.times.push_back(t);
       out.truth.push_back(pose);
     }

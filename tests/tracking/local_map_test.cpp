@@ -127,6 +127,23 @@ TEST(LocalMap, AKeyframeThatIsGivenUpLeavesThePointsThatOthersSee) {
   EXPECT_THAT(map.pointsOf({0, 1}), ElementsAre(0, 1, 2, 3));
 }
 
+TEST(PointStore, ManyErasedInARowKeepTheirIdsToo) {
+  PointStore points;
+  constexpr std::size_t kMany = 5000, kErased = 4000;
+  for (std::size_t id = 0; id < kMany; ++id) points.add().position.x() = static_cast<double>(id);
+  for (std::size_t id = 0; id < kErased; ++id) points.release(id);
+  points.release(7);
+  EXPECT_EQ(points.held(), kMany - kErased);
+  points.add().position.x() = kMany;
+  EXPECT_EQ(points.size(), kMany + 1);
+  for (std::size_t id = 0; id <= kMany; ++id) {
+    ASSERT_EQ(points[id].erased, id < kErased) << id;
+    if (id >= kErased) {
+      EXPECT_EQ(points[id].position.x(), static_cast<double>(id));
+    }
+  }
+}
+
 TEST(PointStore, AnErasedPointLeavesItsMemoryToOthersAndKeepsItsId) {
   PointStore points;
   std::map<std::size_t, double> alive;  // x of the position

@@ -127,9 +127,9 @@ void LandmarkMap::supported(LandmarkId id, int rays) {
   if (!find(id)) return;
   // Returns show that something is there, but not its class: their total support is limited.
   double& support = records_[id].ray_support;
-  const double gain = std::min(options_.ray_gain * std::clamp(rays, 0, kMaxRays), kMaxRaySupport - support);
-  support += gain;
-  updateExistence(id, gain);
+  const double before = support;
+  support = std::min(before + options_.ray_gain * std::clamp(rays, 0, kMaxRays), kMaxRaySupport);
+  if (support > before) updateExistence(id, support - before);
 }
 
 double LandmarkMap::existenceLogRatio(LandmarkId id, const WorldMeasurement& sighting) const {

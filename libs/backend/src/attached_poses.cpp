@@ -96,6 +96,7 @@ void FactorGraph::attach(NodeId id, NodeId to, const Pose3& world_from_robot) {
     throw std::invalid_argument("factor graph: pose " + std::to_string(id.value) + " added twice");
   refuse(to, impl_->attached);
   impl_->attached[id] = {to, pose(to).inverse() * world_from_robot};
+  impl_->bodies.insert(to);
 }
 
 NodeId FactorGraph::bodyOf(NodeId id) const {

@@ -11,9 +11,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "attached_poses.h"
+#include "movement_sum.h"
 #include "roomgraph/backend/factor_graph.h"
 
 namespace roomgraph {
@@ -71,6 +74,8 @@ struct FactorGraph::Impl {
 
   std::map<NodeId, Pose> poses;
   AttachedPoses attached;
+  std::set<NodeId> bodies;  ///< poses that others are attached to
+  std::map<std::pair<NodeId, NodeId>, MovementSum> sums;
   std::map<LandmarkId, Object> objects;
   std::map<PointId, Point> points;
   std::deque<Entry> factors;  ///< tens of thousands, of half a kilobyte each: none is moved or held in reserve

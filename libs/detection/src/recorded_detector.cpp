@@ -15,6 +15,11 @@
 #include "suppress.h"
 
 namespace roomgraph {
+namespace {
+
+constexpr double kKept_s = 60;  // of records before a frame: more than frames and their clocks are ever out of order
+
+}  // namespace
 
 IMPLEMENTS_MRPT_OBJECT(RecordedDetector, Detector, roomgraph)
 
@@ -117,6 +122,7 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
     return Result::failure(reason.str());
   }
   ++matched_;
+  records_.erase(records_.begin(), records_.lower_bound(frame.t - kKept_s));
   std::vector<Detection> detections, others;
   for (Detection detection : record->boxes) {
     const ObjectModel* model = database_->byLabel(detection.label);

@@ -3,6 +3,7 @@
 #include "roomgraph/estimation/graph_builder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -102,6 +103,16 @@ void addVariables(FactorGraph& graph, const std::vector<KeyPose>& nodes, const M
   }
 }
 
+// Every key pose stands on the floor. Of a long body one in so many tells so for all of these.
+void addFloor(FactorGraph& graph, const std::vector<KeyPose>& nodes, const BackendOptions& options, const PosesInGraph& which) {
+  for (std::size_t i = which.hold ? which.first + 1 : which.first; i < nodes.size(); ++i) {
+    const std::size_t each = std::max(bodyLength(nodes.size() - i, nodes.size() - which.first, which.free) / kBody, std::size_t{1});
+    const double share = 1 / std::sqrt(static_cast<double>(each));
+    if (i % each == 0)
+      graph.add(PlanarFactor{nodes[i].id, share * options.planar_sigma_z_m, share * options.planar_sigma_tilt_rad});
+  }
+}
+
 // Key poses, with the factors between neighbours and of the floor.
 std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                                const BackendOptions& options, const PosesInGraph& which) {
@@ -113,9 +124,7 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
   const bool local_maps = options.local_map_nodes > 0;
   for (std::size_t i = first; i + 1 < nodes.size(); ++i)
     addSteps(graph, nodes[i], nodes[i + 1], motion, local_maps);
-  if (measurements.planar)
-    for (std::size_t i = hold ? first + 1 : first; i < nodes.size(); ++i)
-      graph.add(PlanarFactor{nodes[i].id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+  if (measurements.planar) addFloor(graph, nodes, options, which);
   const auto since =
       std::lower_bound(measurements.grounds.begin(), measurements.grounds.end(), nodes[first].id,
                        [](const GroundFactor& ground, NodeId id) { return ground.node < id; });
@@ -126,7 +135,8 @@ std::vector<LocalMap> addPoses(FactorGraph& graph, const KeyPoses& poses, const 
   // would give way where yaws disagree.
   if (measurements.planar)
     for (const LocalMap& map : maps)
-      graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
+      if (graph.bodyOf(map.id) == map.id)
+        graph.add(PlanarFactor{map.id, options.planar_sigma_z_m, options.planar_sigma_tilt_rad});
   return maps;
 }
 
@@ -195,7 +205,8 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
   const auto local_maps = addPoses(graph, poses, motion, measurements, options, {.hold = !fixed, .free = free});
   if (fixed) addFixes(graph, poses, measurements.fixes);
   for (const auto& closure : measurements.closures)
-    if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.add(*factor);
+    if (const auto factor = closureFactor(closure, poses, options.closure_robust_width)) graph.addToSum(*factor);
+  graph.addSums();
   for (const auto& closure : measurements.pulls)
     if (const auto factor = closureFactor(closure, poses, 0)) graph.add(*factor);
   addObjects(graph, objects, options, former != nullptr);
@@ -220,10 +231,13 @@ Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measuremen
     window.graph.add(*prior);
   }
   const KeyPose& oldest = poses.nodes()[first];
-  const double before = first > 0 ? poses.nodes()[first - 1].t : oldest.t;
+  const std::size_t before = first > 0 ? first - 1 : first;
   std::set<NodeId> held;
-  for (const auto& closure : measurements.closures) {
-    if (std::max(closure.t_a, closure.t_b) < before) continue;  // a shortcut: there may be thousands
+  // Those that were there before the window say nothing of it: there may be thousands.
+  const std::size_t since = before < measurements.closures_before.size() ? measurements.closures_before[before] : 0;
+  for (std::size_t i = since; i < measurements.closures.size(); ++i) {
+    const RelativePose& closure = measurements.closures[i];
+    if (std::max(closure.t_a, closure.t_b) < poses.nodes()[before].t) continue;
     const auto factor = closureFactor(closure, poses, options.closure_robust_width);
     if (!factor || std::max(factor->a, factor->b) < oldest.id) continue;
     for (const NodeId id : {factor->a, factor->b})

@@ -48,6 +48,16 @@ Pose3 KeyPoses::at(double t) const {
   return interpolate(from_a, from_b, (t - a.t) / (b.t - a.t));
 }
 
+std::optional<Pose3> KeyPoses::between(double t) const {
+  const auto after = std::lower_bound(nodes_.begin(), nodes_.end(), t,
+                                      [](const KeyPose& node, double time) { return node.t < time; });
+  if (after == nodes_.end()) return std::nullopt;
+  if (after->t == t) return after->world_from_robot;
+  if (after == nodes_.begin()) return std::nullopt;
+  const KeyPose& before = *std::prev(after);
+  return interpolate(before.world_from_robot, after->world_from_robot, (t - before.t) / (after->t - before.t));
+}
+
 Pose3 KeyPoses::differenceFrom(const RelativePose& closure) const {
   return closure.a_from_b.inverse() * (at(closure.t_a).inverse() * at(closure.t_b));
 }

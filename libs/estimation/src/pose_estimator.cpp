@@ -29,8 +29,7 @@ PoseEstimator::~PoseEstimator() = default;
 
 bool PoseEstimator::advance(double t) {
   if (poses_.empty()) {
-    poses_.add(t, Pose3::Identity());
-    drift_.extend(poses_);
+    addNode(t, Pose3::Identity());
     return true;
   }
   const KeyPose& last = poses_.nodes().back();
@@ -42,10 +41,15 @@ bool PoseEstimator::advance(double t) {
   const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
                    rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
   if (!far) return false;
-  poses_.add(t, last.world_from_robot * moved);
-  drift_.extend(poses_);
+  addNode(t, last.world_from_robot * moved);
   ++nodes_since_optimization_;
   return true;
+}
+
+void PoseEstimator::addNode(double t, const Pose3& world_from_robot) {
+  poses_.add(t, world_from_robot);
+  measurements_.closures_before.push_back(measurements_.closures.size());
+  drift_.extend(poses_);
 }
 
 // How far a closure is from the estimate: 1 where it begins to be urgent.

@@ -11,14 +11,14 @@
 namespace roomgraph {
 namespace {
 
-std::size_t lowerBound(const std::vector<StampedPose>& poses, double t) {
+std::size_t lowerBound(const GrowingList<StampedPose>& poses, double t) {
   return static_cast<std::size_t>(
       std::lower_bound(poses.begin(), poses.end(), t,
                        [](const StampedPose& p, double time) { return p.t < time; }) -
       poses.begin());
 }
 
-std::size_t nearest(const std::vector<StampedPose>& poses, double t) {
+std::size_t nearest(const GrowingList<StampedPose>& poses, double t) {
   const std::size_t right = lowerBound(poses, t);
   if (right == 0) return 0;
   if (right == poses.size()) return right - 1;

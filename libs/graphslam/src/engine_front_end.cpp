@@ -143,7 +143,7 @@ std::vector<BetweenFactor> EngineFrontEnd::betweenNodes(const std::vector<Relati
 
 std::vector<BetweenFactor> EngineFrontEnd::takeScanClosures() {
   if (!setup_->stages.scan_loop_closer || poses_.empty()) return {};
-  return betweenNodes(setup_->stages.scan_loop_closer->search(poses_.trajectory()));
+  return betweenNodes(setup_->stages.scan_loop_closer->search([&](double t) { return poses_.between(t); }));
 }
 
 std::vector<BetweenFactor> EngineFrontEnd::takeImageClosures() {

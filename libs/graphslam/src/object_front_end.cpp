@@ -15,7 +15,7 @@ class ConfirmingCloser : public ScanLoopCloser {
   void declareParameters(ParameterVisitor& v) override { closer_->declareParameters(v); }
   void setResultStore(ResultStore& store) override { closer_->setResultStore(store); }
   void add(const Scan& scan, const ScanMatch& match) override { closer_->add(scan, match); }
-  std::vector<RelativePose> search(const Trajectory&) override { return {}; }
+  std::vector<RelativePose> search(const PoseAt&) override { return {}; }
   std::optional<RelativePose> verify(const RelativePose& proposed) override { return closer_->verify(proposed); }
 
  private:

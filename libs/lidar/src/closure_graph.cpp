@@ -39,28 +39,49 @@ void ClosureGraph::join(int slot_a, int slot_b, const Pose2& a_from_b, double le
   edgesOf(slot_b).push_back({slot_a, length_m, a_from_b.inverse()});
 }
 
-void ClosureGraph::remove(int node) {
+std::size_t ClosureGraph::edges() const {
+  std::size_t ends = 0;
+  for (const auto& edges : edges_) ends += edges.size();
+  return ends / 2;
+}
+
+void ClosureGraph::part(int slot_a, int slot_b) {
+  std::erase_if(edgesOf(slot_a), [slot_b](const Edge& edge) { return edge.to == slot_b; });
+  std::erase_if(edgesOf(slot_b), [slot_a](const Edge& edge) { return edge.to == slot_a; });
+}
+
+void ClosureGraph::remove(int node, double spare_m) {
   const int slot = slotOf(node);
   std::map<int, Edge> nearest;  // of several edges to one node only the shortest is on a shortest path
   for (const Edge& edge : edgesOf(slot)) {
     const auto [it, first] = nearest.emplace(edge.to, edge);
     if (!first && edge.length_m < it->second.length_m) it->second = edge;
   }
-  for (const auto& [to, edge] : nearest) std::erase_if(edgesOf(to), [slot](const Edge& back) { return back.to == slot; });
-  edgesOf(slot) = {};
+  std::vector<Edge> neighbours;
+  for (const auto& [to, edge] : nearest) {
+    neighbours.push_back(edge);
+    part(slot, to);
+  }
   edgesOf(slot).shrink_to_fit();
   slots_[static_cast<std::size_t>(node)] = -1;
   free_.push_back(slot);
-  for (auto a = nearest.begin(); a != nearest.end(); ++a)
-    for (auto b = std::next(a); b != nearest.end(); ++b) bridge(a->second, b->second);
+  bridge(neighbours, spare_m);
 }
 
-// In place of the way over a node that is taken out, unless another way is as short.
-void ClosureGraph::bridge(const Edge& a, const Edge& b) {
-  const double length_m = a.length_m + b.length_m;
-  const Paths others = search({nodes_[static_cast<std::size_t>(a.to)]}, length_m);
-  if (others.reached_[static_cast<std::size_t>(b.to)].length_m > length_m)
-    join(a.to, b.to, a.from_to.inverse() * b.from_to, length_m);
+// The way over a node that is taken out, in place of what joined two of its neighbours before.
+void ClosureGraph::bridge(const std::vector<Edge>& neighbours, double spare_m) {
+  for (auto a = neighbours.begin(); a != neighbours.end(); ++a) {
+    double longest_m = 0;
+    for (auto b = std::next(a); b != neighbours.end(); ++b) longest_m = std::max(longest_m, a->length_m + b->length_m);
+    if (longest_m == 0) return;  // the last one
+    const Paths others = search({nodes_[static_cast<std::size_t>(a->to)]}, longest_m + spare_m);
+    for (auto b = std::next(a); b != neighbours.end(); ++b) {
+      const double length_m = a->length_m + b->length_m;
+      if (others.reached_[static_cast<std::size_t>(b->to)].length_m <= length_m + spare_m) continue;
+      part(a->to, b->to);
+      join(a->to, b->to, a->from_to.inverse() * b->from_to, length_m);
+    }
+  }
 }
 
 ClosureGraph::Paths ClosureGraph::search(const std::vector<int>& starts, double longest_m) const {

@@ -37,11 +37,14 @@ class ClosureGraph {
   void addNode(bool connected, const Pose2& last_from_this, double length_m);
   /// Nothing when one of them was taken out.
   void addClosure(int a, int b, const Pose2& a_from_b, double length_m);
-  /// Takes out a node, which must not be the last one. The lengths of the shortest paths between the others stay.
-  void remove(int node);
+  /// Takes out a node, which must not be the last one. Its neighbours are joined by the way over it, unless another is at
+  /// most `spare_m` longer: with none, the lengths of the shortest paths between the others stay; with some, few edges do.
+  void remove(int node, double spare_m);
   /// Those added; those of them that are there.
   int size() const { return static_cast<int>(slots_.size()); }
   int held() const { return static_cast<int>(edges_.size() - free_.size()); }
+  /// Each counted once.
+  std::size_t edges() const;
   /// Dijkstra, ties broken by the lower number. The graph must not change while the paths are in use; what was taken out begins none.
   Paths reachedFrom(int start) const { return reachedFromAny({start}); }
   Paths reachedFromAny(const std::vector<int>& starts) const {
@@ -58,7 +61,8 @@ class ClosureGraph {
   int slotOf(int node) const { return slots_[static_cast<std::size_t>(node)]; }
   std::vector<Edge>& edgesOf(int slot) { return edges_[static_cast<std::size_t>(slot)]; }
   void join(int slot_a, int slot_b, const Pose2& a_from_b, double length_m);
-  void bridge(const Edge& a, const Edge& b);
+  void part(int slot_a, int slot_b);
+  void bridge(const std::vector<Edge>& neighbours, double spare_m);
 
   std::vector<int> slots_;                // by node; -1: taken out
   std::vector<std::vector<Edge>> edges_;  // by slot

@@ -206,7 +206,7 @@ SubmapLoopCloser::Probe SubmapLoopCloser::probeOf(int scan) const {
   return out;
 }
 
-std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_robot) {
+std::vector<RelativePose> SubmapLoopCloser::search(const PoseAt& world_from_robot) {
   std::vector<RelativePose> found;
   if (waiting_.empty() || submaps_.empty()) {
     waiting_.clear();
@@ -235,7 +235,7 @@ std::vector<RelativePose> SubmapLoopCloser::search(const Trajectory& world_from_
 const std::optional<Pose2>& SubmapLoopCloser::PlacesInWorld::of(int scan) {
   const auto [it, first] = known_.try_emplace(scan);
   if (first)
-    if (const auto pose = world_from_robot_.at(scans_[static_cast<std::size_t>(scan)].t)) it->second = planarPart(*pose);
+    if (const auto pose = world_from_robot_(scans_[static_cast<std::size_t>(scan)].t)) it->second = planarPart(*pose);
   return it->second;
 }
 

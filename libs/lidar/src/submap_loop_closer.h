@@ -27,7 +27,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   void declareParameters(ParameterVisitor& visitor) override;
   void prepare() override;
   void add(const Scan& scan, const ScanMatch& match) override;
-  std::vector<RelativePose> search(const Trajectory& world_from_robot) override;
+  std::vector<RelativePose> search(const PoseAt& world_from_robot) override;
   std::optional<RelativePose> verify(const RelativePose& proposed) override;
   void release() override;
   /// Submaps that were not given up.
@@ -49,11 +49,11 @@ class SubmapLoopCloser : public ScanLoopCloser {
   /// Where kept scans are in world, looked up once each; nothing where the world does not know.
   class PlacesInWorld {
    public:
-    PlacesInWorld(const Trajectory& world_from_robot, const std::vector<Scan>& scans) : world_from_robot_(world_from_robot), scans_(scans) {}
+    PlacesInWorld(const PoseAt& world_from_robot, const std::vector<Scan>& scans) : world_from_robot_(world_from_robot), scans_(scans) {}
     const std::optional<Pose2>& of(int scan);
 
    private:
-    const Trajectory& world_from_robot_;
+    const PoseAt& world_from_robot_;
     const std::vector<Scan>& scans_;
     std::unordered_map<int, std::optional<Pose2>> known_;
   };

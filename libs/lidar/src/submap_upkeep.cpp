@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kRecentSubmaps = 6;  // may yet be closed with what comes
 constexpr double kSamePlace_m = 0.6, kSameDirection_rad = 0.6;
 constexpr double kLeastRepeated = 0.9;  // share of its scans
+constexpr double kSpareWay_m = 0.5;     // by which a way may seem longer once a scan on it is given up: the graph stays sparse
 constexpr double kTied_m = 12;          // of path over closures, within which places are surely told apart
 
 bool isSameView(const Pose2& a, const Pose2& b) {
@@ -79,7 +80,7 @@ void SubmapLoopCloser::giveUp(KeptSubmap& submap) {
       if (nearest[scan].length_m < kTied_m) stands_for_[scan] = {nearest[scan].start, nearest[scan].start_from_node};
   }
   for (const int scan : scans) {
-    graph_.remove(scan);
+    graph_.remove(scan, kSpareWay_m);
     Scan& empty = scans_[static_cast<std::size_t>(scan)];
     empty.ranges_m = {}, empty.valid = {};
     empty.ranges_m.shrink_to_fit(), empty.valid.shrink_to_fit();

@@ -66,7 +66,8 @@ SlamResult SemanticSlam::collect() {
   Trajectory dense;
   for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
-  result.world_from_robot = result.map.world_from_robot = dense.poses();
+  result.map.world_from_robot.assign(dense.poses().begin(), dense.poses().end());
+  result.world_from_robot = result.map.world_from_robot;
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
   mapOccupancy(result, dense);
   return result;

@@ -276,7 +276,7 @@ void SemanticSlam::giveUpRepeated() {
 bool SemanticSlam::closeLoopsOfScans() {
   const auto& closer = setup_->stages.scan_loop_closer;
   if (!closer || estimator_.poses().empty()) return false;
-  const auto closures = closer->search(estimator_.poses().trajectory());
+  const auto closures = closer->search([&](double t) { return estimator_.poses().between(t); });
   addClosures(closures);
   return !closures.empty();
 }

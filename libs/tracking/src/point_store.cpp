@@ -5,20 +5,25 @@
 namespace roomgraph::tracking {
 
 MapPoint& PointStore::add() {
+  if (size_ % kPage == 0) pages_.push_back(std::make_unique<Page>());
   if (free_.empty()) {
-    places_.push_back(static_cast<std::int32_t>(points_.size()));
-    return points_.emplace_back();
+    free_.push_back(static_cast<std::int32_t>(points_.size()));
+    points_.emplace_back();
   }
-  places_.push_back(free_.back());
+  const std::int32_t place = free_.back();
   free_.pop_back();
-  return points_[at(size() - 1)];
+  pages_.back()->places[size_++ % kPage] = place;
+  return points_[static_cast<std::size_t>(place)];
 }
 
 void PointStore::release(std::size_t id) {
-  if (places_[id] == kReleased) return;
-  points_[at(id)] = {};
-  free_.push_back(places_[id]);
-  places_[id] = kReleased;
+  const std::int32_t place = placeOf(id);
+  if (place == kReleased) return;
+  points_[static_cast<std::size_t>(place)] = {};
+  free_.push_back(place);
+  auto& page = pages_[id / kPage];
+  page->places[id % kPage] = kReleased;
+  if (++page->released == kPage) page.reset();
 }
 
 }  // namespace roomgraph::tracking

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace roomgraph::tracking {
@@ -34,10 +36,13 @@ struct MapPoint {
 class PointStore {
  public:
   /// Of points that there were; ids are lower.
-  std::size_t size() const { return places_.size(); }
+  std::size_t size() const { return size_; }
   /// That of an id whose point was released is an erased one, which is not to be changed.
-  MapPoint& operator[](std::size_t id) { return places_[id] == kReleased ? released_ : points_[at(id)]; }
-  const MapPoint& operator[](std::size_t id) const { return places_[id] == kReleased ? released_ : points_[at(id)]; }
+  MapPoint& operator[](std::size_t id) { return const_cast<MapPoint&>(std::as_const(*this)[id]); }
+  const MapPoint& operator[](std::size_t id) const {
+    const std::int32_t place = placeOf(id);
+    return place == kReleased ? released_ : points_[static_cast<std::size_t>(place)];
+  }
   /// The point of the next id.
   MapPoint& add();
   /// The point is erased, and its memory given back.
@@ -47,9 +52,19 @@ class PointStore {
 
  private:
   static constexpr std::int32_t kReleased = -1;
-  std::size_t at(std::size_t id) const { return static_cast<std::size_t>(places_[id]); }
+  static constexpr std::size_t kPage = 1024;
+  /// Places of as many ids in a row; none once all of them are released.
+  struct Page {
+    std::array<std::int32_t, kPage> places;
+    std::size_t released = 0;
+  };
+  std::int32_t placeOf(std::size_t id) const {
+    const auto& page = pages_[id / kPage];
+    return page ? page->places[id % kPage] : kReleased;
+  }
 
-  std::vector<std::int32_t> places_;  ///< of each id
+  std::size_t size_ = 0;
+  std::vector<std::unique_ptr<Page>> pages_;
   std::deque<MapPoint> points_;
   std::vector<std::int32_t> free_;  ///< places
   MapPoint released_{.erased = true};

@@ -58,6 +58,11 @@ class FactorGraph {
   /// Throws std::invalid_argument when the landmark of a LandmarkBoxFactor or PointLandmarkFactor has no
   /// size.
   void add(const Factor& factor);
+  /// A movement between poses of two bodies, each of several poses: it counts once addSums() has put one factor in place of all
+  /// between the same two. That costs what they cost to the second order, with the weights that robust losses give them at the
+  /// estimate as it is now. Any other movement is added at once. Poses are attached before.
+  void addToSum(const BetweenFactor& factor);
+  void addSums();
 
   /// Minimises over everything that is not fixed. The yaw of a landmark is variable only if a factor measures it, its
   /// size only with a LandmarkSizeFactor.

@@ -22,11 +22,12 @@ struct MapFix {
 
 /// Measurements of the poses other than by the sources of motion.
 struct Measurements {
-  std::vector<RelativePose> closures;  ///< between robots at two times
+  GrowingList<RelativePose> closures;  ///< between robots at two times
   std::vector<GroundFactor> grounds;   ///< handheld camera only
   bool planar = true;                  ///< a robot on the floor
   std::vector<MapFix> fixes;           ///< with any, world is held by them and not by the first key pose
   std::vector<RelativePose> pulls;     ///< closures that hold without a robust loss, too
+  GrowingList<std::size_t> closures_before = {};  ///< by key pose: how many closures there were when it was added
 };
 
 /// Whether any source of motion covers the time from one key pose to the other.

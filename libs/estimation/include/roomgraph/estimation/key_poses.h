@@ -2,6 +2,7 @@
 // Key poses of the graph and robot poses interpolated between them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "roomgraph/backend/factors.h"
@@ -39,6 +40,8 @@ class KeyPoses {
   /// Pose at any time, interpolated between the predictions from the key poses before and after; the nearest key pose
   /// when no source of motion covers the time. There must be a key pose.
   Pose3 at(double t) const;
+  /// The same by the key poses alone, as trajectory() has it; nothing before the first and after the last.
+  std::optional<Pose3> between(double t) const;
   /// Movement from a key pose to a time near it; none when no source of motion covers it.
   Pose3 offset(const KeyPose& node, double t) const;
   /// What the estimate says of a closure's two times beyond the closure itself: identity where they agree.

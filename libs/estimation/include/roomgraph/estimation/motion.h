@@ -53,7 +53,7 @@ class MotionSource {
   MotionNoise noise_;
   bool planar_;
   Trajectory poses_;
-  std::vector<std::pair<double, Matrix6d>> summed_;  // by time
+  GrowingList<std::pair<double, Matrix6d>> summed_;  // by time
   std::set<int> begun_;                              // segments
   std::set<double> beginnings_;                      // of segments, s
 };

@@ -61,7 +61,7 @@ class PoseEstimator {
   /// Whether the floor has been seen by a handheld camera, so that z is up in world.
   bool levelled() const { return levelled_; }
   /// Between robots at two times.
-  const std::vector<RelativePose>& closures() const { return measurements_.closures; }
+  const GrowingList<RelativePose>& closures() const { return measurements_.closures; }
   /// Closures by images that the drift since cannot have led to.
   int refusedClosures() const { return gate_.refused(); }
 
@@ -108,6 +108,7 @@ class PoseEstimator {
   void transform(const Pose3& new_from_old);
 
  private:
+  void addNode(double t, const Pose3& world_from_robot);
   SolveReport solution(const std::function<SolveReport()>& solve, const std::function<FactorGraph&()>& graph);
   void repeatSurprises();
   std::optional<GraphSolution> accept(const FactorGraph& graph, const SolveReport& report, std::size_t count,

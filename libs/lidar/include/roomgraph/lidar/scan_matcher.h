@@ -44,9 +44,9 @@ class ScanLoopCloser : public Stage {
  public:
   /// Takes every matched scan with its pose in the matcher's frame.
   virtual void add(const Scan& scan, const ScanMatch& match) = 0;
-  /// Searches with what is known now. `world_from_robot`: current best trajectory, used to choose candidates
+  /// Searches with what is known now. `world_from_robot`: by the current best trajectory, used to choose candidates
   /// and as the initial guess. Returns only closures not returned before (a_from_b of the robot, planar).
-  virtual std::vector<RelativePose> search(const Trajectory& world_from_robot) = 0;
+  virtual std::vector<RelativePose> search(const PoseAt& world_from_robot) = 0;
   /// Checks and refines a closure that something else proposed; nothing when the scans do not confirm it.
   virtual std::optional<RelativePose> verify(const RelativePose& proposed) {
     (void)proposed;

@@ -2,10 +2,12 @@
 // Time-ordered trajectory in segments with interpolation, and relative poses between instants.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "roomgraph/core/growing_list.h"
 #include "roomgraph/geometry/pose.h"
 
 namespace roomgraph {
@@ -20,7 +22,7 @@ struct RelativePose {
   bool link = false;  ///< goes on from one segment to the next, as a movement does: closes no loop
 };
 
-/// Poses of one source in its own frame, ordered by time; interpolates between them on SE(3).
+/// Poses of one source in its own frame, ordered by time; interpolates between them on SE(3). Copies are cheap (GrowingList).
 /// A source that lost track starts a new segment: there is nothing to interpolate between segments.
 class Trajectory {
  public:
@@ -28,7 +30,7 @@ class Trajectory {
   void add(double t, const Pose3& pose, int segment = 0);
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
-  const std::vector<StampedPose>& poses() const { return poses_; }
+  const GrowingList<StampedPose>& poses() const { return poses_; }
   int segment(std::size_t index) const { return segments_[index]; }
   double firstTime() const { return poses_.front().t; }
   double lastTime() const { return poses_.back().t; }
@@ -40,8 +42,11 @@ class Trajectory {
   std::optional<Pose3> between(double t_a, double t_b, double horizon_s = 0) const;
 
  private:
-  std::vector<StampedPose> poses_;
-  std::vector<int> segments_;
+  GrowingList<StampedPose> poses_;
+  GrowingList<int> segments_;
 };
+
+/// Pose at a time; nothing where it is not known.
+using PoseAt = std::function<std::optional<Pose3>(double t)>;
 
 }  // namespace roomgraph

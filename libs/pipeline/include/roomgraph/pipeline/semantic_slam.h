@@ -89,7 +89,7 @@ class SemanticSlam {
   const ObjectMapper& objects() const { return objects_; }
   /// The poses of the graph.
   const KeyPoses& keyPoses() const { return estimator_.poses(); }
-  const std::vector<RelativePose>& loopClosures() const { return estimator_.closures(); }
+  const GrowingList<RelativePose>& loopClosures() const { return estimator_.closures(); }
   /// Whether the robot drives on the floor; else the camera is handheld.
   bool planar() const { return estimator_.planar(); }
   const Setup& setup() const { return *setup_; }

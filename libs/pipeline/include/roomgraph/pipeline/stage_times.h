@@ -4,8 +4,8 @@
 
 #include <map>
 #include <string>
-#include <vector>
 
+#include "roomgraph/core/growing_list.h"
 #include "roomgraph/core/meter.h"
 
 namespace roomgraph {
@@ -47,13 +47,13 @@ class StageTimes {
   [[nodiscard]] Measured measure(const char* stage) { return {*this, stage}; }
 
   /// In the order in which they ended.
-  const std::vector<Call>& calls() const { return calls_; }
+  const GrowingList<Call>& calls() const { return calls_; }
   std::map<std::string, Totals> totals() const;
 
  private:
   double t_ = 0;
   double memory_mb_ = 0;  ///< when last looked at
-  std::vector<Call> calls_;
+  GrowingList<Call> calls_;
 };
 
 }  // namespace roomgraph
