@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 #include <random>
 #include <string>
@@ -73,6 +74,58 @@ TEST(GrowingList, ElementsDoNotMoveAndCopiesShareThem) {
   const GrowingList<int> copy = list;
   EXPECT_EQ(&copy.front(), first);
   EXPECT_EQ(&copy.back(), &list.back());
+}
+
+TEST(GrowingList, WhatWasMovedFromIsEmptyAndOfUse) {
+  GrowingList<int> list{1, 2, 3};
+  GrowingList<int> taken = std::move(list);
+  EXPECT_TRUE(list.empty());  // NOLINT: that is what is asked
+  list.push_back(4);
+  EXPECT_EQ(list.back(), 4);
+  EXPECT_EQ(list.size(), 1u);
+  EXPECT_EQ(taken.size(), 3u);
+  list = std::move(taken);
+  EXPECT_EQ(list.back(), 3);
+  EXPECT_TRUE(taken.empty());  // NOLINT
+}
+
+struct Thrower {
+  static inline int left = 0;
+  explicit Thrower(int of) : value(of) {
+    if (left-- == 0) throw std::bad_alloc();
+  }
+  int value;
+};
+
+// At the beginning of a chunk, within it, and where another list has gone on.
+TEST(GrowingList, StaysAsItWasWhereAnElementCannotBeMade) {
+  for (const int count : {0, 7, 256, 300}) {
+    GrowingList<Thrower> list;
+    Thrower::left = 10000;
+    for (int i = 0; i < count; ++i) list.emplace_back(i);
+    GrowingList<Thrower> copy = list;
+    copy.emplace_back(-1);
+    for (auto* of : {&list, &copy}) {
+      const std::size_t before = of->size();
+      Thrower::left = 0;
+      EXPECT_THROW(of->emplace_back(5), std::bad_alloc);
+      Thrower::left = 10000;
+      EXPECT_EQ(of->size(), before);
+      of->emplace_back(6);
+      EXPECT_EQ(of->back().value, 6);
+      for (int i = 0; i < count; ++i) ASSERT_EQ((*of)[static_cast<std::size_t>(i)].value, i);
+    }
+  }
+}
+
+TEST(GrowingList, AnElementOfItsOwnIsAdded) {
+  GrowingList<std::string> list{"a text that is too long to lie within its object"};
+  {
+    GrowingList<std::string> copy = list;
+    copy.push_back("another");
+  }
+  list.emplace_back(list.front());
+  EXPECT_EQ(list.back(), list.front());
 }
 
 struct Counted {

@@ -66,6 +66,7 @@ TEST(LiveSolve, LargerGraphsHaveLonger) {
   EXPECT_EQ(PoseEstimator::lagOf(1), 3u);
   EXPECT_EQ(PoseEstimator::lagOf(500), 5u) << "a hundredth";
   EXPECT_EQ(PoseEstimator::lagOf(3000), 30u);
+  EXPECT_EQ(PoseEstimator::lagOf(50000), 60u) << "that of 6000";
 }
 
 // How much movements between key poses have changed, those of [first, end).

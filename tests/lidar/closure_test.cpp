@@ -2,6 +2,7 @@
 // Shortest paths over closures, and confirmation by agreeing closures.
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 #include "closure_confirmation.h"
@@ -87,6 +88,7 @@ TEST(ClosureGraph, WhatIsTakenOutLeavesTheShortestPathsOfTheOthers) {
   std::uniform_real_distribution<double> unit(-1, 1), length(0.5, 2);
   ClosureGraph all, few, sparse;
   std::vector<int> there;
+  std::vector<double> longer;
   const auto anyNode = [&] { return there[std::uniform_int_distribution<std::size_t>(0, there.size() - 1)(random)]; };
   for (int i = 0; i < 120; ++i) {
     const Pose2 step{unit(random), unit(random), unit(random)};
@@ -113,10 +115,12 @@ TEST(ClosureGraph, WhatIsTakenOutLeavesTheShortestPathsOfTheOthers) {
       SCOPED_TRACE(testing::Message() << from << " to " << to);
       expectSamePath(is[to], expected[to]);
       EXPECT_GE(about[to].length_m, expected[to].length_m - 1e-9);
+      if (!std::isinf(expected[to].length_m)) longer.push_back(about[to].length_m - expected[to].length_m);
       EXPECT_EQ(std::isinf(about[to].length_m), std::isinf(expected[to].length_m));
     }
   }
   EXPECT_LT(sparse.edges(), few.edges());
+  EXPECT_LT(std::accumulate(longer.begin(), longer.end(), 0.0) / static_cast<double>(longer.size()), 1) << "the spare way";
 }
 
 TEST(ClosureGraph, WhatIsTakenOutIsOutOfReach) {
@@ -131,6 +135,13 @@ TEST(ClosureGraph, WhatIsTakenOutIsOutOfReach) {
   EXPECT_TRUE(std::isinf(graph.reachedFrom(4)[1].length_m));
   EXPECT_NEAR(graph.reachedFrom(5)[0].length_m, 5, 1e-12);
   EXPECT_NEAR(graph.reachedFrom(5)[0].start_from_node.x, -5, 1e-12);
+}
+
+TEST(ClosureGraph, WaysOfNoLengthAreWaysToo) {
+  ClosureGraph graph;
+  for (int i = 0; i < 4; ++i) graph.addNode(true, {}, 0);
+  graph.remove(1, 0.5);
+  EXPECT_EQ(graph.reachedFrom(3)[0].length_m, 0);
 }
 
 TEST(ClosureGraph, APathBeginsAtTheNearestOfSome) {

@@ -79,11 +79,10 @@ struct PosesInGraph {
 
 constexpr std::size_t kBody = 10;           // key poses that move together
 constexpr std::size_t kShortBodies = 1000;  // latest key poses whose bodies are no longer
-constexpr std::size_t kMostFree = 2000;     // key poses of which all are free
 
 // Key poses that move together where one is the latest but age - 1. Twice as many at twice the age: a long run adds few bodies.
 std::size_t bodyLength(std::size_t age, std::size_t all, std::size_t free) {
-  if (free == kAllFree ? all <= kMostFree : age <= free) return 1;
+  if (free == kAllFree ? !alwaysInBodies(all) : age <= free) return 1;
   std::size_t length = kBody;
   for (std::size_t oldest = kShortBodies; age > oldest; oldest *= 2) length *= 2;
   return length;
@@ -108,7 +107,8 @@ void addFloor(FactorGraph& graph, const std::vector<KeyPose>& nodes, const Backe
   for (std::size_t i = which.hold ? which.first + 1 : which.first; i < nodes.size(); ++i) {
     const std::size_t each = std::max(bodyLength(nodes.size() - i, nodes.size() - which.first, which.free) / kBody, std::size_t{1});
     const double share = 1 / std::sqrt(static_cast<double>(each));
-    if (i % each == 0)
+    const auto body = static_cast<std::size_t>(graph.bodyOf(nodes[i].id).value);
+    if ((i - body) % each == 0)
       graph.add(PlanarFactor{nodes[i].id, share * options.planar_sigma_z_m, share * options.planar_sigma_tilt_rad});
   }
 }
@@ -151,6 +151,11 @@ void addReplacedMaps(Window& window, const MarginalPrior& prior) {
 }
 
 }  // namespace
+
+bool alwaysInBodies(std::size_t key_poses) {
+  constexpr std::size_t kMostFree = 2000;
+  return key_poses > kMostFree;
+}
 
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})

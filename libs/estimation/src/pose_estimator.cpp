@@ -14,7 +14,18 @@ namespace {
 constexpr int kLiveIterations = 10;  // bounds the work beside a run; the next optimisation begins where this one ended
 constexpr int kNearIterations = 10;
 constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100;
+constexpr std::size_t kLongGraph = 6000;  // key poses: more of them are in few bodies, and take hardly longer to optimise
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
+constexpr int kMostWeighings = 4;
+constexpr double kSettled_m = 1e-3;
+
+// The largest distance of a key pose from where it was.
+double movedBetween(const std::vector<KeyPose>& before, const std::vector<KeyPose>& after) {
+  double most = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    most = std::max(most, (after[i].world_from_robot.translation() - before[i].world_from_robot.translation()).norm());
+  return most;
+}
 }
 
 PoseEstimator::PoseEstimator(const BackendOptions& options, const Motion& motion)
@@ -136,10 +147,11 @@ void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robo
   measurements_.grounds.push_back(factor);
 }
 
-// The pause grows with the graph, so that the work per key pose stays bounded on long runs.
+// The pause grows with the graph, so that the work per key pose stays bounded on long runs; not for ever, as what came since the
+// last optimisation moves in no bodies.
 bool PoseEstimator::due() const {
   if (live_ || again_) return !live_;
-  const int nodes = static_cast<int>(poses_.nodes().size());
+  const int nodes = static_cast<int>(std::min(poses_.nodes().size(), kLongGraph));
   const int pause = !surprises_.empty() ? std::max(options_.optimize_every_nodes / 2, nodes / 100)
                                           : std::max(options_.optimize_every_nodes, nodes / 20);
   return nodes_since_optimization_ >= pause;
@@ -207,7 +219,7 @@ bool PoseEstimator::takesOver() const {
 }
 
 std::size_t PoseEstimator::lagOf(std::size_t nodes) {
-  return std::max(kLeastLag, nodes / kNodesPerLag);
+  return std::max(kLeastLag, std::min(nodes, kLongGraph) / kNodesPerLag);
 }
 
 std::optional<GraphSolution> PoseEstimator::takeOver() {
@@ -255,11 +267,18 @@ std::optional<LandmarkEstimates> PoseEstimator::optimizeAll(const ObjectsInGraph
   nodes_since_optimization_ = 0;
   for (Surprise& surprise : surprises_) surprise.in_graph = true;
   const std::size_t free = effort == Effort::kNearInBodies ? static_cast<std::size_t>(options_.free_nodes) : kAllFree;
-  graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr, free);
-  const SolveReport report =
-      solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
-  graph_is_near_ = report.usable;
-  auto accepted = accept(graph_, report, poses_.nodes().size(), landmarksIn(graph_, objects));
+  // Closures between bodies are weighed by where these are when the graph is built: to the end, until that does not change.
+  const bool weigh_again = effort == Effort::kToTheEnd && alwaysInBodies(poses_.nodes().size());
+  std::optional<GraphSolution> accepted;
+  for (int round = 0; round < (weigh_again ? kMostWeighings : 1); ++round) {
+    const std::vector<KeyPose> before = poses_.nodes();
+    graph_ = buildGraph(poses_, motion_, measurements_, objects, options_, graph_is_near_ ? &graph_ : nullptr, free);
+    const SolveReport report =
+        solution([&] { return graph_.optimize(until); }, [&]() -> FactorGraph& { return graph_; });
+    graph_is_near_ = report.usable;
+    accepted = accept(graph_, report, poses_.nodes().size(), landmarksIn(graph_, objects));
+    if (!accepted || movedBetween(before, poses_.nodes()) < kSettled_m) break;
+  }
   return accepted ? std::optional(std::move(accepted->landmarks)) : std::nullopt;
 }
 

@@ -70,10 +70,9 @@ void ClosureGraph::remove(int node, double spare_m) {
 
 // The way over a node that is taken out, in place of what joined two of its neighbours before.
 void ClosureGraph::bridge(const std::vector<Edge>& neighbours, double spare_m) {
-  for (auto a = neighbours.begin(); a != neighbours.end(); ++a) {
+  for (auto a = neighbours.begin(); a != neighbours.end() && std::next(a) != neighbours.end(); ++a) {
     double longest_m = 0;
     for (auto b = std::next(a); b != neighbours.end(); ++b) longest_m = std::max(longest_m, a->length_m + b->length_m);
-    if (longest_m == 0) return;  // the last one
     const Paths others = search({nodes_[static_cast<std::size_t>(a->to)]}, longest_m + spare_m);
     for (auto b = std::next(a); b != neighbours.end(); ++b) {
       const double length_m = a->length_m + b->length_m;

@@ -172,7 +172,8 @@ std::vector<Pose3> Scene::partPoses(double seconds) const {
     if (parts_[i].person < 0) {
       const int object = parts_[i].object;
       out.push_back(parts_[i].fixed ? Pose3::Identity()
-                                    : worldFromObject(object, seconds) * worldFromObject(object, 0).inverse());
+                                    : worldFromObject(object, seconds) *
+                                          objects_[static_cast<std::size_t>(object)].world_from_object.inverse());
       ++i;
       continue;
     }

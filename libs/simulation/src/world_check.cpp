@@ -154,7 +154,8 @@ void checkRobotPath(const World& world, const std::vector<PlanBox>& areas) {
     const std::vector<Furniture> furniture = placesAt(world, *from);
     const auto next = std::next(from);
     const double until = next == arrangements.end() ? path.duration() : std::min(*next, path.duration());
-    for (double t = *from; t <= until; t += 0.05) {
+    // What is moved later must leave the robot where it rests.
+    for (double t = std::min(*from, path.duration()); t <= until; t += 0.05) {
       const Eigen::Vector2d at = path.at(t).translation().head<2>();
       checkPoint(world, areas, furniture, place, at, world.robot->radius_m);
       checkDoorsOnPath(world, place, at);

@@ -13,8 +13,9 @@
 
 namespace roomgraph {
 
-/// Elements are added at the end and never change or move. A copy is cheap, whatever the length: it shares the elements that
-/// are there, and both may go on by themselves, in different threads, too.
+/// Elements are added at the end and never change. A copy is cheap, a pointer for each 256 elements: it shares those that
+/// are there, and both may go on by themselves, in different threads, too. References hold as long as the list, those to its
+/// latest elements until it or a copy grows.
 template <class T>
 class GrowingList {
  public:
@@ -55,6 +56,17 @@ class GrowingList {
   using const_iterator = Iterator;
 
   GrowingList() = default;
+  GrowingList(const GrowingList&) = default;
+  GrowingList& operator=(const GrowingList&) = default;
+  GrowingList(GrowingList&& other) noexcept : chunks_(std::move(other.chunks_)), size_(std::exchange(other.size_, 0)) {
+    other.chunks_.clear();
+  }
+  GrowingList& operator=(GrowingList&& other) noexcept {
+    GrowingList taken(std::move(other));
+    std::swap(chunks_, taken.chunks_);
+    std::swap(size_, taken.size_);
+    return *this;
+  }
   GrowingList(std::initializer_list<T> elements) {
     for (const T& element : elements) push_back(element);
   }
@@ -70,14 +82,17 @@ class GrowingList {
   template <class... Arguments>
   void emplace_back(Arguments&&... arguments) {
     const std::size_t place = size_ % kChunk;
-    if (place == 0) chunks_.push_back(std::make_shared<Chunk>());
-    if (!chunks_.back()->claim(place)) {  // another list has gone on there
-      auto own = std::make_shared<Chunk>();
-      for (std::size_t i = 0; i < place; ++i) own->put(i, (*chunks_.back())[i]);
-      chunks_.back() = std::move(own);
-      chunks_.back()->claim(place);
+    std::shared_ptr<Chunk> chunk = place == 0 ? std::make_shared<Chunk>() : chunks_.back();
+    if (!chunk->claim(place)) {  // another list has gone on there
+      chunk = std::make_shared<Chunk>();
+      for (std::size_t i = 0; i < place; ++i) chunk->put(i, (*chunks_.back())[i]);
+      chunk->claim(place);
     }
-    chunks_.back()->construct(place, std::forward<Arguments>(arguments)...);
+    chunk->construct(place, std::forward<Arguments>(arguments)...);  // they may be of the chunk that is replaced
+    if (place == 0)
+      chunks_.push_back(std::move(chunk));
+    else
+      chunks_.back() = std::move(chunk);
     ++size_;
   }
   void push_back(T value) { emplace_back(std::move(value)); }

@@ -47,11 +47,14 @@ struct LocalMap {
 
 constexpr std::size_t kAllFree = std::numeric_limits<std::size_t>::max();
 
+/// Whether so many key poses move in bodies even where all are free: more than 2000.
+bool alwaysInBodies(std::size_t key_poses);
+
 /// Movements between consecutive key poses, local maps of images and scans with the key poses in them,
 /// priors, closures, ground and objects (method.md sec. 4.4, factors 1 to 6). With a `former` graph of the
 /// run, local maps, views and points begin where its solution left them. Only the latest `free` key poses have poses of their
 /// own; older ones move rigidly with the first one of their body: of ten, of twenty where a thousand came after, of forty where
-/// two thousand came, and so on. So do all that are free where they are more than 2000.
+/// two thousand came, and so on. So do all that are free where there are too many (alwaysInBodies()).
 FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                        const ObjectsInGraph& objects, const BackendOptions& options,
                        const FactorGraph* former = nullptr, std::size_t free = kAllFree);
