@@ -76,6 +76,14 @@ TEST(LandmarkEvidence, ATurnedLandmarkKeepsTheVotesOfItsSightings) {
   EXPECT_NEAR(std::abs(map.find(id)->yaw), 0, 1e-6);
 }
 
+WorldMeasurement sightingIn(int frame) {
+  WorldMeasurement seen = sightingAt(1, 1);
+  seen.measurement.frame = FrameId{frame};
+  seen.measurement.t = frame;
+  seen.measurement.proposal.score = 0.9;
+  return seen;
+}
+
 // Seen once, missed sixty times, seen three times again. In hindsight the evidence is weighed in this order:
 // the existence falls to its floor of .01, and three sightings of score .9 lift the odds by exp(5 (.9 - .2))
 // each.
@@ -84,10 +92,7 @@ TEST(LandmarkEvidence, HindsightWeighsDoubtsAtTheirTime) {
   std::vector<std::vector<WorldMeasurement>> frames;
   LandmarkId id;
   for (int frame = 0; frame < 4; ++frame) {
-    WorldMeasurement seen = sightingAt(1, 1);
-    seen.measurement.frame = FrameId{frame};
-    seen.measurement.t = frame;
-    seen.measurement.proposal.score = 0.9;
+    const WorldMeasurement seen = sightingIn(frame);
     frames.push_back({seen});
     id = map.update(seen, belongsTo(id));
     if (frame == 0)
@@ -118,10 +123,7 @@ TEST(LandmarkEvidence, HindsightWeighsFormerSightingsAtTheirTime) {
   std::vector<FormerSighting> former;
   LandmarkId id;
   for (int frame = 0; frame < 4; ++frame) {
-    WorldMeasurement seen = sightingAt(1, 1);
-    seen.measurement.frame = FrameId{frame};
-    seen.measurement.t = frame;
-    seen.measurement.proposal.score = 0.9;
+    const WorldMeasurement seen = sightingIn(frame);
     id = map.update(seen, belongsTo(id));
     if (frame == 0)
       for (int i = 0; i < 60; ++i) map.miss(id);

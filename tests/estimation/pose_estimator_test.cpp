@@ -210,6 +210,30 @@ TEST(PoseEstimator, DriftOverGapsIsThatOfTheirLinks) {
   EXPECT_LT(distance(estimator.poses().at(16), at(16)), 1e-6) << "without a loss that lets a link go";
 }
 
+// So many key poses move in bodies, and closures between the same two are summed with weights of where these are.
+TEST(PoseEstimator, SumsOfClosuresAreWeighedUntilTheySettle) {
+  constexpr int kMany = 2100;
+  const MotionSource none(MotionNoise{}, true);
+  Motion motion{MotionSource(kWheelNoise, true), none, none};
+  for (int k = 0; k <= 2 * kMany; ++k) motion.odometry.add(0.5 * k, poseFromYpr(0.1 * k, 0, 0, 0, 0, 0), 0);
+  const BackendOptions options;
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  for (int t = 0; t < kMany; ++t) ASSERT_TRUE(estimator.advance(t));
+  for (int i = 0; i < 5; ++i) {
+    RelativePose seen{.t_a = 1210.0 + i, .t_b = 2090.0 + i, .a_from_b = poseFromYpr(0.2 * 880, i < 3 ? 0.5 : 0.44, 0, 0, 0, 0)};
+    seen.covariance = 4e-4 * Matrix6d::Identity();
+    estimator.addClosures({seen});
+  }
+  const auto optimised = [&] {
+    const Eigen::Vector3d before = estimator.poses().nodes().back().world_from_robot.translation();
+    EXPECT_TRUE(estimator.optimizeAll({}));
+    return (estimator.poses().nodes().back().world_from_robot.translation() - before).norm();
+  };
+  EXPECT_GT(optimised(), 0.1) << "closures that say nothing prove nothing";
+  EXPECT_LT(optimised(), 1e-3);
+}
+
 // Far off, a robust loss lets closures of images go; two that agree pull the path to them first.
 TEST(PoseEstimator, TwoClosuresThatAgreePullAPathThatIsFarOff) {
   BackendOptions options;

@@ -16,7 +16,7 @@ constexpr int kNearIterations = 10;
 constexpr std::size_t kLeastLag = 3, kNodesPerLag = 100;
 constexpr std::size_t kLongGraph = 6000;  // key poses: more of them are in few bodies, and take hardly longer to optimise
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
-constexpr int kMostWeighings = 4;
+constexpr int kMostWeighings = 20;
 constexpr double kSettled_m = 1e-3;
 
 // The largest distance of a key pose from where it was.
