@@ -73,9 +73,10 @@ FAULTS = [
     Fault("clock-jump camera +0.5 s", "--clock-jump camera={a}:0.5", ("camera",), "clock jumps"),
     Fault("clock-jump lidar -0.5 s", "--clock-jump lidar={a}:-0.5", ("lidar",), "clock jumps"),
     Fault("wrong-extrinsics camera pitch 8", "--wrong-extrinsics camera=0,0,0,0,8,0", ("camera",), "floor is seen"),
-    Fault("wrong-extrinsics camera yaw 8", "--wrong-extrinsics camera=0,0,0,8,0,0", ("camera",), "pose|extrinsic"),
-    Fault("wrong-extrinsics lidar yaw 8", "--wrong-extrinsics lidar=0,0,0,8,0,0", ("lidar",), "pose|extrinsic"),
+    Fault("wrong-extrinsics camera yaw 8", "--wrong-extrinsics camera=0,0,0,8,0,0", ("camera",), "is turned by"),
+    Fault("wrong-extrinsics lidar yaw 8", "--wrong-extrinsics lidar=0,0,0,8,0,0", ("lidar",), "is turned by"),
     Fault("kidnap", "--kidnap {a}:{b}", (), "gap of"),
+    Fault("moving-furniture", "--moving-furniture {a}:{b}", ("odometry",), "returns_in_free_space"),
 ]
 
 
@@ -149,6 +150,8 @@ def statements(summary):
     for where in ("reasons", "records_skipped"):
         for text, count in summary[where].items():
             yield where, text, count
+    for what in ("returns_in_free_space", "returns_on_people"):
+        yield "counts", what, summary["counts"].get(what, 0)
     if summary["input_warning"]:
         yield "input_warning", summary["input_warning"], 1
 

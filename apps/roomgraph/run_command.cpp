@@ -149,6 +149,14 @@ RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& ne
   return origin;
 }
 
+// Of the recording, and of the movements that its sensors measured.
+Examination::Findings findingsOf(Examination& examination, const SemanticSlam& slam, bool quiet) {
+  Examination::Findings out = examination.findings(quiet);
+  if (out)
+    for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
+  return out;
+}
+
 void printWarnings(const ReadStatistics& read, const std::string& of_detector, const std::vector<Finding>& findings) {
   std::vector<std::string> warnings = read.sensor_warnings;
   warnings.insert(warnings.end(), {read.warning, of_detector});
@@ -229,7 +237,7 @@ void run(const RunOptions& options) {
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
-  if (examination && !replayed.interrupted) origin.findings = examination->findings(options.quiet);
+  if (examination && !replayed.interrupted) origin.findings = findingsOf(*examination, *slam, options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it

@@ -83,6 +83,52 @@ TEST_F(FrontEndsTest, TheCameraIsToldWhenScansSawTheMovement) {
   EXPECT_TRUE(fakes::world().expected[2]);
 }
 
+double wheelsTurnTooFar(const FrontEnds& front, double from, double until) {
+  const Pose2 moved = planarPart(front.motion().odometry.between(from, until, 0)->a_from_b), truth = Drive::truth(from).inverse() * Drive::truth(until);
+  return wrapAngle(moved.yaw - truth.yaw);
+}
+
+TEST_F(FrontEndsTest, ErrorsOfWheelsAreTakenOutWhenTheyAreKnownAndInTheEndFromTheBeginning) {
+  const Drive drive;
+  const double too_far = 0.06 * 2 * M_PI / Drive::kLap_s;  // what wheels turn too far in a second
+  const auto run = [&] {
+    for (double t = 0; t < 10.05; t += 0.1) {
+      front_->add(drive.odometry(t));
+      front_->track(Drive::frame(t), {});
+    }
+  };
+  run();
+  EXPECT_GT(front_->wheelCalibration().compared(), 10);
+  EXPECT_NEAR(wheelsTurnTooFar(*front_, 0, 1), too_far, 0.15 * too_far);
+  EXPECT_NEAR(wheelsTurnTooFar(*front_, 8, 9), 0, 0.15 * too_far);
+  front_->refine();
+  EXPECT_NEAR(wheelsTurnTooFar(*front_, 0, 1), 0, 0.15 * too_far);
+
+  setup_ = setupWith("[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n[lidar]\nenabled = false\n[odometry]\ncalibrate = false\n");
+  front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  run();
+  front_->refine();
+  EXPECT_EQ(front_->wheelCalibration().compared(), 0);
+  for (const double t : {0.0, 8.0}) EXPECT_NEAR(wheelsTurnTooFar(*front_, t, t + 1), too_far, 1e-9);
+}
+
+TEST_F(FrontEndsTest, SensorsAreComparedAndOneThatIsTurnedIsFound) {
+  setup_ = setupWith("[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n");
+  fakes::world().world_from_camera = [](double t) {
+    const Pose3 ahead = toPose3(Pose2{0.3 * t, 0, 0});
+    return ahead * toPose3(Pose2{0, 0, 0.1}) * Drive::robotFromCamera();
+  };
+  front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  for (double t = 0; t < 20; t += 0.1) {
+    front_->add({t, {0.3 * t, 0, 0}});
+    front_->track(Drive::frame(t), {});
+  }
+  const auto turned = front_->agreement().turned(MotionSensor::kCamera, MotionSensor::kWheels);
+  ASSERT_TRUE(turned);
+  EXPECT_NEAR(turned->rad, -0.1, 1e-6) << "ahead is to the right of where the camera was said to look";
+  EXPECT_FALSE(front_->agreement().turned(MotionSensor::kCamera, MotionSensor::kLidar));
+}
+
 // A camera that is unsure along its optical axis means a robot that is unsure ahead.
 TEST_F(FrontEndsTest, UncertaintyOfTheCameraIsTurnedIntoTheRobot) {
   Matrix6d of_camera = Matrix6d::Zero();

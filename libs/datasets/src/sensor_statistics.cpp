@@ -221,6 +221,7 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
   constexpr double kLeastTurn = 0.1, kLargestTurn = 0.5;  // rad
   constexpr double kLargestMove = 0.08;                   // m: more would change the ranges themselves
   constexpr std::size_t kLeastPairs = 5, kMostPairs = 200;
+  constexpr double kDiffers = 0.1, kAgrees = 0.08;
   if (odometry.size() < 2 || summary_.beams < 30 || !(summary_.aperture_rad > 0)) return std::nullopt;
   const double step = summary_.aperture_rad / (summary_.beams - 1);
   const double direction = summary_.right_to_left ? 1 : -1;
@@ -240,7 +241,10 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
     i = j;
   }
   if (ratios.size() < kLeastPairs) return std::nullopt;
-  return median(ratios);
+  // Arcs close to walls change ranges as turns do: some ratios are wrong by that, but hardly three quarters of them.
+  const double middle = median(ratios), nearer_one = quantile(ratios, middle > 1 ? 0.25 : 0.75);
+  if (std::abs(middle - 1) > kDiffers && std::abs(nearer_one - 1) < kAgrees) return std::nullopt;
+  return middle;
 }
 
 std::optional<double> beamShift(const std::vector<float>& before, const std::vector<float>& after,

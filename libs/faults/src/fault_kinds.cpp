@@ -9,6 +9,7 @@
 #include "clock_jump.h"
 #include "fault_text.h"
 #include "image_faults.h"
+#include "moving_furniture.h"
 #include "pose_fault.h"
 #include "record_faults.h"
 #include "roomgraph/core/errors.h"
@@ -93,6 +94,11 @@ Made makeWrongExtrinsics(FaultText text, const Random&) {
   return std::make_unique<WrongExtrinsicsFault>(sensor, text.pose(), window);
 }
 
+Made makeMovingFurniture(const FaultText& text, const Random&) {
+  const auto [window, speed_m_s] = text.windowAndNumber(0.25);
+  return std::make_unique<MovingFurnitureFault>(window, speed_m_s);
+}
+
 const std::vector<KindEntry>& kindTable() {
   static const std::vector<KindEntry> table{
       dropOf("camera", kCamera),
@@ -119,7 +125,10 @@ const std::vector<KindEntry>& kindTable() {
       inWindow<NoDepthFault>({"no-depth", "A:B", "depth images without a valid pixel; colour stays"}),
       {{"wrong-extrinsics", "SENSOR=x,y,z,yaw,pitch,roll[@A:B]",
         "recorded pose of the camera or lidar off by so much (m, deg, along the robot's axes)"},
-       makeWrongExtrinsics}};
+       makeWrongExtrinsics},
+      {{"moving-furniture", "A:B[:SPEED]",
+        "a cupboard is pushed to and fro before the robot, at SPEED (0.25 m/s); needs odometry"},
+       makeMovingFurniture}};
   return table;
 }
 

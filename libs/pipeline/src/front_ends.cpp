@@ -2,6 +2,9 @@
 // Motion priors between sources, covariances of their steps, and verification of closures.
 #include "roomgraph/pipeline/front_ends.h"
 
+#include <algorithm>
+#include <array>
+
 #include "predicted_movement.h"
 #include "roomgraph/geometry/covariance.h"
 #include "roomgraph/observations/mounting.h"
@@ -15,10 +18,27 @@ Pose3 ofRobot(const Pose3& camera_movement, const Pose3& robot_from_camera) {
   return robot_from_camera * camera_movement * robot_from_camera.inverse();
 }
 
+constexpr double kAgreement_s = 0.5, kLate_s = 1;  // movements of which sensors are compared; a sensor that is late by more is away
+constexpr double kCompared_m = 0.25, kCompared_rad = 0.25, kCompared_s = 2;  // movements by which wheels are calibrated
+
 // Scans may have been matched before their turn, which a run that was interrupted did not come to.
 Trajectory upTo(const Trajectory& all, double t) {
   Trajectory out;
   for (std::size_t i = 0; i < all.size() && all.poses()[i].t <= t; ++i) out.add(all.poses()[i].t, all.poses()[i].pose, all.segment(i));
+  return out;
+}
+
+// Wheels with what is known of their errors in the end.
+Trajectory calibrated(const Trajectory& as_read, const WheelCalibration& calibration) {
+  Trajectory out;
+  const auto& poses = as_read.poses();
+  Pose2 before = planarPart(poses[0].pose), at = before;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose2 now = planarPart(poses[i].pose);
+    at = at * calibration.corrected(before.inverse() * now);
+    before = now;
+    out.add(poses[i].t, toPose3(at), as_read.segment(i));
+  }
   return out;
 }
 
@@ -29,6 +49,7 @@ FrontEnds::FrontEnds(const Stages& stages, const Options& options)
       options_(options),
       motion_{MotionSource(options.odometry.noise, true), MotionSource(options.tracking.noise, false),
               MotionSource(options.lidar.noise, true)},
+      wheels_as_read_(options.odometry.noise, true),
       scans_ahead_(std::make_unique<ScansAhead>(
           stages.scan_matcher, options.odometry.enabled ? std::optional(options.odometry.noise) : std::nullopt)) {}
 
@@ -40,7 +61,46 @@ void FrontEnds::setPlanar() {
 
 bool FrontEnds::add(const OdometryReading& reading) {
   setPlanar();
-  return motion_.odometry.add(reading.t, toPose3(reading.odom_from_robot), 0);
+  const Pose2 before = wheels_as_read_.poses().empty() ? reading.odom_from_robot : planarPart(wheels_as_read_.poses().poses().back().pose);
+  if (!wheels_as_read_.add(reading.t, toPose3(reading.odom_from_robot), 0)) return false;
+  const Pose2 step = before.inverse() * reading.odom_from_robot;
+  wheels_ = wheels_ ? *wheels_ * calibration_.corrected(step) : reading.odom_from_robot;
+  return motion_.odometry.add(reading.t, toPose3(*wheels_), 0);
+}
+
+// Of the movement up to the last time that every sensor has seen which goes on.
+void FrontEnds::compareSensors() {
+  const std::array sources = {&motion_.lidar, &motion_.visual, &motion_.odometry};
+  double latest = 0;
+  for (const auto* source : sources)
+    if (!source->poses().empty()) latest = std::max(latest, source->poses().lastTime());
+  double until = latest;
+  for (const auto* source : sources)
+    if (!source->poses().empty() && source->poses().lastTime() > latest - kLate_s) until = std::min(until, source->poses().lastTime());
+  const double from = compared_t_.value_or(until);
+  if (compared_t_ && until < from + kAgreement_s) return;
+  compared_t_ = until;
+  MovementBySensor seen;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (until > from && !(sources[i] == &motion_.visual && predicted_t_ >= from)) seen[i] = sources[i]->between(from, until, 0);
+  agreement_.compare(from, until, seen);
+}
+
+// Over movements that both have seen to their end.
+void FrontEnds::calibrateWheels(const MotionSource& other) {
+  const auto& poses = other.poses().poses();
+  if (!options_.odometry.calibrate || poses.size() < 2 || wheels_as_read_.poses().empty()) return;
+  const double t = poses[poses.size() - 2].t;  // the last one that wheels saw the movement to
+  const double from = calibrated_t_.value_or(t);
+  const auto wheels = wheels_as_read_.between(from, t, 0), seen = other.between(from, t, 0);
+  if (!calibrated_t_ || !wheels || !seen) {
+    calibrated_t_ = t;
+    return;
+  }
+  const bool far = wheels->a_from_b.translation().norm() > kCompared_m || rotationAngle(wheels->a_from_b) > kCompared_rad;
+  if (!far && t - from < kCompared_s) return;
+  calibration_.compare(planarPart(wheels->a_from_b), *seen);
+  calibrated_t_ = t;
 }
 
 TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {
@@ -48,14 +108,20 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
   if (isMounted(frame)) setPlanar();
   TrackingPrior prior{.dynamic_regions = people};
   if (last_frame_t_)
-    if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&motion_.odometry, &motion_.lidar}))
+    if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&wheels_as_read_, &motion_.lidar}))
       prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
   prior.by_scans = last_frame_t_ && predictedMovement(*last_frame_t_, frame.t, {&motion_.lidar});
   last_frame_t_ = frame.t;
   TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
+  if (result.predicted) {  // by what it would be compared with
+    calibrated_t_.reset();
+    predicted_t_ = frame.t;
+  }
   if (result.tracked || result.predicted)
     motion_.visual.add(frame.t, ofRobot(result.odom_from_camera, robot_from_camera_), result.segment,
                        rotateCovariance(result.step_covariance, robot_from_camera_.linear()));
+  if (motion_.lidar.poses().empty() || motion_.lidar.poses().lastTime() < frame.t - kCompared_s) calibrateWheels(motion_.visual);
+  compareSensors();
   return result;
 }
 
@@ -68,13 +134,15 @@ ScanMatch FrontEnds::match(const Scan& scan) {
   setPlanar();
   std::optional<Pose2> prior;
   if (last_scan_t_)
-    if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&motion_.odometry, &motion_.visual})) prior = planarPart(*moved);
+    if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&wheels_as_read_, &motion_.visual})) prior = planarPart(*moved);
   last_scan_t_ = scan.t;
   auto foreseen = scans_ahead_->take(scan.t);
   ScanMatch result = foreseen ? std::move(*foreseen) : stages_.scan_matcher->match(scan, prior);
   if (result.matched)
     motion_.lidar.add(scan.t, toPose3(result.odom_from_robot), result.segment,
                       planarCovariance(result.step_covariance));
+  calibrateWheels(motion_.lidar);
+  compareSensors();
   return result;
 }
 
@@ -114,6 +182,8 @@ void FrontEnds::refine() {
   if (stages_.scan_matcher && last_scan_t_)
     if (const Trajectory scans = upTo(stages_.scan_matcher->trajectory(), *last_scan_t_); !scans.empty())
       motion_.lidar.refine(scans);
+  if (options_.odometry.calibrate && !wheels_as_read_.poses().empty())
+    motion_.odometry.refine(calibrated(wheels_as_read_.poses(), calibration_));
 }
 
 void FrontEnds::releaseImages() {

@@ -60,6 +60,9 @@ void LidarOptions::declareParameters(ParameterVisitor& v) {
 void OdometryOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled, {.doc = "Whether wheel odometry is used."});
   declareLabel(label, v);
+  v.add("calibrate", calibrate,
+        {.doc = "Whether the scale of lengths and turns, and the drift, of the wheels are learnt from scans, or from images where there are "
+                "none, and taken out."});
   noise.declare(v);
 }
 

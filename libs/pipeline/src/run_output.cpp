@@ -88,6 +88,17 @@ ordered_json calibrationJson(const std::string& file, const ReadStatistics& read
   return {{"file", file}, {"poses", poses}, {"records_corrected", read.corrected}};
 }
 
+// Named as in a calibration file: what movements of the wheels are multiplied by, and turned per metre.
+ordered_json wheelsJson(const WheelCalibration& calibration) {
+  const auto [length, turn, turn_per_m] = calibration.errors();
+  const Eigen::Vector3d sigma = calibration.standardDeviations();
+  return {{"movements_compared", calibration.compared()},
+          {"scale", 1 / (1 + length)},
+          {"turn_scale", 1 / (1 + turn)},
+          {"drift_rad_m", -turn_per_m / (1 + turn)},
+          {"sigma", {{"scale", sigma[0]}, {"turn_scale", sigma[1]}, {"drift_rad_m", sigma[2]}}}};
+}
+
 // Nothing when the recording was not examined.
 ordered_json findingsJson(const std::optional<std::vector<Finding>>& findings) {
   if (!findings) return nullptr;
@@ -116,6 +127,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["reasons"] = result.counts.reasons;
   if (const auto& file = slam.setup().options.general.calibration_file; !file.empty())
     summary["calibration"] = calibrationJson(file, read);
+  if (slam.wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.wheelCalibration());
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;

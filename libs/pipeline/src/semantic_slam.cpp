@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "detection_schedule.h"
+#include "movement_findings.h"
 #include "people_in_view.h"
 #include "roomgraph/core/heap.h"
 #include "roomgraph/observations/mounting.h"
@@ -323,6 +324,10 @@ bool SemanticSlam::anchor() {
 // Landmarks of the map that were seen again take over their ids.
 void SemanticSlam::continueInMap() {
   if (map_ && map_->anchoring()) objects_.continueIds(map_->map().landmarks);
+}
+
+std::vector<Finding> SemanticSlam::movementFindings() const {
+  return roomgraph::movementFindings(front_ends_.agreement(), first_t_.value_or(0));
 }
 
 SlamResult SemanticSlam::finish() {

@@ -92,7 +92,7 @@ struct ScanSummary {
   SameRecords same;
   double largest_change_m = 0;  ///< mean difference per beam of a scan to the first one, largest
   /// Rotation by odometry over that seen in the scans, in turns on the spot (1 when all is well, negative
-  /// when the scans are mirrored); nothing when there are too few such turns.
+  /// when the scans are mirrored); nothing when there are too few such turns, or a quarter of them say that all is well and the median not.
   std::optional<double> rotation_ratio;
 };
 

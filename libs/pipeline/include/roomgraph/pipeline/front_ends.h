@@ -2,6 +2,7 @@
 // Odometry front ends: wheels, visual tracking and scan matching, each predicting for the others.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "roomgraph/estimation/motion.h"
+#include "roomgraph/estimation/movement_agreement.h"
+#include "roomgraph/estimation/wheel_calibration.h"
 #include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/pipeline/options.h"
 #include "roomgraph/pipeline/stages.h"
@@ -26,6 +29,10 @@ class FrontEnds {
   ~FrontEnds();
 
   const Motion& motion() const { return motion_; }
+  /// What wheels err by, as far as images or scans told.
+  const WheelCalibration& wheelCalibration() const { return calibration_; }
+  /// Whether the sensors measured the same movements.
+  const MovementAgreement& agreement() const { return agreement_; }
 
   /// False when the stamp does not come after the last one.
   bool add(const OdometryReading& reading);
@@ -50,10 +57,19 @@ class FrontEnds {
   void toRobot(RelativePose& of_camera) const;
   /// The robot drives on a floor: known of all its poses from now on.
   void setPlanar();
+  void compareSensors();
+  void calibrateWheels(const MotionSource& other);
 
   const Stages& stages_;
   const Options& options_;
-  Motion motion_;
+  Motion motion_;               ///< of wheels without their errors
+  MotionSource wheels_as_read_;  ///< what predicts: scans may be matched before their turn, and images would follow what they taught
+  WheelCalibration calibration_;
+  std::optional<Pose2> wheels_;          ///< the last pose in motion_
+  std::optional<double> calibrated_t_;  ///< until then wheels were compared
+  MovementAgreement agreement_;
+  std::optional<double> compared_t_;  ///< until then sensors were compared
+  double predicted_t_ = -std::numeric_limits<double>::infinity();  ///< of the last image whose place was only predicted
   std::unique_ptr<ScansAhead> scans_ahead_;
   std::optional<double> last_frame_t_, last_scan_t_;
   Pose3 robot_from_camera_ = Pose3::Identity();

@@ -47,7 +47,7 @@ struct LidarOptions : Configurable {
 
 /// [odometry]
 struct OdometryOptions : Configurable {
-  bool enabled = true;
+  bool enabled = true, calibrate = true;
   std::string label;
   MotionNoise noise{0.01, 0.10, 0.01, 0.15, 0.10};
   void declareParameters(ParameterVisitor& v) override;

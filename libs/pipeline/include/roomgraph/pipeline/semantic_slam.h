@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/estimation/floor_consensus.h"
 #include "roomgraph/estimation/map_anchor.h"
@@ -95,6 +96,10 @@ class SemanticSlam {
   const Setup& setup() const { return *setup_; }
   /// Adds work on the record being processed that was done elsewhere to the times.
   void account(const char* stage, const Work& work) { times_.add(stage, work); }
+  /// What wheels were found to err by.
+  const WheelCalibration& wheelCalibration() const { return front_ends_.wheelCalibration(); }
+  /// What the movements that the sensors measured say against each other, worst first.
+  std::vector<Finding> movementFindings() const;
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What sensors that measure the same movements differently say about the robot.
+#pragma once
+
+#include <vector>
+
+#include "roomgraph/datasets/rawlog_report.h"
+#include "roomgraph/estimation/movement_agreement.h"
+
+namespace roomgraph {
+
+/// Sensors that contradict the others, and sensors whose pose on the robot is turned, in words. Times are from `start_t` on.
+std::vector<Finding> movementFindings(const MovementAgreement& agreement, double start_t);
+
+}  // namespace roomgraph
