@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph run`: replay of a rawlog through SemanticSlam, with progress, map, snapshot and debug output.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -152,8 +153,9 @@ RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& ne
 // Of the recording, and of the movements that its sensors measured.
 Examination::Findings findingsOf(Examination& examination, const SemanticSlam& slam, bool quiet) {
   Examination::Findings out = examination.findings(quiet);
-  if (out)
-    for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
+  if (!out) return out;
+  for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
+  std::stable_sort(out->begin(), out->end(), [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return out;
 }
 

@@ -52,7 +52,8 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"beams_crossed", &E::beams_crossed},
                                                              {"above_filled", &E::above_filled},
                                                              {"uneven", &E::uneven},
-                                                             {"confidence", &E::confidence}};
+                                                             {"confidence", &E::confidence},
+                                                             {"missed_since", &E::missed_since}};
   ASSERT_EQ(fields.size(), E::kNames.size());
   for (const auto& [name, field] : fields) {
     ExistenceOptions options;

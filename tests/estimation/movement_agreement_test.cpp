@@ -50,26 +50,29 @@ TEST(MovementAgreement, NobodyIsToBlameWhereAllDifferOrTwoAreThereOrTheDifferenc
   agreement.compare(0, 1, {seenAs(0, 0, 0), seenAs(0.3, 0, 0), seenAs(-0.3, 0, 0)});
   agreement.compare(1, 2, {seenAs(0, 0, 0), seenAs(0.3, 0, 0), std::nullopt});
   agreement.compare(2, 3, {seenAs(0, 0, 0), seenAs(0, 0, 0), seenAs(0.3, 0, 0, 0.2)});
+  agreement.compare(3, 4, {seenAs(0, 0, 0), seenAs(0.1, 0, 0), seenAs(0.03, 0, 0, 0.05)});
   agreement.compare(3, 4, {seenAs(0, 0, 0, 1e-4), seenAs(0, 0, 0, 1e-4), seenAs(0.02, 0, 0, 1e-4)});
   EXPECT_TRUE(agreement.contradictions().empty());
 }
 
+// Half a circle: a sensor that is mounted backwards.
 TEST(MovementAgreement, AWayThatIsTurnedTellsBySoMuch) {
-  MovementAgreement agreement;
+  using enum MotionSensor;
   Random random(1);
-  const double turn = 0.14;
-  for (int i = 0; i < 40; ++i) {
-    const double length = random.uniform(0.15, 0.4);
-    const auto along = [&](double angle) { return seenAs(length * std::cos(angle), length * std::sin(angle), 0); };
-    agreement.compare(i, i + 1, {along(0.01 * random.normal()), along(turn + 0.01 * random.normal()), along(0.01 * random.normal())});
-  }
-  for (const auto& [a, b, expected] : {std::tuple(MotionSensor::kCamera, MotionSensor::kLidar, turn), {MotionSensor::kLidar, MotionSensor::kCamera, -turn},
-                                       {MotionSensor::kCamera, MotionSensor::kWheels, turn}, {MotionSensor::kWheels, MotionSensor::kCamera, -turn},
-                                       {MotionSensor::kLidar, MotionSensor::kWheels, 0.0}, {MotionSensor::kWheels, MotionSensor::kLidar, 0.0}}) {
-    const auto found = agreement.turned(a, b);
-    ASSERT_TRUE(found) << toString(a) << ' ' << toString(b);
-    EXPECT_NEAR(found->rad, expected, 0.01) << toString(a) << ' ' << toString(b);
-    EXPECT_NEAR(found->sigma_rad, 1.253 * 0.01 * std::sqrt(2) / std::sqrt(40), 1e-3);
+  for (const double turn : {0.14, M_PI}) {
+    MovementAgreement agreement;
+    for (int i = 0; i < 40; ++i) {
+      const double length = random.uniform(0.15, 0.4);
+      const auto along = [&](double angle) { return seenAs(length * std::cos(angle), length * std::sin(angle), 0); };
+      agreement.compare(i, i + 1, {along(0.01 * random.normal()), along(turn + 0.01 * random.normal()), along(0.01 * random.normal())});
+    }
+    for (const auto& [a, b, expected] : {std::tuple(kCamera, kLidar, turn), {kLidar, kCamera, -turn}, {kCamera, kWheels, turn},
+                                         {kWheels, kCamera, -turn}, {kLidar, kWheels, 0.0}, {kWheels, kLidar, 0.0}}) {
+      const auto found = agreement.turned(a, b);
+      ASSERT_TRUE(found) << toString(a) << ' ' << toString(b);
+      EXPECT_NEAR(wrapAngle(found->rad - expected), 0, 0.01) << toString(a) << ' ' << toString(b);
+      EXPECT_NEAR(found->sigma_rad, 1.253 * 0.01 * std::sqrt(2) / std::sqrt(40), 1e-3);
+    }
   }
 }
 

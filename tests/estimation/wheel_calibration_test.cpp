@@ -39,25 +39,18 @@ void expectErrors(const WheelErrors& found, const WheelErrors& truth, double wit
 TEST(WheelCalibration, KnowsNothingAtFirst) {
   const WheelCalibration calibration;
   expectErrors(calibration.errors(), {}, 0);
-  const Pose2 moved = calibration.corrected({0.3, 0.1, -0.2});
-  EXPECT_EQ(moved.x, 0.3);
-  EXPECT_EQ(moved.y, 0.1);
-  EXPECT_EQ(moved.yaw, -0.2);
+  EXPECT_EQ(calibration.compared(), 0);
 }
 
-TEST(WheelCalibration, FindsTheErrorsAndTakesThemOut) {
+TEST(WheelCalibration, FindsTheErrors) {
   WheelCalibration calibration;
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
     const Pose2 truth = drawnMovement(random);
     calibration.compare(measured(truth), seen(truth, 1e-3, 1e-3));
   }
-  EXPECT_EQ(calibration.compared(), 3000);
+  EXPECT_GT(calibration.compared(), 2500);
   expectErrors(calibration.errors(), kErrors, 1e-3);
-  const Pose2 truth = drawnMovement(random), back = calibration.corrected(measured(truth));
-  EXPECT_NEAR(back.x, truth.x, 1e-3);
-  EXPECT_NEAR(back.y, truth.y, 1e-3);
-  EXPECT_NEAR(back.yaw, truth.yaw, 1e-3);
 }
 
 TEST(WheelCalibration, ASlipIsOutweighed) {
@@ -98,6 +91,37 @@ TEST(WheelCalibration, DeviationsAreWhatTheErrorsAre) {
     EXPECT_GT(mean, 0.6);
     EXPECT_LT(mean, 1.4);
   }
+}
+
+// Where wheels stand what is seen is noise, which has a length.
+TEST(WheelCalibration, HoursOfRestSayNothing) {
+  WheelCalibration calibration;
+  Random random(4);
+  for (int i = 0; i < 20000; ++i) calibration.compare({}, seen({0.003 * random.normal(), 0.003 * random.normal(), 0.003 * random.normal()}, 0.002, 0.002));
+  expectErrors(calibration.errors(), {}, 0);
+  EXPECT_EQ(calibration.compared(), 0);
+}
+
+// A lidar 5 cm from where it is said to be moves by itself when the robot turns on the spot.
+TEST(WheelCalibration, TurnsOnTheSpotSayNothingOfLengthsWhereverTheSensorSits) {
+  WheelCalibration calibration;
+  const Pose2 wrong_by{0.05, 0.03, 0};
+  for (int i = 0; i < 300; ++i) {
+    const Pose2 spot{0, 0, i % 2 ? 0.26 : -0.26}, ahead{0.26, 0, 0};
+    for (const Pose2& truth : {spot, spot, ahead}) calibration.compare(truth, seen(wrong_by * truth * wrong_by.inverse(), 1e-3, 1e-3));
+  }
+  expectErrors(calibration.errors(), {}, 1e-3);
+}
+
+TEST(WheelCalibration, RobotsThatDriveBackwardsErrAlike) {
+  WheelCalibration calibration;
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const double turn = random.uniform(-0.3, 0.3);
+    const Pose2 truth{-0.3 * std::cos(turn / 2), -0.3 * std::sin(turn / 2), turn};
+    calibration.compare(measured(truth), seen(truth, 1e-3, 1e-3));
+  }
+  expectErrors(calibration.errors(), kErrors, 1e-3);
 }
 
 TEST(WheelCalibration, AMovementWithoutLengthSaysNothingOfLengths) {

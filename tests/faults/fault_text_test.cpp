@@ -79,6 +79,8 @@ TEST(FaultText, PosesWithAndWithoutWindow) {
   EXPECT_TRUE(textOf("0,0,0,1,0,0").takeWindowAtEnd().contains(1e9));
   refuses([] { textOf("1,2").pose(); }, "2 numbers instead of 6");
   refuses([] { textOf("0,0,0,0,0,0").pose(); }, "no fault");
+  refuses([] { textOf("1:2:11").windowAndNumber(1, 10); }, "must not be above 10");
+  refuses([] { textOf("1:2:0").windowAndNumber(1, 10); }, "must be above 0");
   refuses([] { textOf("1,0,0,0,0,0@5").takeWindowAtEnd(); }, "behind '@'");
 }
 
@@ -89,6 +91,7 @@ TEST(FaultKinds, EachIsMadeOfAValueOfItsPattern) {
       {"[SENSOR=]A:B", "odometry=1:2"},
       {"[SENSOR=]A:SECONDS", "1:-2"},
       {"[SENSOR=]A:B[:FACTOR]", "camera=1:2:3"},
+      {"A:B[:SPEED]", "1:2:0.5"},
       {"SENSOR=x,y,z,yaw,pitch,roll[@A:B]", "lidar=0,0,1,0,0,0@1:2"}};
   for (const auto& kind : faultKinds()) {
     ASSERT_TRUE(values.contains(kind.value)) << kind.value;

@@ -126,6 +126,10 @@ TEST(MovingFurniture, NothingIsDrawnWithoutWheelsOutsideTheTimeOrIntoTheRobot) {
   MovingFurnitureFault fault(kWindow, kSpeed);
   const auto out = through(fault, {wideScan(2, 4), view(2), standing(2), wideScan(0.9, 4), wideScan(9, 4), boxesAt(3)});
   for (const auto& record : out) EXPECT_TRUE(keepsBytes(record));
+  MovingFurnitureFault two(kWindow, kSpeed);
+  auto fused = odometryAt(0.5, 7);
+  fused.observation->sensorLabel = "FUSED";
+  EXPECT_NEAR(scanOf(through(two, {standing(0), wideScan(1, 4), fused, wideScan(2, 4)})[3]).getScanRange(20), kFront_m, 1e-5) << "the first wheels count";
   MovingFurnitureFault close(kWindow, kSpeed);
   const auto inside = through(close, {standing(0), wideScan(1, 4), odometryAt(2, 1.5), wideScan(2, 4)});
   EXPECT_TRUE(keepsBytes(inside[3]));

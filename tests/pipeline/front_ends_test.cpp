@@ -112,6 +112,23 @@ TEST_F(FrontEndsTest, ErrorsOfWheelsAreTakenOutWhenTheyAreKnownAndInTheEndFromTh
   for (const double t : {0.0, 8.0}) EXPECT_NEAR(wheelsTurnTooFar(*front_, t, t + 1), too_far, 1e-9);
 }
 
+// Slow sensors say little of what was between two of their records.
+TEST_F(FrontEndsTest, WheelsMayBeSlowerThanTheCameraAndASlowCameraIsNotCompared) {
+  const Drive drive;
+  for (int i = 0; i <= 100; ++i) {
+    if (i % 2 == 0) front_->add(drive.odometry(0.1 * i));
+    front_->track(Drive::frame(0.1 * i), {});
+  }
+  EXPECT_GT(front_->wheelCalibration().compared(), 10);
+
+  start();
+  for (int i = 0; i <= 400; ++i) {
+    front_->add({0.1 * i, {0.03 * i, 0, 0}});
+    if (i % 10 == 0) front_->track(Drive::frame(0.1 * i), {});
+  }
+  EXPECT_FALSE(front_->agreement().turned(MotionSensor::kCamera, MotionSensor::kWheels));
+}
+
 TEST_F(FrontEndsTest, SensorsAreComparedAndOneThatIsTurnedIsFound) {
   setup_ = setupWith("[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n");
   fakes::world().world_from_camera = [](double t) {

@@ -27,7 +27,7 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
-constexpr const char* kSensorHangs = ": the same as the four before it while the wheels turn, the sensor hangs";
+constexpr const char* kSensorHangs = ": the same as those before it while the wheels turned, the sensor hangs";
 
 struct RecordConverter::Impl {
   Impl(const ReadOptions& read_options, const std::filesystem::path& recording)

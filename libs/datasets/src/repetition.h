@@ -32,8 +32,8 @@ class Repetition {
   std::size_t hash_ = 0;
 };
 
-/// Tells when a sensor hangs: the same record for at least the fifth time, while the wheels say that the robot moves.
-/// A simulated sensor without noise repeats itself wherever the robot stands.
+/// Tells when a sensor hangs: the same record again, though the wheels say that the robot has moved since the first of them. The second time will do
+/// of a sensor whose records have changed five times before, else the fifth. A simulated sensor without noise repeats itself wherever the robot stands.
 class HangingSensor {
  public:
   /// A record at time t (s), and where the wheels have the robot then, if they say so; whether the sensor hangs.
@@ -42,6 +42,7 @@ class HangingSensor {
  private:
   Repetition same_;
   std::optional<Pose2> wheels_before_;  ///< at the first record of the run
+  int changes_ = 0;
 };
 
 /// Every n-th pixel of an image along both axes, all channels.

@@ -242,8 +242,9 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
   }
   if (ratios.size() < kLeastPairs) return std::nullopt;
   // Arcs close to walls change ranges as turns do: some ratios are wrong by that, but hardly three quarters of them.
-  const double middle = median(ratios), nearer_one = quantile(ratios, middle > 1 ? 0.25 : 0.75);
-  if (std::abs(middle - 1) > kDiffers && std::abs(nearer_one - 1) < kAgrees) return std::nullopt;
+  const double middle = median(ratios);
+  if (middle > 1 + kDiffers && quantile(ratios, 0.25) < 1 + kAgrees) return std::nullopt;
+  if (middle > 0 && middle < 1 - kDiffers && quantile(ratios, 0.75) > 1 - kAgrees) return std::nullopt;
   return middle;
 }
 

@@ -226,6 +226,14 @@ double detectionLogOdds(const std::set<double>& sighting_times, const std::vecto
   return std::log(static_cast<double>(detected + 1) / static_cast<double>(missed + 1));
 }
 
+// After somebody carried it away, places from which it was seen before show that it is gone. Five of them say all that misses can.
+double missedSince(const std::set<double>& sighting_times, const std::vector<double>& times_in_view) {
+  constexpr double kMost = 5;
+  if (sighting_times.empty()) return 0;
+  const auto later = std::upper_bound(times_in_view.begin(), times_in_view.end(), *sighting_times.rbegin() + kSameMoment_s);
+  return std::min(kMost, static_cast<double>(times_in_view.end() - later));
+}
+
 }  // namespace
 
 std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& landmarks,
@@ -244,6 +252,7 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
     evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
     setSightings(evidence, sums[landmark.id], sure_score);
     evidence.detected = detectionLogOdds(sums[landmark.id].times, good_views[landmark.id]);
+    evidence.missed_since = missedSince(sums[landmark.id].times, good_views[landmark.id]);
     if (const auto own = landmark.class_posterior.find(landmark.class_name);
         own != landmark.class_posterior.end())
       evidence.label = own->second;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "roomgraph/core/order_statistics.h"
+
 namespace roomgraph {
 namespace {
 
@@ -44,10 +46,10 @@ double angleBetween(const Movement& from, const Movement& to) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+double circularMean(const std::vector<double>& angles) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const double angle : angles) sum += Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  return std::atan2(sum.y(), sum.x());
 }
 
 }  // namespace
@@ -67,17 +69,19 @@ void MovementAgreement::compare(double from_t, double until_t, const MovementByS
     const Movement &one = *seen[i], &other = *seen[(i + 1) % kSensors], &third = *seen[(i + 2) % kSensors];
     const Difference first = differenceOf(one, other), second = differenceOf(one, third);
     if (differ(first) && differ(second) && differenceOf(other, third).squared < kAgrees)
-      add({kMotionSensors[i], from_t, until_t, first.off.head<2>().norm(), std::abs(first.off.z())});
+      add({kMotionSensors[i], from_t, until_t, std::max(first.off.head<2>().norm(), second.off.head<2>().norm()),
+           std::max(std::abs(first.off.z()), std::abs(second.off.z()))});
   }
 }
 
 void MovementAgreement::add(const Contradiction& now) {
-  const auto goesOn = [&now](const Contradiction& known) { return known.sensor == now.sensor && known.until_t == now.from_t; };
-  const auto known = std::find_if(contradictions_.rbegin(), contradictions_.rend(), goesOn);
-  if (known == contradictions_.rend()) {
+  auto& last = last_[static_cast<std::size_t>(now.sensor)];
+  if (!last || contradictions_[*last].until_t != now.from_t) {
+    last = contradictions_.size();
     contradictions_.push_back(now);
     return;
   }
+  Contradiction* known = &contradictions_[*last];
   known->until_t = now.until_t;
   known->off_m = std::max(known->off_m, now.off_m);
   known->off_rad = std::max(known->off_rad, now.off_rad);
@@ -88,9 +92,12 @@ std::optional<TurnedBy> MovementAgreement::turned(MotionSensor sensor, MotionSen
   const bool next = (i + 1) % kSensors == j;
   std::vector<double> turns = turns_[next ? i : j];
   if (turns.size() < kLeastWays) return std::nullopt;
+  const double middle = circularMean(turns);  // angles about it do not jump at half a circle
+  for (double& turn : turns) turn = wrapAngle(turn - middle);
   // Of a normal distribution the quartiles are 1.349 standard deviations apart, and a median errs by 1.253 / sqrt(n) of one.
   const double median = quantile(turns, 0.5), spread = (quantile(turns, 0.75) - quantile(turns, 0.25)) / 1.349;
-  return TurnedBy{next ? median : -median, 1.253 * spread / std::sqrt(static_cast<double>(turns.size()))};
+  const double turned = wrapAngle(middle + median);
+  return TurnedBy{next ? turned : -turned, 1.253 * spread / std::sqrt(static_cast<double>(turns.size()))};
 }
 
 }  // namespace roomgraph

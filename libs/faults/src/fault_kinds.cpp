@@ -95,7 +95,8 @@ Made makeWrongExtrinsics(FaultText text, const Random&) {
 }
 
 Made makeMovingFurniture(const FaultText& text, const Random&) {
-  const auto [window, speed_m_s] = text.windowAndNumber(0.25);
+  constexpr double kFastest_m_s = 10;
+  const auto [window, speed_m_s] = text.windowAndNumber(0.25, kFastest_m_s);
   return std::make_unique<MovingFurnitureFault>(window, speed_m_s);
 }
 

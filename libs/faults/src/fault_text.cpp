@@ -85,11 +85,12 @@ FaultWindow FaultText::takeWindowAtEnd() {
   return windowOf(parts[0], parts[1]);
 }
 
-std::pair<FaultWindow, double> FaultText::windowAndNumber(double usual) const {
+std::pair<FaultWindow, double> FaultText::windowAndNumber(double usual, double most) const {
   const auto parts = splitAtColons(rest_);
   if (parts.size() != 2 && parts.size() != 3) refuse("'" + rest_ + "' is not a span of time");
   const double value = parts.size() == 3 ? number(parts[2]) : usual;
-  if (!(value > 0)) refuse("the factor must be above 0");
+  if (!(value > 0)) refuse("the number behind the span must be above 0");
+  if (value > most) refuse("the number behind the span must not be above " + std::to_string(std::lround(most)));
   return {windowOf(parts[0], parts[1]), value};
 }
 

@@ -27,8 +27,8 @@ class FaultText {
   FaultWindow takeWindowAtEnd();
   /// "A:B", "A:" or ":B".
   FaultWindow window() const;
-  /// "A:B" as a window, or "A:B:C" with the number C; `usual` is C when there is none.
-  std::pair<FaultWindow, double> windowAndNumber(double usual) const;
+  /// "A:B" as a window, or "A:B:C" with the number C; `usual` is C when there is none. C is above 0 and at most `most`.
+  std::pair<FaultWindow, double> windowAndNumber(double usual, double most = 1e6) const;
   /// "A:SECONDS".
   std::pair<double, double> timeAndShift() const;
   /// "A".

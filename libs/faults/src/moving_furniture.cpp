@@ -111,6 +111,10 @@ bool draw(CObservation3DRangeScan& images, const Pose3& box_from_robot) {
   bool any = !hidden.empty() && cv::countNonZero(hidden) > 0;
   if (images.hasIntensityImage && !images.intensityImage.isEmpty())
     any |= drawPicture(images, box_from_sensor * toPose3(images.relativePoseIntensityWRTDepth), hidden);
+  if (any) {  // those of the room as it was
+    images.hasPoints3D = false;
+    images.resizePoints3DVectors(0);
+  }
   return any;
 }
 
@@ -137,9 +141,14 @@ std::optional<double> entersBox(const Eigen::Vector3d& origin, const Eigen::Vect
   return first;
 }
 
-void MovingFurnitureFault::remember(double t, const Pose2& odom_from_robot) {
-  before_ = last_ && t > last_->t ? last_ : std::nullopt;
-  last_ = Reading{t, odom_from_robot};
+void MovingFurnitureFault::remember(const PassingRecord& record) {
+  const auto& pose = dynamic_cast<const mrpt::obs::CObservationOdometry&>(*record.observation).odometry;
+  const Pose2 odom_from_robot{pose.x(), pose.y(), pose.phi()};
+  if (!std::isfinite(odom_from_robot.x) || !std::isfinite(odom_from_robot.y) || !std::isfinite(odom_from_robot.yaw)) return;
+  if (!last_) label_ = record.label();
+  if (record.label() != label_) return;
+  before_ = last_ && record.t > last_->t ? last_ : std::nullopt;
+  last_ = Reading{record.t, odom_from_robot};
 }
 
 // Wheels tell of other times than images.
@@ -150,9 +159,8 @@ Pose3 MovingFurnitureFault::robotAt(double t) const {
 }
 
 PassingRecords MovingFurnitureFault::pass(PassingRecord record) {
-  if (const auto* reading = dynamic_cast<const mrpt::obs::CObservationOdometry*>(record.observation.get())) {
-    const Pose2 pose{reading->odometry.x(), reading->odometry.y(), reading->odometry.phi()};
-    if (std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw)) remember(record.t, pose);
+  if (record.sensor == FaultySensor::kOdometry) {
+    remember(record);
     return one(std::move(record));
   }
   if (!last_ || !window_.contains(record.t)) return one(std::move(record));

@@ -24,7 +24,7 @@ struct MovingBox {
 /// Where a ray from outside enters a MovingBox, in lengths of `direction`; nothing when it does not. Both in the box's frame.
 std::optional<double> entersBox(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-/// Puts a MovingBox into what camera and lidar see, where the wheels say that the robot is: nothing before the first reading of them,
+/// Puts a MovingBox into what camera and lidar see, where the wheels (the first ones of the recording) say that the robot is: nothing before the first reading of them,
 /// and nothing while the robot would stand in it. Recorded detections stay as they are.
 class MovingFurnitureFault : public Fault {
  public:
@@ -32,7 +32,7 @@ class MovingFurnitureFault : public Fault {
   PassingRecords pass(PassingRecord record) override;
 
  private:
-  void remember(double t, const Pose2& odom_from_robot);
+  void remember(const PassingRecord& record);
   Pose3 robotAt(double t) const;
 
   struct Reading {
@@ -43,6 +43,7 @@ class MovingFurnitureFault : public Fault {
   MovingBox box_;
   bool begun_ = false;
   std::optional<Reading> last_, before_;
+  std::string label_;  ///< of the wheels that count: the first ones
 };
 
 }  // namespace roomgraph

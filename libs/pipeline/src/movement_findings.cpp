@@ -46,25 +46,38 @@ bool isTurned(const std::optional<TurnedBy>& by) {
   return by && std::abs(by->rad) > std::max(kTurned_rad, kTurnedSigmas * by->sigma_rad);
 }
 
-Finding turnedFinding(MotionSensor sensor, const TurnedBy& by, const std::string& others) {
+Finding turnedFinding(const std::string& place, const char* pattern, const TurnedBy& by, const std::string& others, const std::string& hint) {
   char text[200];
-  std::snprintf(text, sizeof text, "its way is turned by %.1f deg (+- %.1f) against that of %s", by.rad / kDegree, by.sigma_rad / kDegree, others.c_str());
-  return {Severity::kWarning, text, toString(sensor), "the yaw of its recorded pose on the robot is wrong by as much: roomgraph calibrate"};
+  std::snprintf(text, sizeof text, pattern, by.rad / kDegree, by.sigma_rad / kDegree, others.c_str());
+  return {Severity::kWarning, text, place, hint};
 }
 
-std::string namesOf(bool wheels, bool other_too, MotionSensor other) {
-  const std::string name = toString(other);
-  return wheels ? other_too ? "wheels and " + name : "wheels" : name;
+constexpr const char* kItsWay = "its way is turned by %.1f deg (+- %.1f) against that of %s";
+
+// One sensor against the wheels, which say what is straight ahead: it, or they.
+std::optional<Finding> turnedAgainstWheels(MotionSensor sensor, const TurnedBy& by) {
+  if (!isTurned(by)) return std::nullopt;
+  return turnedFinding(toString(sensor), kItsWay, by, "wheels", "the yaw of its recorded pose on the robot is wrong by as much, or the wheels do not drive along x");
 }
 
-// The way of a sensor that is turned against all others; of two, the one that is not the wheels, which say what is straight on.
+// Of three sensors the one that is turned against both others, of two camera and lidar one or the other.
 void addTurned(const MovementAgreement& agreement, std::vector<Finding>& out) {
-  for (const MotionSensor sensor : {MotionSensor::kCamera, MotionSensor::kLidar}) {
-    const MotionSensor other = sensor == MotionSensor::kCamera ? MotionSensor::kLidar : MotionSensor::kCamera;
-    const auto by_other = agreement.turned(sensor, other), by_wheels = agreement.turned(sensor, MotionSensor::kWheels);
-    if (by_wheels ? isTurned(by_wheels) && (!by_other || isTurned(by_other)) : sensor == MotionSensor::kCamera && isTurned(by_other))
-      out.push_back(turnedFinding(sensor, by_wheels ? *by_wheels : *by_other, namesOf(by_wheels.has_value(), by_other.has_value(), other)));
+  using enum MotionSensor;
+  const auto camera_lidar = agreement.turned(kCamera, kLidar), camera_wheels = agreement.turned(kCamera, kWheels), lidar_wheels = agreement.turned(kLidar, kWheels);
+  if (camera_lidar && camera_wheels && lidar_wheels) {
+    const std::string hint = "the yaw of its recorded pose on the robot is wrong by as much: roomgraph calibrate";
+    if (!isTurned(camera_lidar)) return;
+    if (isTurned(camera_wheels)) out.push_back(turnedFinding("camera", kItsWay, *camera_wheels, "wheels and lidar", hint));
+    if (isTurned(lidar_wheels)) out.push_back(turnedFinding("lidar", kItsWay, *lidar_wheels, "wheels and camera", hint));
+    return;
   }
+  if (isTurned(camera_lidar))
+    out.push_back(turnedFinding("camera and lidar", "their ways are turned by %.1f deg (+- %.1f) against each other%s", *camera_lidar, "",
+                                "the yaw of the recorded pose of one of them on the robot is wrong by as much"));
+  if (camera_wheels)
+    if (auto found = turnedAgainstWheels(kCamera, *camera_wheels)) out.push_back(std::move(*found));
+  if (lidar_wheels)
+    if (auto found = turnedAgainstWheels(kLidar, *lidar_wheels)) out.push_back(std::move(*found));
 }
 
 }  // namespace
@@ -74,7 +87,6 @@ std::vector<Finding> movementFindings(const MovementAgreement& agreement, double
   addTurned(agreement, out);
   for (const MotionSensor sensor : kMotionSensors)
     if (auto found = contradictionsOf(sensor, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
-  std::stable_sort(out.begin(), out.end(), [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return out;
 }
 

@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// Sensors that contradict the others, and sensors whose pose on the robot is turned, in words. Times are from `start_t` on.
+/// Sensors whose pose on the robot is turned, and sensors that contradict the others, in words. Times are from `start_t` on.
 std::vector<Finding> movementFindings(const MovementAgreement& agreement, double start_t);
 
 }  // namespace roomgraph

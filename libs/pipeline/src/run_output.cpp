@@ -89,13 +89,13 @@ ordered_json calibrationJson(const std::string& file, const ReadStatistics& read
 }
 
 // Named as in a calibration file: what movements of the wheels are multiplied by, and turned per metre.
-ordered_json wheelsJson(const WheelCalibration& calibration) {
-  const auto [length, turn, turn_per_m] = calibration.errors();
-  const Eigen::Vector3d sigma = calibration.standardDeviations();
-  return {{"movements_compared", calibration.compared()},
-          {"scale", 1 / (1 + length)},
-          {"turn_scale", 1 / (1 + turn)},
-          {"drift_rad_m", -turn_per_m / (1 + turn)},
+ordered_json wheelsJson(const FrontEnds& sensors) {
+  const WheelCorrection correction = sensors.wheelCorrection();
+  const Eigen::Vector3d sigma = sensors.wheelCalibration().standardDeviations();
+  return {{"movements_compared", sensors.wheelCalibration().compared()},
+          {"scale", correction.scale},
+          {"turn_scale", correction.turn_scale},
+          {"drift_rad_m", correction.drift_rad_m},
           {"sigma", {{"scale", sigma[0]}, {"turn_scale", sigma[1]}, {"drift_rad_m", sigma[2]}}}};
 }
 
@@ -127,7 +127,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["reasons"] = result.counts.reasons;
   if (const auto& file = slam.setup().options.general.calibration_file; !file.empty())
     summary["calibration"] = calibrationJson(file, read);
-  if (slam.wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.wheelCalibration());
+  if (slam.frontEnds().wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.frontEnds());
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;

@@ -45,18 +45,19 @@ struct ExistenceEvidence {
   double above_filled = 0;  ///< of all but doors: share of the space above its middle where depth rays ended
   double uneven =
       0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
+  double missed_since = 0;  ///< places with it in good view after its last sighting, 5 at most: it may be gone
 
-  static constexpr std::array<std::string_view, 22> kNames = {
+  static constexpr std::array<std::string_view, 23> kNames = {
       "filter",        "sightings",    "directions", "score",     "label",          "scatter",
       "turned",        "size",         "measured",   "detected",  "contested",      "outdone",
       "mislabelled",   "crossed",      "filled",     "spread",    "beside_crossed", "beside_filled",
-      "beams_crossed", "above_filled", "uneven",     "confidence"};
+      "beams_crossed", "above_filled", "uneven",     "confidence", "missed_since"};
   /// In the order of kNames.
-  std::array<double, 22> values() const {
+  std::array<double, kNames.size()> values() const {
     return {filter,        sightings,    directions, score,     label,          scatter,
             turned,        size,         measured,   detected,  contested,      outdone,
             mislabelled,   crossed,      filled,     spread,    beside_crossed, beside_filled,
-            beams_crossed, above_filled, uneven,     confidence};
+            beams_crossed, above_filled, uneven,     confidence, missed_since};
   }
 };
 

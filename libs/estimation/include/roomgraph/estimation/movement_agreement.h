@@ -44,6 +44,7 @@ class MovementAgreement {
   void add(const Contradiction& now);
 
   std::vector<Contradiction> contradictions_;
+  std::array<std::optional<std::size_t>, kMotionSensors.size()> last_;  // contradiction of each
   std::array<std::vector<double>, kMotionSensors.size()> turns_;  // of each against the next one
 };
 

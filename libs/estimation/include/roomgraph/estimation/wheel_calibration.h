@@ -20,15 +20,14 @@ class WheelCalibration {
  public:
   WheelCalibration();
 
-  /// The same movement as wheels measured it, as they were read, and by images or scans.
+  /// The same movement as wheels measured it, as they were read, and by images or scans. Rest says nothing, and turns on the spot say
+  /// nothing of lengths.
   void compare(const Pose2& wheels, const Movement& other);
 
-  /// The movement of wheels without their errors, as far as these are known.
-  Pose2 corrected(const Pose2& wheels) const;
   WheelErrors errors() const { return {errors_[0], errors_[1], errors_[2]}; }
   /// Of length, turn, turn_per_m.
   Eigen::Vector3d standardDeviations() const;
-  /// How many movements were compared.
+  /// How many movements said something.
   int compared() const { return compared_; }
 
  private:

@@ -12,6 +12,7 @@
 #include "roomgraph/estimation/motion.h"
 #include "roomgraph/estimation/movement_agreement.h"
 #include "roomgraph/estimation/wheel_calibration.h"
+#include "roomgraph/datasets/calibration_file.h"
 #include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/pipeline/options.h"
 #include "roomgraph/pipeline/stages.h"
@@ -31,6 +32,8 @@ class FrontEnds {
   const Motion& motion() const { return motion_; }
   /// What wheels err by, as far as images or scans told.
   const WheelCalibration& wheelCalibration() const { return calibration_; }
+  /// What takes it out, as in a calibration file.
+  WheelCorrection wheelCorrection() const;
   /// Whether the sensors measured the same movements.
   const MovementAgreement& agreement() const { return agreement_; }
 
@@ -58,7 +61,7 @@ class FrontEnds {
   /// The robot drives on a floor: known of all its poses from now on.
   void setPlanar();
   void compareSensors();
-  void calibrateWheels(const MotionSource& other);
+  void calibrateWheels(const MotionSource& teacher, std::optional<double>& taught_t);
 
   const Stages& stages_;
   const Options& options_;
@@ -66,13 +69,14 @@ class FrontEnds {
   MotionSource wheels_as_read_;  ///< what predicts: scans may be matched before their turn, and images would follow what they taught
   WheelCalibration calibration_;
   std::optional<Pose2> wheels_;          ///< the last pose in motion_
-  std::optional<double> calibrated_t_;  ///< until then wheels were compared
+  std::optional<double> taught_by_lidar_, taught_by_camera_;  ///< until then wheels were compared with them
   MovementAgreement agreement_;
   std::optional<double> compared_t_;  ///< until then sensors were compared
   double predicted_t_ = -std::numeric_limits<double>::infinity();  ///< of the last image whose place was only predicted
   std::unique_ptr<ScansAhead> scans_ahead_;
   std::optional<double> last_frame_t_, last_scan_t_;
   Pose3 robot_from_camera_ = Pose3::Identity();
+  bool mounted_ = false;  ///< the camera's place on the robot is known
 };
 
 }  // namespace roomgraph

@@ -96,9 +96,9 @@ class SemanticSlam {
   const Setup& setup() const { return *setup_; }
   /// Adds work on the record being processed that was done elsewhere to the times.
   void account(const char* stage, const Work& work) { times_.add(stage, work); }
-  /// What wheels were found to err by.
-  const WheelCalibration& wheelCalibration() const { return front_ends_.wheelCalibration(); }
-  /// What the movements that the sensors measured say against each other, worst first.
+  /// The sensors, with what wheels were found to err by.
+  const FrontEnds& frontEnds() const { return front_ends_; }
+  /// What the movements that the sensors measured say against each other.
   std::vector<Finding> movementFindings() const;
   /// Of every call of every stage.
   const StageTimes& times() const { return times_; }
