@@ -241,6 +241,32 @@ TEST_F(Evidence, DetectedFromTwoOfThreePlaces) {
   EXPECT_NEAR(of({behind_the_wall}).detected, 0, 1e-12) << "never in good view";
 }
 
+// Carried away after the second sighting: the third view is from beside the first, the fourth from where it was never sighted, the
+// fifth from beside the second.
+TEST_F(Evidence, MissedFromWhereItWasSightedBefore) {
+  const Landmark chair = landmarkOf(1, "chair", 3, 0);
+  const std::vector<Pose2> places{{0, 0, 0}, {0.8, 0, 0}, {0.3, 0, 0}, {0.2, 0.7, -0.2}, {1, 0, 0}};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double t = 100.0 * static_cast<double>(i);
+    if (i > 0) poses_.add(t, toPose3(places[i]));
+    memory_.add(frameOfDepth(static_cast<int>(i), t, 3), toPose3(places[i]));
+  }
+  EXPECT_EQ(of({chair}).missed_since, 0) << "never sighted";
+  frames_ = {frameWith(0, 0, {chair}), frameWith(1, 100.2, {chair})};
+  EXPECT_EQ(of({chair}).missed_since, 2);
+  searched_ = {{0, {}}, {100, {}}, {200, {"chair"}}, {300, {}}, {400, {}}};
+  EXPECT_EQ(of({chair}).missed_since, 1) << "nobody looked for chairs in the third";
+  searched_.clear();
+  frames_.push_back(frameWith(2, 399.9, {chair}));
+  EXPECT_EQ(of({chair}).missed_since, 0) << "it was there at the last one";
+  frames_.pop_back();
+  for (const int i : {1, 2}) {
+    poses_.add(400 + 20 * i, toPose3(places[4]));
+    memory_.add(frameOfDepth(4 + i, 400 + 20 * i, 3), poseFromYpr(1 + 0.2 * i, 0, 0, 0, 0, 0));
+  }
+  EXPECT_EQ(of({chair}).missed_since, 3) << "twenty seconds later it is the same visit, after forty another one";
+}
+
 // Half of the sofa's length is air.
 TEST_F(Evidence, SpreadIsTheShareOfTheLengthThatIsThere) {
   const Landmark sofa = landmarkOf(1, "sofa", 3, 0);

@@ -15,16 +15,16 @@ ExistenceOptions::ExistenceOptions()
                "label 6.6",      "scatter -0.0926", "turned -0.575",       "measured 0.0647",
                "detected 0.454", "contested -1.5",  "outdone -10.1",       "mislabelled -1.74",
                "crossed -2.48",  "spread 3.16",     "beams_crossed -4.56", "above_filled -2.3",
-               "confidence 9.94"},
+               "confidence 9.94", "missed_since -0.75"},
       cuboid{"bias -8.4",           "filter 0.135",       "score 3.66",      "scatter -0.229",
              "turned -1.43",        "measured 0.682",     "detected 0.0917", "contested -0.547",
              "outdone -6.53",       "mislabelled -0.787", "crossed -3.7",    "spread 2.17",
-             "beams_crossed -6.83", "above_filled -2.1",  "confidence 8.61"},
+             "beams_crossed -6.83", "above_filled -2.1",  "confidence 8.61", "missed_since -0.75"},
       planar{"bias -16.1",          "filter 0.13",        "sightings 0.359",      "directions 0.273",
              "score 4.61",          "label 2.99",         "scatter -0.0467",      "measured 0.954",
              "detected 0.301",      "contested -2.48",    "outdone -6.66",        "mislabelled -2.5",
              "crossed -2.48",       "spread 0.443",       "beside_crossed -6.11", "beside_filled 1.15",
-             "beams_crossed -4.57", "above_filled -1.77", "confidence 12.7"} {}
+             "beams_crossed -4.57", "above_filled -1.77", "confidence 12.7", "missed_since -0.75"} {}
 
 void ExistenceOptions::declareParameters(ParameterVisitor& v) {
   v.add("enabled", enabled,

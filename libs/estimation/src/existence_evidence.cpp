@@ -226,12 +226,31 @@ double detectionLogOdds(const std::set<double>& sighting_times, const std::vecto
   return std::log(static_cast<double>(detected + 1) / static_cast<double>(missed + 1));
 }
 
-// After somebody carried it away, places from which it was seen before show that it is gone. Five of them say all that misses can.
-double missedSince(const std::set<double>& sighting_times, const std::vector<double>& times_in_view) {
-  constexpr double kMost = 5;
+bool isSamePlace(const Pose2& a, const Pose2& b) {
+  constexpr double kNear_m = 0.5, kNear_rad = 0.35;
+  return std::hypot(a.x - b.x, a.y - b.y) < kNear_m && std::abs(wrapAngle(a.yaw - b.yaw)) < kNear_rad;
+}
+
+// After somebody carried it away, places from which it was seen before show that it is gone. A detector errs the same way for the time of a
+// visit; five of these say all that misses can.
+double missedSince(const std::set<double>& sighting_times, const std::vector<double>& times_in_view, const KeyPoses& poses) {
+  constexpr int kMost = 5;
+  constexpr double kVisit_s = 30;
   if (sighting_times.empty()) return 0;
-  const auto later = std::upper_bound(times_in_view.begin(), times_in_view.end(), *sighting_times.rbegin() + kSameMoment_s);
-  return std::min(kMost, static_cast<double>(times_in_view.end() - later));
+  double last = *sighting_times.rbegin();
+  auto later = std::upper_bound(times_in_view.begin(), times_in_view.end(), last + kVisit_s);
+  if (later == times_in_view.end()) return 0;
+  std::vector<Pose2> seen_from;
+  for (const double t : sighting_times) seen_from.push_back(planarPart(poses.at(t)));
+  int missed = 0;
+  for (; later != times_in_view.end() && missed < kMost; ++later) {
+    if (*later < last + kVisit_s) continue;
+    const Pose2 now = planarPart(poses.at(*later));
+    if (std::none_of(seen_from.begin(), seen_from.end(), [&now](const Pose2& then) { return isSamePlace(now, then); })) continue;
+    ++missed;
+    last = *later;
+  }
+  return missed;
 }
 
 }  // namespace
@@ -252,7 +271,7 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
     evidence.filter = std::clamp(std::log(landmark.existence / (1 - landmark.existence)), -4.0, 4.0);
     setSightings(evidence, sums[landmark.id], sure_score);
     evidence.detected = detectionLogOdds(sums[landmark.id].times, good_views[landmark.id]);
-    evidence.missed_since = missedSince(sums[landmark.id].times, good_views[landmark.id]);
+    evidence.missed_since = missedSince(sums[landmark.id].times, good_views[landmark.id], poses);
     if (const auto own = landmark.class_posterior.find(landmark.class_name);
         own != landmark.class_posterior.end())
       evidence.label = own->second;

@@ -45,7 +45,7 @@ struct ExistenceEvidence {
   double above_filled = 0;  ///< of all but doors: share of the space above its middle where depth rays ended
   double uneven =
       0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
-  double missed_since = 0;  ///< places with it in good view after its last sighting, 5 at most: it may be gone
+  double missed_since = 0;  ///< visits after its last sighting to where it was sighted before, 5 at most: it may be gone
 
   static constexpr std::array<std::string_view, 23> kNames = {
       "filter",        "sightings",    "directions", "score",     "label",          "scatter",
