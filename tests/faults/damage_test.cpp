@@ -154,6 +154,7 @@ TEST_F(Damage, ErrorsNameTheFaultAndLeaveNoFile) {
   says({}, "no fault is asked for");
   says({{"drop-lidr", "1:2"}}, "no fault 'drop-lidr' (did you mean 'drop-lidar'?); known: drop-camera, ");
   says({{"drop-lidar", "50:60"}}, "--drop-lidar 50:60: touches no record; the recording lasts 2.20 s");
+  says({{"moving-furniture", "50:60"}}, "touches no record; it needs odometry before it begins, and the recording lasts 2.20 s");
   says({{"drop-lidar", "0:"}, {"drop-camera", "0:"}, {"drop-odometry", "0:"}}, "the faults leave no record");
   says({{"drop-lidar", "2:1"}}, "--drop-lidar 2:1: it ends before it begins; expected A:B");
   EXPECT_THAT(

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "drive.h"
 #include "fake_stages.h"
 #include "roomgraph/pipeline/semantic_slam.h"
@@ -127,6 +130,23 @@ TEST_F(FrontEndsTest, WheelsMayBeSlowerThanTheCameraAndASlowCameraIsNotCompared)
     if (i % 10 == 0) front_->track(Drive::frame(0.1 * i), {});
   }
   EXPECT_FALSE(front_->agreement().turned(MotionSensor::kCamera, MotionSensor::kWheels));
+}
+
+// Between two images that are two seconds apart nobody knows how a camera went round a bend.
+TEST_F(FrontEndsTest, MovementsThatBeginInAGapAreNotCompared) {
+  setup_ = setupWith(
+      "[detection]\nenabled = false\n[tracking]\nclass = FakeOdometry\n"
+      "[odometry]\nnoise_floor_m = 0.002\nnoise_per_m = 0.01\nnoise_floor_rad = 0.002\nnoise_per_rad = 0.01\nnoise_rad_per_m = 0.01\n");
+  front_ = std::make_unique<FrontEnds>(setup_->stages, setup_->options);
+  Drive drive;
+  for (int i = 0; i <= 120; ++i) {
+    const double t = 0.1 * i;
+    front_->add(drive.odometry(t));
+    ASSERT_TRUE(front_->match(drive.scan(t)).matched) << t;
+    if (i % 43 < 20) front_->track(Drive::frame(t), {});
+  }
+  for (const Contradiction& one : front_->agreement().contradictions())
+    ADD_FAILURE() << toString(one.sensor) << " from " << one.from_t << " by " << one.off_m << " m";
 }
 
 TEST_F(FrontEndsTest, SensorsAreComparedAndOneThatIsTurnedIsFound) {

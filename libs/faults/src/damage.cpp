@@ -101,7 +101,8 @@ void collectEffects(const std::vector<FaultRequest>& requests, const Faults& fau
     if (faults[i]->counts().empty()) {
       char span[40];
       std::snprintf(span, sizeof span, "%.2f", result.duration_s);
-      throw ConfigError(name + ": touches no record; the recording lasts " + span + " s");
+      const std::string needs = faults[i]->needs();
+      throw ConfigError(name + ": touches no record; " + (needs.empty() ? "" : "it needs " + needs + ", and ") + "the recording lasts " + span + " s");
     }
     result.effects.push_back({name, faults[i]->counts()});
   }

@@ -21,6 +21,8 @@ class Fault {
   virtual PassingRecords pass(PassingRecord record) = 0;
   /// After the last record: what was held back.
   virtual PassingRecords finish() { return {}; }
+  /// What there must be besides the records that it touches, in words; empty: nothing.
+  virtual std::string needs() const { return {}; }
   /// Records touched so far, by label.
   const std::map<std::string, int>& counts() const { return counts_; }
 

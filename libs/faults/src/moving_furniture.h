@@ -30,6 +30,7 @@ class MovingFurnitureFault : public Fault {
  public:
   MovingFurnitureFault(FaultWindow window, double speed_m_s) : window_(window) { box_.speed_m_s = speed_m_s; }
   PassingRecords pass(PassingRecord record) override;
+  std::string needs() const override { return "odometry before it begins"; }
 
  private:
   void remember(const PassingRecord& record);
