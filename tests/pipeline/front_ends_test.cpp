@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "drive.h"
 #include "fake_stages.h"
 #include "roomgraph/pipeline/semantic_slam.h"
