@@ -73,8 +73,8 @@ FAULTS = [
     Fault("clock-jump camera +0.5 s", "--clock-jump camera={a}:0.5", ("camera",), "clock jumps"),
     Fault("clock-jump lidar -0.5 s", "--clock-jump lidar={a}:-0.5", ("lidar",), "clock jumps"),
     Fault("wrong-extrinsics camera pitch 8", "--wrong-extrinsics camera=0,0,0,0,8,0", ("camera",), "floor is seen"),
-    Fault("wrong-extrinsics camera yaw 8", "--wrong-extrinsics camera=0,0,0,8,0,0", ("camera",), "is turned by"),
-    Fault("wrong-extrinsics lidar yaw 8", "--wrong-extrinsics lidar=0,0,0,8,0,0", ("lidar",), "is turned by"),
+    Fault("wrong-extrinsics camera yaw 8", "--wrong-extrinsics camera=0,0,0,8,0,0", ("camera",), "(is|are) turned by"),
+    Fault("wrong-extrinsics lidar yaw 8", "--wrong-extrinsics lidar=0,0,0,8,0,0", ("lidar",), "(is|are) turned by"),
     Fault("kidnap", "--kidnap {a}:{b}", (), "gap of"),
     Fault("moving-furniture", "--moving-furniture {a}:{b}", ("odometry",), "returns_in_free_space"),
 ]

@@ -2,6 +2,7 @@
 // run.json beside the journal of results; taking up a run by the words that began it.
 #include "run_checkpoint.h"
 
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -25,8 +26,20 @@ struct BegunRun {
   std::vector<std::string> command;
   fs::path working_directory;
   RunIdentity identity;
+  std::vector<ClockSetting> clocks;
   std::string text;  ///< all of it
 };
+
+CheckpointJson jsonOf(const ClockSetting& clock) {
+  return {{"sensor", toString(clock.sensor)}, {"label", clock.label}, {"since_a_jump", clock.jumped},
+          {"added_s", clock.offset.seconds}, {"sigma_s", clock.offset.sigma}};
+}
+
+ClockSetting clockFrom(const CheckpointJson& json) {
+  const auto sensor = std::find_if(kMotionSensors.begin(), kMotionSensors.end(), [&](MotionSensor one) { return json.at("sensor") == toString(one); });
+  if (sensor == kMotionSensors.end()) throw InputError("no sensor: " + json.at("sensor").get<std::string>());
+  return {*sensor, json.at("label"), {json.at("added_s"), json.at("sigma_s")}, json.at("since_a_jump")};
+}
 
 BegunRun readBegunRun(const fs::path& file) {
   BegunRun run;
@@ -36,6 +49,7 @@ BegunRun readBegunRun(const fs::path& file) {
     run.command = json.at("command").get<std::vector<std::string>>();
     run.working_directory = json.at("working_directory").get<std::string>();
     for (const auto& part : json.at("belongs_to")) run.identity.emplace_back(part.at(0), part.at(1));
+    for (const auto& clock : json.at("clocks")) run.clocks.push_back(clockFrom(clock));
   } catch (const CheckpointJson::exception& error) {
     throw InputError(file.string() + ": " + firstLine(error));
   }
@@ -61,11 +75,11 @@ void enter(const fs::path& directory, const std::string& out) {
 
 }  // namespace
 
-RunCheckpoint::RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, double sync_s,
+RunCheckpoint::RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, const std::vector<ClockSetting>& clocks, double sync_s,
                              bool resume)
     : folder_(files.checkpoint()), command_(commandLine()) {
   const fs::path file = folder_ / kRunFile;
-  if (!resume) begin(identity);
+  if (!resume) begin(identity, clocks);
   const BegunRun run = readBegunRun(file);
   if (const auto difference = differenceOf(run.identity, identity); !difference.empty())
     throw ConfigError(folder_.string() + " is of another run: " + difference +
@@ -83,7 +97,7 @@ void RunCheckpoint::discard() const {
   fs::remove_all(folder_, ignored);
 }
 
-void RunCheckpoint::begin(const RunIdentity& identity) const {
+void RunCheckpoint::begin(const RunIdentity& identity, const std::vector<ClockSetting>& clocks) const {
   std::error_code error;
   fs::remove_all(folder_, error);
   fs::create_directory(folder_, error);
@@ -91,7 +105,9 @@ void RunCheckpoint::begin(const RunIdentity& identity) const {
   CheckpointJson json{{"format", 1},
                       {"command", command_},
                       {"working_directory", fs::current_path().string()},
+                      {"clocks", CheckpointJson::array()},
                       {"belongs_to", CheckpointJson::array()}};
+  for (const ClockSetting& clock : clocks) json["clocks"].push_back(jsonOf(clock));
   for (const auto& [name, value] : identity) json["belongs_to"].push_back({name, value});
   try {
     // Names may be no UTF-8.
@@ -112,6 +128,12 @@ std::string RunCheckpoint::whatIsThere() const {
   if (found.damaged > 0)
     line += "; " + std::to_string(found.damaged) + " bytes behind them are damaged and left out";
   return line;
+}
+
+std::vector<ClockSetting> clocksOfCheckpoint(const fs::path& output) {
+  const fs::path file = output / "roomgraph_checkpoint" / kRunFile;
+  std::error_code none;
+  return fs::exists(file, none) ? readBegunRun(file).clocks : std::vector<ClockSetting>{};
 }
 
 std::optional<RunOptions> optionsToResume(const RunOptions& now) {

@@ -10,6 +10,7 @@
 
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/core/result_store.h"
+#include "roomgraph/pipeline/clock_settings.h"
 #include "run_identity.h"
 #include "run_options.h"
 
@@ -21,7 +22,7 @@ class RunCheckpoint {
  public:
   /// Begins a checkpoint, in place of any other, or with `resume` goes on with the one that is there. Throws
   /// ConfigError: that one is of another run; RunError: cannot be written.
-  RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, double sync_s, bool resume);
+  RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, const std::vector<ClockSetting>& clocks, double sync_s, bool resume);
   /// Removes a checkpoint without results: it would save nothing.
   ~RunCheckpoint();
   RunCheckpoint(const RunCheckpoint&) = delete;
@@ -37,12 +38,15 @@ class RunCheckpoint {
   std::string whatIsThere() const;
 
  private:
-  void begin(const RunIdentity& identity) const;
+  void begin(const RunIdentity& identity, const std::vector<ClockSetting>& clocks) const;
 
   std::filesystem::path folder_;
   std::vector<std::string> command_;
   std::unique_ptr<JournalledResults> results_;
 };
+
+/// Clocks that were set by the unfinished run in an output folder; none without a checkpoint. Throws InputError: cannot be read.
+std::vector<ClockSetting> clocksOfCheckpoint(const std::filesystem::path& output);
 
 /// For `--resume`: what was asked for when the run was begun, with what is said now besides; the working
 /// directory becomes that of then. Nothing, after a line on standard output, when the run is complete. Throws

@@ -20,6 +20,7 @@
 #include "roomgraph/core/progress_file.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/mapping/map_files.h"
+#include "roomgraph/pipeline/clock_settings.h"
 #include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/detection_source.h"
 #include "roomgraph/pipeline/read_options.h"
@@ -35,6 +36,8 @@ namespace roomgraph {
 namespace {
 
 constexpr double kCheckpoint_s = 30;
+constexpr int kMostBeginnings = 3;        // of a run whose clocks are set
+constexpr double kLatestBeginning_s = 1800;  // of the recording; clocks that come apart later are reported
 
 /// Wall-clock time, for people.
 class Stopwatch {
@@ -57,6 +60,8 @@ std::vector<std::filesystem::path> inputsOf(const RunOptions& options, const Con
   std::vector<std::filesystem::path> files{options.input, options.map, configuration.file,
                                            configuration.objects_file};
   for (const auto& file : mentionedFiles(configuration.config)) files.push_back(file);
+  for (const auto& written : {options.recording, options.detections})
+    if (!written.empty()) requireOther(written, files);
   return files;
 }
 
@@ -95,17 +100,19 @@ ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
 }
 
 ReplayState replayWithProgress(const RunOptions& options, RawlogReader& reader, SemanticSlam& slam,
-                               RunPlaces& places) {
+                               RunPlaces& places, const std::function<bool(const ReplayState&)>& ends) {
   Progress line(options.quiet ? nullptr : &std::cerr, "replay", "", 1);
   ProgressFile file(options.progress);
   const Stopwatch watch;
+  bool ended = false;
   const ReplayState state = replay(reader, slam, options.span,
                                    {[&](const ReplayState& now) {
                                       line.update(now.share, describeProgress(now, watch.seconds()));
                                       file.update(now.share);
                                       places.look();
+                                      ended = ends(now);
                                     },
-                                    interrupted});
+                                    [&] { return ended || interrupted(); }});
   line.finish();
   places.require();  // what was cut looks like its end
   return state;
@@ -150,10 +157,25 @@ RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& ne
   return origin;
 }
 
+/// What stays of a run that begins anew.
+struct Beginnings {
+  int count = 0;
+  std::vector<ClockSetting> clocks;  ///< as they are set
+  std::optional<Examination> examination;
+
+  /// Clocks that are to be set, after a record.
+  std::vector<ClockSetting> wrong(const SemanticSlam& slam, const ReplayState& now) const {
+    if (!slam.setup().options.general.set_clocks || count >= kMostBeginnings || now.seconds() > kLatestBeginning_s) return {};
+    if (!canBeSet(slam.frontEnds().clocks())) return {};
+    return wrongClocks(slam.frontEnds());
+  }
+};
+
 // Of the recording, and of the movements that its sensors measured.
-Examination::Findings findingsOf(Examination& examination, const SemanticSlam& slam, bool quiet) {
-  Examination::Findings out = examination.findings(quiet);
+Examination::Findings findingsOf(Beginnings& beginnings, const SemanticSlam& slam, const ReadStatistics& read, bool quiet) {
+  Examination::Findings out = beginnings.examination->findings(quiet);
   if (!out) return out;
+  for (const ClockSetting& clock : beginnings.clocks) out->push_back(clockFinding(clock, isSet(clock, read)));
   for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
   std::stable_sort(out->begin(), out->end(), [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return out;
@@ -171,9 +193,9 @@ void printWarnings(const ReadStatistics& read, const std::string& of_detector, c
 
 // Nothing with --checkpoint 0, unless it is to be gone on with.
 std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const Setup& setup,
-                                              const OutputFolder& files) {
+                                              const OutputFolder& files, const Beginnings& beginnings) {
   const double seconds = options.checkpoint_s.value_or(kCheckpoint_s);
-  const bool resume = !options.resume.empty();
+  const bool resume = !options.resume.empty() && beginnings.count == 1;
   std::error_code none;
   const bool there = std::filesystem::exists(files.checkpoint(), none);
   if (there && !resume)
@@ -184,7 +206,7 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
     std::filesystem::remove_all(files.checkpoint(), none);
     return nullptr;
   }
-  auto checkpoint = std::make_unique<RunCheckpoint>(files, identityOf(options, setup), seconds, resume);
+  auto checkpoint = std::make_unique<RunCheckpoint>(files, identityOf(options, setup), beginnings.clocks, seconds, resume);
   if (resume && (!options.quiet || checkpoint->results().found().damaged > 0))
     std::cerr << "roomgraph: " << checkpoint->whatIsThere() << "\n";
   return checkpoint;
@@ -203,23 +225,42 @@ Configuration configurationOf(const RunOptions& options) {
   return out;
 }
 
-void run(const RunOptions& options) {
-  shareHeap();
-  const ThreadLimit limit(options.threads);
+// May be none, when what was wrong cannot be set: then it is not looked for any more.
+std::vector<ClockSetting> clocksToSet(std::vector<ClockSetting> wrong, const SemanticSlam& slam, const ReadStatistics& read,
+                                      const ReplayState& replayed, bool quiet, Beginnings& beginnings) {
+  auto clocks = withJumps(std::move(wrong), slam.frontEnds().clocks(), read);
+  if (clocks.empty()) beginnings.count = kMostBeginnings;
+  for (const ClockSetting& clock : clocks) {
+    const Finding finding = clockFinding(clock, false);
+    if (!quiet)
+      std::fprintf(stderr, "roomgraph: %s: %s, as the first %.0f s show; begun anew with stamps corrected\n", finding.place.c_str(),
+                   finding.what.c_str(), replayed.seconds());
+  }
+  return clocks;
+}
+
+void printEnd(const RunOptions& options, const OutputFolder& files, bool reported, bool drawn) {
+  std::cout << "results in " << options.output;
+  if (reported || drawn) std::cout << "; look at " << (files.folder() / (reported ? "report.html" : "snapshot.png")).string();
+  std::cout << "\n";
+}
+
+// Returns the clocks that are to be set, when the run is to begin anew.
+std::optional<std::vector<ClockSetting>> runOnce(const RunOptions& options, Beginnings& beginnings) {
+  const bool first = beginnings.count++ == 0;
   Configuration configuration = configurationOf(options);
-  check(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
-  RawlogReader reader(options.input, readOptionsOf(setup->options));
-  if (const std::string advice = missingDetections(setup->stages, options.input); !advice.empty())
+  ReadOptions reading = readOptionsOf(setup->options);
+  addClocks(beginnings.clocks, reading.corrections);
+  RawlogReader reader(options.input, reading);
+  if (const std::string advice = missingDetections(setup->stages, options.input); first && !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
   const auto inputs = inputsOf(options, configuration);
-  for (const auto& written : {options.recording, options.detections})
-    if (!written.empty()) requireOther(written, inputs);
   catchInterrupts();
   auto output = std::make_shared<RunOutput>(options.output, inputs);
-  const auto checkpoint = openCheckpoint(options, *setup, output->files());
+  const auto checkpoint = openCheckpoint(options, *setup, output->files(), beginnings);
   RunPlaces places(options.input, output->files());
   const ExtraSinks extra = addSinks(options, *setup);
   auto slam = std::make_unique<SemanticSlam>(std::move(setup));
@@ -229,23 +270,29 @@ void run(const RunOptions& options) {
   extra.addTo(*slam);
 
   const Stopwatch watch;
-  std::optional<Examination> examination;
-  if (!options.no_report)
-    examination.emplace(options.input, readOptionsOf(slam->setup().options).sensor_poses, options.span.until_s);
-  const ReplayState replayed = replayWithProgress(options, reader, *slam, places);
+  if (first && !options.no_report) beginnings.examination.emplace(options.input, reading.sensor_poses, options.span.until_s);
+  std::vector<ClockSetting> wrong;
+  const ReplayState replayed = replayWithProgress(options, reader, *slam, places, [&](const ReplayState& now) {
+    wrong = beginnings.wrong(*slam, now);
+    return !wrong.empty();
+  });
+  if (!wrong.empty()) {
+    if (checkpoint) checkpoint->discard();
+    return clocksToSet(std::move(wrong), *slam, reader.statistics(), replayed, options.quiet, beginnings);
+  }
   // The whole run goes another way from here.
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();
   SlamResult result = slam->finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
-  if (examination && !replayed.interrupted) origin.findings = findingsOf(*examination, *slam, options.quiet);
+  origin.clocks = beginnings.clocks;
+  if (beginnings.examination && !replayed.interrupted) origin.findings = findingsOf(beginnings, *slam, reader.statistics(), options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it
   release(slam);
-  const bool drawn =
-      !options.no_snapshot && drawSnapshot(result.map, database, output->files().pending("snapshot.png"));
+  const bool drawn = !options.no_snapshot && drawSnapshot(result.map, database, output->files().pending("snapshot.png"));
   const auto page = output->files().pending("report.html");
   const bool reported = !options.no_report && writeRunReport(page.parent_path(), options.output, page);
   output->files().publish(checkpoint && replayed.interrupted);
@@ -255,12 +302,21 @@ void run(const RunOptions& options) {
   if (!networks.empty()) std::cout << "networks of " << folder.string() << ": " << join(networks) << "\n";
   std::cout << describeRun(result, replayed, reader.statistics(), watch.seconds());
   printWarnings(reader.statistics(), detector ? detector->warning() : "", origin.findings.value_or(std::vector<Finding>{}));
-  std::cout << "results in " << options.output;
-  if (reported || drawn)
-    std::cout << "; look at "
-              << (output->files().folder() / (reported ? "report.html" : "snapshot.png")).string();
-  std::cout << "\n";
+  printEnd(options, output->files(), reported, drawn);
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed, checkpoint.get(), options.output));
+  return std::nullopt;
+}
+
+void run(const RunOptions& options) {
+  shareHeap();
+  const ThreadLimit limit(options.threads);
+  check(options);
+  Beginnings beginnings;
+  if (!options.resume.empty()) beginnings.clocks = clocksOfCheckpoint(options.resume);
+  while (const auto wrong = runOnce(options, beginnings)) {
+    addClocks(*wrong, beginnings.clocks);
+    giveBackFreedMemory();
+  }
 }
 
 }  // namespace

@@ -214,6 +214,16 @@ TEST(HangingSensor, ARobotThatStandsIsSeenTheSame) {
   }
 }
 
+TEST(HangingSensor, WithoutWheelsOneThatNeverRepeatedItself) {
+  HangingSensor sensor, young;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(sensor.hangs(i - 30, std::to_string(i), std::nullopt));
+  for (int i = 0; i < 19; ++i) young.hangs(i - 30, std::to_string(i), std::nullopt);
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_EQ(sensor.hangs(i, "a", std::nullopt), i > 0);
+    EXPECT_FALSE(young.hangs(i, "a", std::nullopt));
+  }
+}
+
 TEST(Repetition, ContentIsWhatWasMeasured) {
   auto scan = makeScan(1), other = makeScan(2);
   EXPECT_EQ(contentOf(*scan), contentOf(*other));

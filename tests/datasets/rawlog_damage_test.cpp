@@ -205,9 +205,9 @@ TEST(RawlogDamage, LongRecordsAmongOthersOfAPairAreParsedWhole) {
 TEST(RawlogDamage, LongRecordingsOfSmallAndLargeRecordsAreReadWhole) {
   TemporaryFolder folder;
   std::vector<Object> objects;
-  for (int i = 0; i < 300; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
+  for (int i = 0; i < 300; ++i) objects.push_back(makeScan(0.1 * i, 2 + 1e-3f * static_cast<float>(i), i % 3 == 0 ? 20000 : 100));
   objects.push_back(makeImages(31, 1280, 720));
-  for (int i = 320; i < 600; ++i) objects.push_back(makeScan(0.1 * i, 2, i % 3 == 0 ? 20000 : 100));
+  for (int i = 320; i < 600; ++i) objects.push_back(makeScan(0.1 * i, 2 + 1e-3f * static_cast<float>(i), i % 3 == 0 ? 20000 : 100));
   writeRawlog(folder.file("x.rawlog"), objects);
   const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 581);

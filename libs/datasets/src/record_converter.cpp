@@ -27,7 +27,10 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
-constexpr const char* kSensorHangs = ": the same as those before it while the wheels turned, the sensor hangs";
+// `wheels`: whether there are any.
+std::string sensorHangs(bool wheels) {
+  return std::string(": the same as those before it") + (wheels ? " while the wheels turned" : "") + ", the sensor hangs";
+}
 
 struct RecordConverter::Impl {
   Impl(const ReadOptions& read_options, const std::filesystem::path& recording)
@@ -132,7 +135,7 @@ std::optional<Record> RecordConverter::Impl::convertFrame(CObservation3DRangeSca
     return std::nullopt;
   }
   if (hanging_camera.hangs(frame->t, contentOf(observation), wheels)) {
-    ++statistics.skipped[std::string("CObservation3DRangeScan") + kSensorHangs];
+    ++statistics.skipped[std::string("CObservation3DRangeScan") + sensorHangs(wheels.has_value())];
     return std::nullopt;
   }
   frame->id = FrameId{frame_count++};
@@ -166,7 +169,7 @@ std::optional<Record> RecordConverter::Impl::convert(const CObservation::Ptr& ob
   } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     wanted = options.scans;
     if (wanted && hanging_lidar.hangs(mrpt::Clock::toDouble(scan->timestamp), contentOf(*scan), wheels)) {
-      ++statistics.skipped[name + kSensorHangs];
+      ++statistics.skipped[name + sensorHangs(wheels.has_value())];
       return std::nullopt;
     }
     if (wanted) record = toScan(*scan);
@@ -235,6 +238,7 @@ std::optional<Record> RecordConverter::next() {
 const ReadStatistics& RecordConverter::statistics() const {
   impl_->statistics.sensor_warnings = impl_->choices.warnings();
   impl_->statistics.corrected = impl_->correction.counts();
+  impl_->statistics.stamp_jumps = impl_->correction.jumps();
   impl_->statistics.placed = impl_->options.sensor_poses;
   return impl_->statistics;
 }

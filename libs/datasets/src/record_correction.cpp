@@ -7,18 +7,38 @@
 #include <cstdio>
 
 namespace roomgraph {
+namespace {
 
-void RecordCorrection::shift(double& t, const std::string& label) {
-  const auto offset = corrections_.time_offsets_s.find(label);
-  if (offset == corrections_.time_offsets_s.end() || offset->second == 0) return;
-  t += offset->second;
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%+.4f s", offset->second);
-  ++counts_["stamp of '" + label + "' " + seconds];
+constexpr const char* kOdometry = "odometry";
+
+double secondsOf(const std::string& label, const std::map<std::string, double>& by_label) {
+  const auto found = by_label.find(label);
+  return found == by_label.end() ? 0 : found->second;
+}
+
+std::string quoted(const std::string& label) { return "'" + label + "'"; }
+
+}  // namespace
+
+double RecordCorrection::offsetOf(const std::string& label) const { return secondsOf(label, corrections_.time_offsets_s); }
+
+double RecordCorrection::jumpOf(const std::string& label) const { return secondsOf(label, corrections_.time_jumps_s); }
+
+void RecordCorrection::applyToStamp(double& t, const std::string& label) {
+  const bool jumped = jumps_.add(label, t, -jumpOf(label));
+  shift(t, quoted(label), offsetOf(label) + (jumped ? jumpOf(label) : 0));
+}
+
+void RecordCorrection::shift(double& t, const std::string& sensor, double seconds) {
+  if (seconds == 0) return;
+  t += seconds;
+  char text[32];
+  std::snprintf(text, sizeof text, "%+.4f s", seconds);
+  ++counts_["stamp of " + sensor + " " + text];
 }
 
 void RecordCorrection::apply(Frame& frame) {
-  shift(frame.t, frame.sensor_label);
+  applyToStamp(frame.t, frame.sensor_label);
   if (corrections_.depth == DepthCorrection{} || !frame.hasDepth()) return;
   frame.depth = frame.depth.clone();
   for (float& z : cv::Mat_<float>(frame.depth))
@@ -28,12 +48,13 @@ void RecordCorrection::apply(Frame& frame) {
 }
 
 void RecordCorrection::apply(Scan& scan) {
-  shift(scan.t, scan.sensor_label);
+  applyToStamp(scan.t, scan.sensor_label);
 }
 
 void RecordCorrection::apply(OdometryReading& reading) {
-  reading.t += corrections_.wheels_time_offset_s;
-  if (corrections_.wheels_time_offset_s != 0) ++counts_["stamp of odometry"];
+  const double jump_s = corrections_.wheels_time_jump_s;
+  const bool jumped = jumps_.add(kOdometry, reading.t, -jump_s);
+  shift(reading.t, kOdometry, corrections_.wheels_time_offset_s + (jumped ? jump_s : 0));
   if (corrections_.wheels == WheelCorrection{}) return;
   const Pose2 read = reading.odom_from_robot;
   made_ = read_ ? *made_ * corrected(read_->inverse() * read, corrections_.wheels) : read;
@@ -44,7 +65,8 @@ void RecordCorrection::apply(OdometryReading& reading) {
 
 void RecordCorrection::apply(CObservationDetections& detections) {
   double t = mrpt::Clock::toDouble(detections.timestamp);
-  shift(t, detections.image_label);
+  const std::string& label = detections.image_label;
+  shift(t, quoted(label), offsetOf(label) + (jumps_.jumped(label) ? jumpOf(label) : 0));
   detections.timestamp = mrpt::Clock::fromDouble(t);
 }
 

@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "roomgraph/datasets/calibration_file.h"
 #include "roomgraph/datasets/record_stream.h"
+#include "stamp_jumps.h"
 
 namespace roomgraph {
 
@@ -20,15 +22,21 @@ class RecordCorrection {
   void apply(Record& record);
   /// Records that were changed, by what was changed.
   const std::map<std::string, int>& counts() const { return counts_; }
+  /// Jumps of stamps in the order of the file against those of other sensors, s, by label ("odometry" for any), before correction.
+  const std::map<std::string, std::vector<double>>& jumps() const { return jumps_.found(); }
 
  private:
-  void shift(double& t, const std::string& label);
+  double offsetOf(const std::string& label) const;
+  double jumpOf(const std::string& label) const;
+  void applyToStamp(double& t, const std::string& label);
+  void shift(double& t, const std::string& sensor, double seconds);
   void apply(Frame& frame);
   void apply(Scan& scan);
   void apply(OdometryReading& reading);
   void apply(CObservationDetections& detections);
 
   RecordCorrections corrections_;
+  StampJumps jumps_;
   std::optional<Pose2> read_, made_;  ///< the last odometry pose, and what it has become
   std::map<std::string, int> counts_;
 };

@@ -17,7 +17,7 @@ void Repetition::add(double t, std::string_view content) {
 }
 
 bool HangingSensor::hangs(double t, std::string_view content, const std::optional<Pose2>& wheels) {
-  constexpr int kFew = 5;
+  constexpr int kFew = 5, kMany = 20;
   constexpr double kMoved_m = 0.02, kTurned_rad = 0.02;
   same_.add(t, content);
   const SameRecords& run = same_.current();
@@ -25,7 +25,9 @@ bool HangingSensor::hangs(double t, std::string_view content, const std::optiona
     wheels_before_ = wheels;
     ++changes_;
   }
-  if (run.records < (changes_ > kFew ? 2 : kFew) || run.seconds <= 0 || !wheels || !wheels_before_) return false;
+  if (run.records < (changes_ > kFew ? 2 : kFew) || run.seconds <= 0) return false;
+  if (!wheels) return changes_ > kMany;
+  if (!wheels_before_) return false;
   return std::hypot(wheels->x - wheels_before_->x, wheels->y - wheels_before_->y) > kMoved_m ||
          std::abs(wrapAngle(wheels->yaw - wheels_before_->yaw)) > kTurned_rad;
 }

@@ -34,6 +34,7 @@ class Repetition {
 
 /// Tells when a sensor hangs: the same record again, though the wheels say that the robot has moved since the first of them. The second time will do
 /// of a sensor whose records have changed five times before, else the fifth. A simulated sensor without noise repeats itself wherever the robot stands.
+/// Without wheels it hangs as well, when its records have changed twenty times before: at rest the same record is not missed.
 class HangingSensor {
  public:
   /// A record at time t (s), and where the wheels have the robot then, if they say so; whether the sensor hangs.

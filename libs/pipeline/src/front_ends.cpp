@@ -115,6 +115,11 @@ void FrontEnds::compareSensors() {
   agreement_.compare(from, until, seen);
 }
 
+void FrontEnds::compareClocks() {
+  static const Trajectory kNone;
+  clocks_.compare(motion_.lidar.poses(), mounted_ ? motion_.visual.poses() : kNone, wheels_as_read_.poses());
+}
+
 // Over movements that both have seen to their end. A teacher that saw nothing for a while begins anew.
 void FrontEnds::calibrateWheels(const MotionSource& teacher, std::optional<double>& taught_t) {
   const Trajectory &seen_poses = teacher.poses(), &wheel_poses = wheels_as_read_.poses();
@@ -133,6 +138,7 @@ void FrontEnds::calibrateWheels(const MotionSource& teacher, std::optional<doubl
 }
 
 TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& people) {
+  labels_[static_cast<std::size_t>(MotionSensor::kCamera)] = frame.sensor_label;
   robot_from_camera_ = frame.robot_from_camera;
   mounted_ = isMounted(frame);
   if (mounted_) setPlanar();
@@ -152,6 +158,7 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
                        rotateCovariance(result.step_covariance, robot_from_camera_.linear()));
   if (motion_.lidar.poses().empty() || motion_.lidar.poses().lastTime() < frame.t - kCompared_s) calibrateWheels(motion_.visual, taught_by_camera_);
   compareSensors();
+  compareClocks();
   return result;
 }
 
@@ -166,6 +173,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
   if (last_scan_t_)
     if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&wheels_as_read_, &motion_.visual})) prior = planarPart(*moved);
   last_scan_t_ = scan.t;
+  labels_[static_cast<std::size_t>(MotionSensor::kLidar)] = scan.sensor_label;
   auto foreseen = scans_ahead_->take(scan.t);
   ScanMatch result = foreseen ? std::move(*foreseen) : stages_.scan_matcher->match(scan, prior);
   if (result.matched)
@@ -173,6 +181,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
                       planarCovariance(result.step_covariance));
   calibrateWheels(motion_.lidar, taught_by_lidar_);
   compareSensors();
+  compareClocks();
   return result;
 }
 

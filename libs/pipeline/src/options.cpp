@@ -17,6 +17,9 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
          .unit = "s",
          .min = 0,
          .max = 10});
+  v.add("set_clocks", set_clocks,
+        {.doc = "Whether a run begins anew, with stamps corrected, once the turns, starts and stops that its sensors measure show that "
+                "their clocks differ."});
   v.add("calibration_file", calibration_file,
         {.doc = "Calibration applied to the records as they are read: sensor poses, time offsets, wheels, "
                 "depth (docs/calibration.md). Empty: none.",

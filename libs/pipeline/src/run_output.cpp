@@ -99,6 +99,21 @@ ordered_json wheelsJson(const FrontEnds& sensors) {
           {"sigma", {{"scale", sigma[0]}, {"turn_scale", sigma[1]}, {"drift_rad_m", sigma[2]}}}};
 }
 
+// What was added to the stamps of sensors, and what would still have to be.
+ordered_json clocksJson(const std::vector<ClockSetting>& set, const SensorClocks& clocks) {
+  ordered_json settings = ordered_json::array(), left = nullptr;
+  for (const ClockSetting& clock : set)
+    settings.push_back({{"sensor", toString(clock.sensor)},
+                        {"label", clock.label},
+                        {"since_a_jump", clock.jumped},
+                        {"added_s", clock.offset.seconds},
+                        {"sigma_s", clock.offset.sigma}});
+  if (const auto offsets = clocks.offsets())
+    for (std::size_t i = 0; i < offsets->size(); ++i)
+      left[toString(kMotionSensors[i])] = {{"offset_s", (*offsets)[i].seconds}, {"sigma_s", (*offsets)[i].sigma}};
+  return {{"set", settings}, {"left", left}};
+}
+
 // Nothing when the recording was not examined.
 ordered_json findingsJson(const std::optional<std::vector<Finding>>& findings) {
   if (!findings) return nullptr;
@@ -128,6 +143,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   if (const auto& file = slam.setup().options.general.calibration_file; !file.empty())
     summary["calibration"] = calibrationJson(file, read);
   if (slam.frontEnds().wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.frontEnds());
+  summary["clocks"] = clocksJson(origin.clocks, slam.frontEnds().clocks());
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;

@@ -11,6 +11,7 @@
 #include "people_in_view.h"
 #include "roomgraph/core/heap.h"
 #include "roomgraph/observations/mounting.h"
+#include "roomgraph/pipeline/clock_settings.h"
 #include "stage_borders.h"
 
 namespace roomgraph {
@@ -327,7 +328,9 @@ void SemanticSlam::continueInMap() {
 }
 
 std::vector<Finding> SemanticSlam::movementFindings() const {
-  return roomgraph::movementFindings(front_ends_.agreement(), first_t_.value_or(0));
+  auto findings = roomgraph::movementFindings(front_ends_.agreement(), first_t_.value_or(0));
+  for (const ClockSetting& clock : wrongClocks(front_ends_)) findings.push_back(clockFinding(clock, false));
+  return findings;
 }
 
 SlamResult SemanticSlam::finish() {

@@ -30,6 +30,10 @@ struct RecordCorrections {
   double wheels_time_offset_s = 0;               ///< of whatever gives odometry
   WheelCorrection wheels;
   DepthCorrection depth;  ///< of the camera that is used
+  /// By sensor label, added to the stamps once they have jumped by about minus this, in the order of the file, against those of the
+  /// other sensors, until they jump back.
+  std::map<std::string, double> time_jumps_s = {};
+  double wheels_time_jump_s = 0;  ///< the same, of whatever gives odometry
   bool operator==(const RecordCorrections&) const = default;
 };
 

@@ -22,6 +22,9 @@ struct ReadStatistics {
   std::map<std::string, int>
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
   std::map<std::string, int> corrected{};  ///< records that ReadOptions::corrections changed, by what of them
+  /// By how much stamps jump in the order of the file against those of other sensors, s, as they were read: by sensor label, "odometry" for
+  /// whatever gives it.
+  std::map<std::string, std::vector<double>> stamp_jumps{};
   SensorPoses placed{};  ///< ReadOptions::sensor_poses: where the reader put sensors in place of what was recorded
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
   std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for

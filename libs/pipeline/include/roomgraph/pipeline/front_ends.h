@@ -2,6 +2,7 @@
 // Odometry front ends: wheels, visual tracking and scan matching, each predicting for the others.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "roomgraph/estimation/motion.h"
 #include "roomgraph/estimation/movement_agreement.h"
+#include "roomgraph/estimation/sensor_clocks.h"
 #include "roomgraph/estimation/wheel_calibration.h"
 #include "roomgraph/datasets/calibration_file.h"
 #include "roomgraph/datasets/record_stream.h"
@@ -36,6 +38,10 @@ class FrontEnds {
   WheelCorrection wheelCorrection() const;
   /// Whether the sensors measured the same movements.
   const MovementAgreement& agreement() const { return agreement_; }
+  /// Whether they did so at the same times.
+  const SensorClocks& clocks() const { return clocks_; }
+  /// Labels of the sensors, in the order of kMotionSensors; empty for wheels and for what gave nothing.
+  const std::array<std::string, kMotionSensors.size()>& labels() const { return labels_; }
 
   /// False when the stamp does not come after the last one.
   bool add(const OdometryReading& reading);
@@ -61,6 +67,7 @@ class FrontEnds {
   /// The robot drives on a floor: known of all its poses from now on.
   void setPlanar();
   void compareSensors();
+  void compareClocks();
   void calibrateWheels(const MotionSource& teacher, std::optional<double>& taught_t);
 
   const Stages& stages_;
@@ -71,6 +78,8 @@ class FrontEnds {
   std::optional<Pose2> wheels_;          ///< the last pose in motion_
   std::optional<double> taught_by_lidar_, taught_by_camera_;  ///< until then wheels were compared with them
   MovementAgreement agreement_;
+  SensorClocks clocks_;
+  std::array<std::string, kMotionSensors.size()> labels_;
   std::optional<double> compared_t_;  ///< until then sensors were compared
   double predicted_t_ = -std::numeric_limits<double>::infinity();  ///< of the last image whose place was only predicted
   std::unique_ptr<ScansAhead> scans_ahead_;

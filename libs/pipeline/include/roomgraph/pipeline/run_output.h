@@ -13,6 +13,7 @@
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/pipeline/best_views.h"
+#include "roomgraph/pipeline/clock_settings.h"
 #include "roomgraph/pipeline/lost_spans.h"
 #include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
@@ -26,6 +27,7 @@ struct RunOrigin {
   std::vector<std::string> command;  ///< the words of the command line
   std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
   std::optional<std::vector<Finding>> findings = {};  ///< about the recording; nothing: not examined
+  std::vector<ClockSetting> clocks = {};  ///< of sensors, that were set
   bool resumed = false;  ///< what an interrupted run had computed was recalled: timings are without it
 };
 
