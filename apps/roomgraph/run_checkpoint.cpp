@@ -22,11 +22,9 @@ using CheckpointJson = nlohmann::ordered_json;
 constexpr const char *kRunFile = "run.json", *kJournalFile = "results.journal";
 
 /// What run.json says.
-struct BegunRun {
-  std::vector<std::string> command;
+struct KeptRun {
+  RunBegun begun;
   fs::path working_directory;
-  RunIdentity identity;
-  std::vector<ClockSetting> clocks;
   std::string text;  ///< all of it
 };
 
@@ -41,15 +39,17 @@ ClockSetting clockFrom(const CheckpointJson& json) {
   return {*sensor, json.at("label"), {json.at("added_s"), json.at("sigma_s")}, json.at("since_a_jump")};
 }
 
-BegunRun readBegunRun(const fs::path& file) {
-  BegunRun run;
+KeptRun readKeptRun(const fs::path& file) {
+  KeptRun run;
   run.text = readTextFile(file);
   const auto json = parseJson<CheckpointJson>(run.text, file.string());
   try {
-    run.command = json.at("command").get<std::vector<std::string>>();
+    run.begun.command = json.at("command").get<std::vector<std::string>>();
     run.working_directory = json.at("working_directory").get<std::string>();
-    for (const auto& part : json.at("belongs_to")) run.identity.emplace_back(part.at(0), part.at(1));
-    for (const auto& clock : json.at("clocks")) run.clocks.push_back(clockFrom(clock));
+    for (const auto& part : json.at("belongs_to")) run.begun.identity.emplace_back(part.at(0), part.at(1));
+    std::vector<ClockSetting> clocks;
+    for (const auto& clock : json.at("clocks")) clocks.push_back(clockFrom(clock));
+    run.begun.beginnings = {json.at("begun"), clocks};
   } catch (const CheckpointJson::exception& error) {
     throw InputError(file.string() + ": " + firstLine(error));
   }
@@ -75,17 +75,16 @@ void enter(const fs::path& directory, const std::string& out) {
 
 }  // namespace
 
-RunCheckpoint::RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, const std::vector<ClockSetting>& clocks, double sync_s,
-                             bool resume)
-    : folder_(files.checkpoint()), command_(commandLine()) {
+RunCheckpoint::RunCheckpoint(const OutputFolder& files, const RunBegun& run, double sync_s, bool resume)
+    : folder_(files.checkpoint()) {
   const fs::path file = folder_ / kRunFile;
-  if (!resume) begin(identity, clocks);
-  const BegunRun run = readBegunRun(file);
-  if (const auto difference = differenceOf(run.identity, identity); !difference.empty())
+  if (!resume) begin(run);
+  const KeptRun kept = readKeptRun(file);
+  if (const auto difference = differenceOf(kept.begun.identity, run.identity); !difference.empty())
     throw ConfigError(folder_.string() + " is of another run: " + difference +
                       "; without --resume the run begins anew");
-  command_ = run.command;
-  results_ = std::make_unique<JournalledResults>(folder_ / kJournalFile, sha256Of(run.text), sync_s);
+  command_ = kept.begun.command;
+  results_ = std::make_unique<JournalledResults>(folder_ / kJournalFile, sha256Of(kept.text), sync_s);
 }
 
 RunCheckpoint::~RunCheckpoint() {
@@ -97,18 +96,19 @@ void RunCheckpoint::discard() const {
   fs::remove_all(folder_, ignored);
 }
 
-void RunCheckpoint::begin(const RunIdentity& identity, const std::vector<ClockSetting>& clocks) const {
+void RunCheckpoint::begin(const RunBegun& run) const {
   std::error_code error;
   fs::remove_all(folder_, error);
   fs::create_directory(folder_, error);
   if (error) throw RunError("cannot make " + folder_.string() + ": " + error.message());
-  CheckpointJson json{{"format", 1},
-                      {"command", command_},
+  CheckpointJson json{{"format", 2},
+                      {"command", run.command},
                       {"working_directory", fs::current_path().string()},
+                      {"begun", run.beginnings.begun()},
                       {"clocks", CheckpointJson::array()},
                       {"belongs_to", CheckpointJson::array()}};
-  for (const ClockSetting& clock : clocks) json["clocks"].push_back(jsonOf(clock));
-  for (const auto& [name, value] : identity) json["belongs_to"].push_back({name, value});
+  for (const ClockSetting& clock : run.beginnings.clocks()) json["clocks"].push_back(jsonOf(clock));
+  for (const auto& [name, value] : run.identity) json["belongs_to"].push_back({name, value});
   try {
     // Names may be no UTF-8.
     writeFileAtomically(folder_ / kRunFile,
@@ -130,10 +130,10 @@ std::string RunCheckpoint::whatIsThere() const {
   return line;
 }
 
-std::vector<ClockSetting> clocksOfCheckpoint(const fs::path& output) {
+RunBeginnings beginningsOfCheckpoint(const fs::path& output) {
   const fs::path file = output / "roomgraph_checkpoint" / kRunFile;
   std::error_code none;
-  return fs::exists(file, none) ? readBegunRun(file).clocks : std::vector<ClockSetting>{};
+  return fs::exists(file, none) ? readKeptRun(file).begun.beginnings : RunBeginnings();
 }
 
 std::optional<RunOptions> optionsToResume(const RunOptions& now) {
@@ -156,9 +156,9 @@ std::optional<RunOptions> optionsToResume(const RunOptions& now) {
     options.output = now.output.empty() ? now.resume : now.output;
     return options;
   }
-  const BegunRun run = readBegunRun(file);
+  const KeptRun run = readKeptRun(file);
   if (!options.progress.empty()) options.progress = fs::absolute(options.progress).string();
-  options = withWordsOf(run.command, options);
+  options = withWordsOf(run.begun.command, options);
   options.output = out.string();
   enter(run.working_directory, now.resume);
   return options;

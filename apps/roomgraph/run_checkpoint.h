@@ -10,11 +10,18 @@
 
 #include "roomgraph/core/output_folder.h"
 #include "roomgraph/core/result_store.h"
-#include "roomgraph/pipeline/clock_settings.h"
+#include "run_beginnings.h"
 #include "run_identity.h"
 #include "run_options.h"
 
 namespace roomgraph {
+
+/// What a run was begun with.
+struct RunBegun {
+  std::vector<std::string> command;  ///< words of the command line
+  RunIdentity identity;
+  RunBeginnings beginnings;
+};
 
 /// The folder OUT/roomgraph_checkpoint (docs/formats.md) while a run goes on. It vanishes when the run
 /// publishes its files; what is left of a run that ended otherwise is for `--resume`.
@@ -22,7 +29,7 @@ class RunCheckpoint {
  public:
   /// Begins a checkpoint, in place of any other, or with `resume` goes on with the one that is there. Throws
   /// ConfigError: that one is of another run; RunError: cannot be written.
-  RunCheckpoint(const OutputFolder& files, const RunIdentity& identity, const std::vector<ClockSetting>& clocks, double sync_s, bool resume);
+  RunCheckpoint(const OutputFolder& files, const RunBegun& run, double sync_s, bool resume);
   /// Removes a checkpoint without results: it would save nothing.
   ~RunCheckpoint();
   RunCheckpoint(const RunCheckpoint&) = delete;
@@ -38,15 +45,15 @@ class RunCheckpoint {
   std::string whatIsThere() const;
 
  private:
-  void begin(const RunIdentity& identity, const std::vector<ClockSetting>& clocks) const;
+  void begin(const RunBegun& run) const;
 
   std::filesystem::path folder_;
   std::vector<std::string> command_;
   std::unique_ptr<JournalledResults> results_;
 };
 
-/// Clocks that were set by the unfinished run in an output folder; none without a checkpoint. Throws InputError: cannot be read.
-std::vector<ClockSetting> clocksOfCheckpoint(const std::filesystem::path& output);
+/// Of the unfinished run in an output folder; the first one without a checkpoint. Throws InputError: cannot be read.
+RunBeginnings beginningsOfCheckpoint(const std::filesystem::path& output);
 
 /// For `--resume`: what was asked for when the run was begun, with what is said now besides; the working
 /// directory becomes that of then. Nothing, after a line on standard output, when the run is complete. Throws

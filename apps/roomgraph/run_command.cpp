@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "commands.h"
 #include "configuration.h"
@@ -20,12 +21,12 @@
 #include "roomgraph/core/progress_file.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/mapping/map_files.h"
-#include "roomgraph/pipeline/clock_settings.h"
 #include "roomgraph/pipeline/detection_recording.h"
 #include "roomgraph/pipeline/detection_source.h"
 #include "roomgraph/pipeline/read_options.h"
 #include "roomgraph/pipeline/run_output.h"
 #include "roomgraph/rendering/debug_picture.h"
+#include "run_beginnings.h"
 #include "run_checkpoint.h"
 #include "run_options.h"
 #include "run_places.h"
@@ -36,8 +37,6 @@ namespace roomgraph {
 namespace {
 
 constexpr double kCheckpoint_s = 30;
-constexpr int kMostBeginnings = 3;        // of a run whose clocks are set
-constexpr double kLatestBeginning_s = 1800;  // of the recording; clocks that come apart later are reported
 
 /// Wall-clock time, for people.
 class Stopwatch {
@@ -158,24 +157,18 @@ RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& ne
 }
 
 /// What stays of a run that begins anew.
-struct Beginnings {
-  int count = 0;
-  std::vector<ClockSetting> clocks;  ///< as they are set
+struct WholeRun {
+  RunBeginnings beginnings;
+  bool resumes = false;  ///< with the next beginning
+  std::vector<std::string> command = commandLine();
   std::optional<Examination> examination;
-
-  /// Clocks that are to be set, after a record.
-  std::vector<ClockSetting> wrong(const SemanticSlam& slam, const ReplayState& now) const {
-    if (!slam.setup().options.general.set_clocks || count >= kMostBeginnings || now.seconds() > kLatestBeginning_s) return {};
-    if (!canBeSet(slam.frontEnds().clocks())) return {};
-    return wrongClocks(slam.frontEnds());
-  }
 };
 
 // Of the recording, and of the movements that its sensors measured.
-Examination::Findings findingsOf(Beginnings& beginnings, const SemanticSlam& slam, const ReadStatistics& read, bool quiet) {
-  Examination::Findings out = beginnings.examination->findings(quiet);
+Examination::Findings findingsOf(WholeRun& whole, const SemanticSlam& slam, bool quiet) {
+  Examination::Findings out = whole.examination->findings(quiet);
   if (!out) return out;
-  for (const ClockSetting& clock : beginnings.clocks) out->push_back(clockFinding(clock, isSet(clock, read)));
+  for (const ClockSetting& clock : whole.beginnings.clocks()) out->push_back(clockFinding(clock, true));
   for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
   std::stable_sort(out->begin(), out->end(), [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return out;
@@ -193,9 +186,9 @@ void printWarnings(const ReadStatistics& read, const std::string& of_detector, c
 
 // Nothing with --checkpoint 0, unless it is to be gone on with.
 std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const Setup& setup,
-                                              const OutputFolder& files, const Beginnings& beginnings) {
+                                              const OutputFolder& files, WholeRun& whole) {
   const double seconds = options.checkpoint_s.value_or(kCheckpoint_s);
-  const bool resume = !options.resume.empty() && beginnings.count == 1;
+  const bool resume = std::exchange(whole.resumes, false);
   std::error_code none;
   const bool there = std::filesystem::exists(files.checkpoint(), none);
   if (there && !resume)
@@ -206,7 +199,8 @@ std::unique_ptr<RunCheckpoint> openCheckpoint(const RunOptions& options, const S
     std::filesystem::remove_all(files.checkpoint(), none);
     return nullptr;
   }
-  auto checkpoint = std::make_unique<RunCheckpoint>(files, identityOf(options, setup), beginnings.clocks, seconds, resume);
+  auto checkpoint = std::make_unique<RunCheckpoint>(files, RunBegun{whole.command, identityOf(options, setup), whole.beginnings}, seconds, resume);
+  whole.command = checkpoint->command();
   if (resume && (!options.quiet || checkpoint->results().found().damaged > 0))
     std::cerr << "roomgraph: " << checkpoint->whatIsThere() << "\n";
   return checkpoint;
@@ -225,18 +219,13 @@ Configuration configurationOf(const RunOptions& options) {
   return out;
 }
 
-// May be none, when what was wrong cannot be set: then it is not looked for any more.
-std::vector<ClockSetting> clocksToSet(std::vector<ClockSetting> wrong, const SemanticSlam& slam, const ReadStatistics& read,
-                                      const ReplayState& replayed, bool quiet, Beginnings& beginnings) {
-  auto clocks = withJumps(std::move(wrong), slam.frontEnds().clocks(), read);
-  if (clocks.empty()) beginnings.count = kMostBeginnings;
-  for (const ClockSetting& clock : clocks) {
-    const Finding finding = clockFinding(clock, false);
-    if (!quiet)
-      std::fprintf(stderr, "roomgraph: %s: %s, as the first %.0f s show; begun anew with stamps corrected\n", finding.place.c_str(),
-                   finding.what.c_str(), replayed.seconds());
-  }
-  return clocks;
+void printReasons(const RunBeginnings& beginnings, const ReplayState& replayed) {
+  for (const std::string& reason : beginnings.reasons(replayed)) std::cerr << "roomgraph: " << reason << "\n";
+}
+
+// Whether stamps of images are what boxes that are kept apart from them are found by.
+bool imagesStay(const RunOptions& options, const Configuration& configuration) {
+  return !options.recording.empty() || !options.detections.empty() || !configuration.config.text("detection", "file", "").empty();
 }
 
 void printEnd(const RunOptions& options, const OutputFolder& files, bool reported, bool drawn) {
@@ -245,24 +234,24 @@ void printEnd(const RunOptions& options, const OutputFolder& files, bool reporte
   std::cout << "\n";
 }
 
-// Returns the clocks that are to be set, when the run is to begin anew.
-std::optional<std::vector<ClockSetting>> runOnce(const RunOptions& options, Beginnings& beginnings) {
-  const bool first = beginnings.count++ == 0;
+// Returns whether the run is to begin anew.
+bool runOnce(const RunOptions& options, WholeRun& whole) {
   Configuration configuration = configurationOf(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
   ReadOptions reading = readOptionsOf(setup->options);
-  addClocks(beginnings.clocks, reading.corrections);
+  addClocks(whole.beginnings.clocks(), reading.corrections);
   RawlogReader reader(options.input, reading);
-  if (const std::string advice = missingDetections(setup->stages, options.input); first && !advice.empty())
+  if (const std::string advice = missingDetections(setup->stages, options.input); whole.beginnings.begun() == 1 && !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
   std::optional<CSemanticMap> earlier;
   if (!options.map.empty()) earlier = loadMap(options.map);
   const auto inputs = inputsOf(options, configuration);
   catchInterrupts();
   auto output = std::make_shared<RunOutput>(options.output, inputs);
-  const auto checkpoint = openCheckpoint(options, *setup, output->files(), beginnings);
+  const auto checkpoint = openCheckpoint(options, *setup, output->files(), whole);
   RunPlaces places(options.input, output->files());
   const ExtraSinks extra = addSinks(options, *setup);
+  setup->options.general.lookahead_s += whole.beginnings.longestOffset();
   auto slam = std::make_unique<SemanticSlam>(std::move(setup));
   if (checkpoint) slam->setResultStore(checkpoint->results());
   if (earlier) slam->setMap(std::move(*earlier));
@@ -270,15 +259,15 @@ std::optional<std::vector<ClockSetting>> runOnce(const RunOptions& options, Begi
   extra.addTo(*slam);
 
   const Stopwatch watch;
-  if (first && !options.no_report) beginnings.examination.emplace(options.input, reading.sensor_poses, options.span.until_s);
-  std::vector<ClockSetting> wrong;
+  if (!whole.examination && !options.no_report) whole.examination.emplace(options.input, reading.sensor_poses, options.span.until_s);
+  bool again = false, images_stay = imagesStay(options, configuration);
   const ReplayState replayed = replayWithProgress(options, reader, *slam, places, [&](const ReplayState& now) {
-    wrong = beginnings.wrong(*slam, now);
-    return !wrong.empty();
+    return again = !interrupted() && whole.beginnings.shallBegin(*slam, reader, now, images_stay);
   });
-  if (!wrong.empty()) {
+  if (again || (!replayed.interrupted && whole.beginnings.shallBegin(*slam, reader, replayed, images_stay, true))) {
+    printReasons(whole.beginnings, replayed);
     if (checkpoint) checkpoint->discard();
-    return clocksToSet(std::move(wrong), *slam, reader.statistics(), replayed, options.quiet, beginnings);
+    return true;
   }
   // The whole run goes another way from here.
   if (checkpoint && replayed.interrupted) checkpoint->results().stop();
@@ -286,8 +275,8 @@ std::optional<std::vector<ClockSetting>> runOnce(const RunOptions& options, Begi
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
   RunOrigin origin = originOf(options, networks, checkpoint.get());
-  origin.clocks = beginnings.clocks;
-  if (beginnings.examination && !replayed.interrupted) origin.findings = findingsOf(beginnings, *slam, reader.statistics(), options.quiet);
+  origin.clocks = whole.beginnings.clocks();
+  if (whole.examination && !replayed.interrupted) origin.findings = findingsOf(whole, *slam, options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;
   const auto detector = slam->setup().stages.detector;  // the recordings know it
@@ -304,17 +293,18 @@ std::optional<std::vector<ClockSetting>> runOnce(const RunOptions& options, Begi
   printWarnings(reader.statistics(), detector ? detector->warning() : "", origin.findings.value_or(std::vector<Finding>{}));
   printEnd(options, output->files(), reported, drawn);
   if (replayed.interrupted) throw Interrupted(whatWasReplayed(replayed, checkpoint.get(), options.output));
-  return std::nullopt;
+  return false;
 }
 
 void run(const RunOptions& options) {
   shareHeap();
   const ThreadLimit limit(options.threads);
   check(options);
-  Beginnings beginnings;
-  if (!options.resume.empty()) beginnings.clocks = clocksOfCheckpoint(options.resume);
-  while (const auto wrong = runOnce(options, beginnings)) {
-    addClocks(*wrong, beginnings.clocks);
+  WholeRun whole;
+  whole.resumes = !options.resume.empty();
+  if (whole.resumes) whole.beginnings = beginningsOfCheckpoint(options.resume);
+  while (runOnce(options, whole)) {
+    whole.beginnings.again();
     giveBackFreedMemory();
   }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace roomgraph::test {
 namespace {
@@ -57,6 +58,21 @@ TEST(MotionSource, WithoutStepsItsModelIsAll) {
     EXPECT_EQ(found->covariance, expected->covariance);
     EXPECT_EQ(without.inLocalMap(a, b, 1)->covariance, with.inLocalMap(a, b, 1)->covariance);
   }
+}
+
+// The robot may have been carried while nothing was recorded.
+TEST(MotionSource, WhatWheelsSayOfAPauseCountsAsUnknown) {
+  MotionSource source(kNoise, false), other(kNoise, false);
+  for (const double t : {0.0, 1.0, 3.0, 13.0, 14.0}) {
+    source.add(t, Pose3::Identity(), 0);
+    other.add(t, Pose3::Identity(), 0, Matrix6d::Zero());
+  }
+  const Matrix6d model = source.between(0, 3, 0)->covariance;
+  EXPECT_LT(model.norm(), 1e-3) << "two seconds are no pause";
+  for (const auto& [from, until, seconds] : {std::tuple(1.0, 14.0, 10.0), {14.0, 1.0, 10.0}, {5.0, 7.0, 2.0}, {3.0, 13.0, 10.0}, {12.0, 14.0, 1.0}})
+    EXPECT_LT((source.between(from, until, 0)->covariance - model - unknownMovement(seconds).covariance).norm(), 1e-9) << from << ' ' << until;
+  EXPECT_EQ(source.between(13, 14, 0)->covariance, model);
+  EXPECT_EQ(other.between(1, 14, 0)->covariance, model) << "matches hold across a pause";
 }
 
 TEST(MotionSource, NothingAcrossALossAndOutsideTheData) {

@@ -49,7 +49,7 @@ TEST(SensorClocks, TheOneThatTwoOthersDifferFromIsWrong) {
     SensorClocks clocks;
     clocks.compare(sensors.lidar, sensors.camera, sensors.wheels);
     expectOnlyWrong(clocks, i, -0.1);
-    EXPECT_FALSE(clocks.agreed());
+    for (std::size_t other = 0; other < late.size(); ++other) EXPECT_EQ(clocks.agreed(kMotionSensors[other]), other != i);
     EXPECT_FALSE(clocks.jumped());
   }
 }
@@ -84,7 +84,7 @@ TEST(SensorClocks, ClocksThatAgreeAreNotWrong) {
   ASSERT_TRUE(clocks.offsets());
   EXPECT_NEAR((*clocks.offsets())[kCameraPlace].seconds, -0.01, 0.006);
   EXPECT_FALSE(clocks.wrong());
-  EXPECT_TRUE(clocks.agreed());
+  for (const MotionSensor sensor : kMotionSensors) EXPECT_TRUE(clocks.agreed(sensor) && clocks.isThere(sensor));
 }
 
 TEST(SensorClocks, ALittleDrivingAndOneSensorSayNothing) {
@@ -96,7 +96,9 @@ TEST(SensorClocks, ALittleDrivingAndOneSensorSayNothing) {
   const Trajectory none;
   one.compare(sensorsOf({}).lidar, none, none);
   EXPECT_FALSE(one.offsets());
-  EXPECT_FALSE(one.agreed());
+  EXPECT_FALSE(one.agreed(MotionSensor::kLidar));
+  EXPECT_TRUE(one.isThere(MotionSensor::kLidar));
+  EXPECT_FALSE(one.isThere(MotionSensor::kCamera));
 }
 
 // All others are compared with the lidar: until both have noticed, it is not known who has jumped.
@@ -111,11 +113,62 @@ TEST(SensorClocks, TheOneThatJumpsIsWrongFromThenOn) {
       clocks.compare(until(sensors.lidar, t), until(sensors.camera, t), until(sensors.wheels, t));
       if (clocks.wrong()) found_t = t;
     }
-    EXPECT_TRUE(clocks.agreed()) << i;
+    EXPECT_TRUE(clocks.agreed(kMotionSensors[i])) << i;
     EXPECT_TRUE(clocks.jumped()) << i;
     EXPECT_GT(found_t, 60) << i;
     EXPECT_LT(found_t, 90) << i;
     expectOnlyWrong(clocks, i, 0.5);
+  }
+}
+
+// A lidar that dies early keeps nobody from being compared, and a camera that begins late may be wrong from its start.
+TEST(SensorClocks, SensorsThatDieOrBeginLate) {
+  const Sensors3 sensors = sensorsOf({.camera = alwaysLate(0.2)}, 100);
+  SensorClocks died;
+  died.compare(until(sensors.lidar, 4), sensors.camera, sensors.wheels);
+  EXPECT_FALSE(died.isThere(MotionSensor::kLidar));
+  expectOnlyWrong(died, kCameraPlace, -0.2);
+  SensorClocks late;
+  const Trajectory none;
+  late.compare(until(sensors.lidar, 40), none, until(sensors.wheels, 40));
+  EXPECT_TRUE(late.agreed(MotionSensor::kLidar) && late.agreed(MotionSensor::kWheels));
+  Trajectory camera;
+  for (std::size_t i = 0; i < sensors.camera.size(); ++i)
+    if (sensors.camera.poses()[i].t > 40) camera.add(sensors.camera.poses()[i].t, sensors.camera.poses()[i].pose);
+  late.compare(sensors.lidar, camera, sensors.wheels);
+  expectOnlyWrong(late, kCameraPlace, -0.2);
+  EXPECT_FALSE(late.agreed(MotionSensor::kCamera));
+}
+
+// What the camera saw until then are movements of the wheels.
+TEST(SensorClocks, WhatIsOnlyPredictedSaysNothing) {
+  const Sensors3 sensors = sensorsOf({.camera = alwaysLate(0.2)});
+  const Trajectory none;
+  SensorClocks predicted, seen;
+  predicted.compare(none, sensors.wheels, sensors.wheels, 200);
+  EXPECT_FALSE(predicted.offsets());
+  seen.compare(none, sensors.camera, sensors.wheels, 20);
+  expectOnlyWrong(seen, kCameraPlace, -0.2);
+}
+
+// Records that say little at first: nothing is called wrong that is right, at any time.
+TEST(SensorClocks, RightClocksAreNeverCalledWrong) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const Drive drive(40, 50 + seed);
+    const Trajectory lidar = seenBy(drive, {.noise_rad = 0.003, .noise_m = 0.003}, seed);
+    Trajectory wheels;
+    Random random(1000 + seed);
+    Pose2 slipped;
+    const Trajectory rolled = seenBy(drive, {.rate_hz = 20, .noise_rad = 0.002}, 2000 + seed);
+    for (std::size_t i = 0; i < rolled.size(); ++i) {
+      if (random.uniform() < 0.02) slipped = slipped * Pose2{random.uniform(-0.1, 0.1), 0, random.uniform(-0.2, 0.2)};
+      wheels.add(rolled.poses()[i].t, toPose3(planarPart(rolled.poses()[i].pose) * slipped));
+    }
+    SensorClocks clocks;
+    for (double t = 1; t < 40; t += 0.5) {
+      clocks.compare(until(lidar, t), {}, until(wheels, t));
+      ASSERT_FALSE(clocks.wrong()) << "seed " << seed << " at " << t << " s: " << (*clocks.wrong())[kWheelsPlace].seconds;
+    }
   }
 }
 

@@ -145,6 +145,29 @@ TEST(SubmapScanMatcher, StartsANewSegmentSomewhereElse) {
   EXPECT_TRUE(match.matched);
 }
 
+// After a pause, in which it may have been carried off.
+TEST(SubmapScanMatcher, AfterAPauseItIsInTheSamePlaceOrBeginsANewSegment) {
+  for (const double pause_s : {1.0, 3.0}) {
+    std::mt19937 random(3);
+    SubmapScanMatcher here, carried;
+    for (int i = 0; i < 5; ++i) {
+      const Scan scan = test::castScan(test::asymmetricRoom(), {0, 0, 0}, 0.1 * i, random);
+      here.match(scan, Pose2{});
+      carried.match(scan, Pose2{});
+    }
+    const ScanMatch same = here.match(test::castScan(test::asymmetricRoom(), {0.1, 0, 0.05}, pause_s, random), Pose2{});
+    EXPECT_TRUE(same.matched);
+    EXPECT_EQ(same.segment, 0);
+    EXPECT_GT(same.score, 0.8);
+    const ScanMatch elsewhere = carried.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, pause_s, random), Pose2{});
+    EXPECT_EQ(elsewhere.segment, pause_s > 2 ? 1 : 0);
+    if (pause_s > 2) {
+      EXPECT_TRUE(elsewhere.matched) << "its map begins there";
+      EXPECT_EQ(elsewhere.score, 1);
+    }
+  }
+}
+
 TEST(SubmapScanMatcher, SameInputSameOutput) {
   const auto poses = bow();
   const Replayed first = replay(test::asymmetricRoom(), poses, true),

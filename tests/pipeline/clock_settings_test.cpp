@@ -38,21 +38,40 @@ TEST(ClockSettings, AreAddedToWhatACalibrationSays) {
   EXPECT_EQ(corrections.wheels_time_jump_s, 0.25);
 }
 
-TEST(ClockSettings, TheStampsSayWhetherAClockJumpedAndByHowMuch) {
-  ReadStatistics read;
-  read.stamp_jumps = {{"KINECT", {0.9, 0.12}}, {"odometry", {0.25}}};
-  const SensorClocks never_agreed;
-  const auto clocks = withJumps({kLateCamera, kEarlyWheels, {MotionSensor::kLidar, "LIDAR", {0.12, 0.003}}}, never_agreed, read);
-  ASSERT_EQ(clocks.size(), 3u);
+const SensorClocks kNeverAgreed;
+
+TEST(ClockSettings, TheStampsSayWhetherAClockJumped) {
+  const StampJumpsBySensor jumps = {{"KINECT", {{5, 0.9}, {9, 0.104}}}, {"odometry", {{7, 0.25}}}};
+  const ClockSetting lidar{MotionSensor::kLidar, "LIDAR", {0.17, 0.003}};
+  const auto clocks = settable({kLateCamera, lidar}, kNeverAgreed, jumps);
+  ASSERT_EQ(clocks.size(), 2u);
   EXPECT_TRUE(clocks[0].jumped);
-  EXPECT_EQ(clocks[0].offset, (TimeOffset{-0.12, 0.003}));
-  EXPECT_FALSE(clocks[1].jumped) << "that jump went the other way";
-  EXPECT_EQ(clocks[1].offset, kEarlyWheels.offset);
-  EXPECT_FALSE(clocks[2].jumped);
-  EXPECT_TRUE(canBeSet(never_agreed));
+  EXPECT_EQ(clocks[0].offset, (TimeOffset{-0.104, 0.003})) << "the stamps say better by how much";
+  EXPECT_EQ(clocks[1], lidar);
 }
 
-TEST(ClockSettings, ClocksThatAgreedAndComeApartAreNotSet) {
+// An image was left out where the clock jumped.
+TEST(ClockSettings, AJumpWithAGapIsAsLongAsTheMovementsSay) {
+  ClockSetting camera = kLateCamera;
+  camera.offset.seconds = -0.5;
+  const auto clocks = settable({camera}, kNeverAgreed, {{"KINECT", {{9, 0.63}}}});
+  ASSERT_EQ(clocks.size(), 1u);
+  EXPECT_TRUE(clocks[0].jumped);
+  EXPECT_EQ(clocks[0].offset.seconds, -0.5);
+}
+
+TEST(ClockSettings, TheOneThatJumpedIsSetAndNotTheOneThatSeemsWrong) {
+  const ClockSetting wheels{MotionSensor::kWheels, "", {0.5, 0.01}};
+  const auto clocks = settable({wheels}, kNeverAgreed, {{"LIDAR", {{9, 0.5}}}});
+  ASSERT_EQ(clocks.size(), 1u);
+  EXPECT_EQ(clocks[0], (ClockSetting{MotionSensor::kLidar, "LIDAR", {-0.5, 0.01}, true}));
+  const ClockSetting camera{MotionSensor::kCamera, "KINECT", {-0.3, 0.01}};
+  const auto of_wheels = settable({camera}, kNeverAgreed, {{"odometry", {{9, -0.3}}}});
+  ASSERT_EQ(of_wheels.size(), 1u);
+  EXPECT_EQ(of_wheels[0], (ClockSetting{MotionSensor::kWheels, "", {0.3, 0.01}, true}));
+}
+
+TEST(ClockSettings, ClocksThatWereRightAndComeApartAreNotSet) {
   Trajectory lidar, wheels;
   double yaw = 0;
   for (int i = 0; i < 1200; ++i) {
@@ -63,23 +82,10 @@ TEST(ClockSettings, ClocksThatAgreedAndComeApartAreNotSet) {
   }
   SensorClocks clocks;
   clocks.compare(lidar, {}, wheels);
-  ASSERT_TRUE(clocks.agreed());
-  EXPECT_FALSE(canBeSet(clocks));
-  ReadStatistics read;
-  EXPECT_THAT(withJumps({kEarlyWheels}, clocks, read), IsEmpty());
-  read.stamp_jumps = {{"odometry", {-0.25}}};
-  EXPECT_EQ(withJumps({kEarlyWheels}, clocks, read).size(), 1u);
-}
-
-TEST(ClockSettings, AreSetWhenStampsWereCorrected) {
-  ReadStatistics read;
-  EXPECT_FALSE(isSet(kLateCamera, read));
-  read.corrected = {{"stamp of 'KINECT' -0.1000 s", 7}};
-  EXPECT_TRUE(isSet(kLateCamera, read));
-  EXPECT_FALSE(isSet(kEarlyWheels, read));
-  read.corrected = {{"stamp of odometry +0.2500 s", 7}};
-  EXPECT_TRUE(isSet(kEarlyWheels, read));
-  EXPECT_FALSE(isSet(kLateCamera, read));
+  ASSERT_TRUE(clocks.agreed(MotionSensor::kWheels));
+  EXPECT_THAT(settable({kEarlyWheels}, clocks, {}), IsEmpty());
+  EXPECT_EQ(settable({kEarlyWheels}, clocks, {{"odometry", {{30, -0.25}}}}).size(), 1u);
+  EXPECT_EQ(settable({kLateCamera}, clocks, {}).size(), 1u) << "it was not there before";
 }
 
 TEST(ClockSettings, AFindingSaysWhoIsLateByHowMuchAndSinceWhen) {

@@ -82,27 +82,41 @@ class Clocks(unittest.TestCase):
         self.assertTrue(any("too late against those of the others" in what for what in self.findings(out, "LIDAR")))
         self.assertGreater(self.error(out), 2 * self.error(right))
 
-    def test_it_is_the_same_with_more_threads_and_after_a_kill(self):
-        rawlog, whole, killed = self.damaged("camera=0:0.12"), self.folder / "whole", self.folder / "killed"
-        call(*self.run_words(rawlog, whole, "--threads", "1"))
-        run = subprocess.Popen([PROGRAM, *map(str, self.run_words(rawlog, killed, "--threads", "4", "--checkpoint", "0.1"))],
-                               stderr=subprocess.PIPE, text=True)
-        for line in run.stderr:
-            if "begun anew" in line:
-                break
-        checkpoint, live = killed / "roomgraph_checkpoint" / "run.json", killed / "roomgraph_unfinished" / "live.tum"
-        for _ in range(2000):
-            if checkpoint.exists() and json.loads(checkpoint.read_text())["clocks"] and live.exists() and live.stat().st_size > 4000:
+    def kill(self, words, out, clocks):
+        """Kills a run whose checkpoint names so many clocks, some time after its beginning; returns what it said."""
+        run = subprocess.Popen([PROGRAM, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        checkpoint, live = out / "roomgraph_checkpoint" / "run.json", out / "roomgraph_unfinished" / "live.tum"
+        for _ in range(6000):
+            if checkpoint.exists() and f'"begun": {clocks + 1},' in checkpoint.read_text() and live.exists() and live.stat().st_size > 4000:
                 break
             time.sleep(0.005)
         run.send_signal(signal.SIGKILL)
-        run.communicate()
+        said = run.communicate()[1]
         self.assertEqual(run.returncode, -signal.SIGKILL, "it had ended before it was killed")
+        return said
+
+    def test_it_is_the_same_with_more_threads_and_after_kills_before_and_after(self):
+        rawlog, whole, killed = self.damaged("camera=0:0.12"), self.folder / "whole", self.folder / "killed"
+        call(*self.run_words(rawlog, whole, "--threads", "1"))
+        self.assertNotIn("begun anew", self.kill(self.run_words(rawlog, killed, "--threads", "4", "--checkpoint", "0.1"), killed, 0))
+        self.assertIn("begun anew", self.kill(("run", "--resume", killed), killed, 1))
         done = call("run", "--resume", killed)
         self.assertNotIn("begun anew", done.stderr)
         self.assertEqual(self.summary(killed)["clocks"], self.summary(whole)["clocks"])
+        self.assertIn(str(rawlog), self.summary(killed)["command"])
         for name in ("trajectory.tum", "live.tum", "landmarks.json", "graph.g2o", "map.rgmap"):
             self.assertEqual((killed / name).read_bytes(), (whole / name).read_bytes(), name)
+
+    # Boxes in a file are found by the stamps of their images: the clocks of the others are set.
+    def test_stamps_of_images_stay_where_boxes_are_kept_apart(self):
+        rawlog, first, second = self.damaged("camera=0:0.12"), self.folder / "first", self.folder / "second"
+        boxes = self.folder / "boxes.rawlog"
+        call(*self.run_words(rawlog, first, "--save-detections", boxes))
+        self.assertEqual({clock["sensor"] for clock in self.summary(first)["clocks"]["set"]}, {"lidar", "wheels"})
+        call(*self.run_words(rawlog, second, "--set", f"detection.file={boxes}"))
+        for name in ("trajectory.tum", "landmarks.json"):
+            self.assertEqual((first / name).read_bytes(), (second / name).read_bytes(), name)
+        self.assertTrue(json.loads((first / "landmarks.json").read_text())["landmarks"])
 
 
 if __name__ == "__main__":

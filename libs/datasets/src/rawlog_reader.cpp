@@ -44,6 +44,8 @@ std::optional<Record> RawlogReader::next() {
 double RawlogReader::progress() const {
   return impl_->source.progress();
 }
+StampJumpsBySensor RawlogReader::stampJumps() const { return impl_->converter.stampJumps(); }
+
 const ReadStatistics& RawlogReader::statistics() const {
   return impl_->converter.statistics();
 }

@@ -7,6 +7,8 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <mutex>
+
 #include "frame_conversion.h"
 #include "image_folder.h"
 #include "odometry_sum.h"
@@ -53,6 +55,7 @@ struct RecordConverter::Impl {
   ReadOptions options;
   SensorChoices choices;
   RecordCorrection correction;
+  std::mutex correcting;
   std::string image_folder;
   ReadStatistics statistics;
   OdometrySum odometry;
@@ -231,14 +234,19 @@ void RecordConverter::end(const std::string& warning) {
 
 std::optional<Record> RecordConverter::next() {
   auto record = impl_->nextAsRecorded();
+  const std::lock_guard lock(impl_->correcting);
   if (record) impl_->correction.apply(*record);
   return record;
+}
+
+StampJumpsBySensor RecordConverter::stampJumps() const {
+  const std::lock_guard lock(impl_->correcting);
+  return impl_->correction.jumps();
 }
 
 const ReadStatistics& RecordConverter::statistics() const {
   impl_->statistics.sensor_warnings = impl_->choices.warnings();
   impl_->statistics.corrected = impl_->correction.counts();
-  impl_->statistics.stamp_jumps = impl_->correction.jumps();
   impl_->statistics.placed = impl_->options.sensor_poses;
   return impl_->statistics;
 }

@@ -22,8 +22,8 @@ class RecordCorrection {
   void apply(Record& record);
   /// Records that were changed, by what was changed.
   const std::map<std::string, int>& counts() const { return counts_; }
-  /// Jumps of stamps in the order of the file against those of other sensors, s, by label ("odometry" for any), before correction.
-  const std::map<std::string, std::vector<double>>& jumps() const { return jumps_.found(); }
+  /// Of stamps as they were read.
+  const StampJumpsBySensor& jumps() const { return jumps_.found(); }
 
  private:
   double offsetOf(const std::string& label) const;

@@ -36,7 +36,7 @@ bool StampJumps::add(const std::string& sensor, double t, double expected_s) {
   const double interval_s = t - own.t, lead_s = t - latest;
   const double jump_s = interval_s - own.interval_s;
   if (std::abs(jump_s) > kLeastJump_s && isAbout(lead_s - own.lead_s, jump_s, kAlikeLead)) {
-    found_[sensor].push_back(jump_s);
+    found_[sensor].push_back({t, jump_s});
     if (isAbout(jump_s, own.jumped ? -expected_s : expected_s, kAlike)) own.jumped = !own.jumped;
   } else {
     own.interval_s = interval_s;

@@ -4,7 +4,8 @@
 
 #include <map>
 #include <string>
-#include <vector>
+
+#include "roomgraph/datasets/rawlog_reader.h"
 
 namespace roomgraph {
 
@@ -15,8 +16,7 @@ class StampJumps {
   bool add(const std::string& sensor, double t, double expected_s);
   /// Since its last record.
   bool jumped(const std::string& sensor) const;
-  /// All that were found, s, by sensor.
-  const std::map<std::string, std::vector<double>>& found() const { return found_; }
+  const StampJumpsBySensor& found() const { return found_; }
 
  private:
   struct Stamps {
@@ -25,7 +25,7 @@ class StampJumps {
     bool jumped = false;
   };
   std::map<std::string, Stamps> sensors_;
-  std::map<std::string, std::vector<double>> found_;
+  StampJumpsBySensor found_;
 };
 
 }  // namespace roomgraph

@@ -13,11 +13,12 @@ namespace {
 constexpr double kRange_s = 1, kCell_s = 0.02;
 constexpr int kHalf = 50;                          // cells of the range
 constexpr double kStep_s = 0.3, kLongestStep_s = 1;  // of movements that are compared
-constexpr double kDense_s = 0.25;                  // between poses of the reference
+constexpr double kDense_s = 0.55;                  // between poses of the reference
 constexpr std::array kNoises = {0.001, 0.002, 0.004, 0.008, 0.016};  // m and rad, of which that of the two sensors is one
 constexpr double kTells_m = 0.02, kTells_rad = 0.02;  // by which movements of the reference differ, to tell offsets apart
 constexpr double kLasting = 0.995, kRecent = 0.95;  // share that is left after another movement
 constexpr double kJump_s = 0.15;                   // of a clock
+constexpr int kLeastTold = 30;                     // movements: of few their noise is not known
 constexpr int kNear = 5;                           // cells about the least that need not differ from it
 constexpr double kDistinct = 8;                    // by how much the others must
 
@@ -72,13 +73,18 @@ ClockComparison::ClockComparison() { forget(); }
 void ClockComparison::forget() {
   lasting_.assign(kNoises.size(), std::vector<double>(2 * kHalf + 1, 0));
   recent_ = lasting_;
+  told_ = 0;
 }
 
-bool ClockComparison::compare(const Trajectory& sensor, const Trajectory& reference) {
+bool ClockComparison::compare(const Trajectory& sensor, const Trajectory& reference, double after_t) {
   const auto& poses = sensor.poses();
   bool jumped = false;
   if (reference.empty()) return jumped;
   while (next_ < poses.size()) {
+    if (poses[next_].t <= after_t) {
+      ++next_;
+      continue;
+    }
     const double from_t = poses[next_].t;
     std::size_t last = next_ + 1;
     while (last < poses.size() && poses[last].t < from_t + kStep_s) ++last;
@@ -101,6 +107,7 @@ void ClockComparison::learn(const Trajectory& sensor, const Trajectory& referenc
     steps.push_back(*step);
   }
   if (!tells(steps)) return;
+  ++told_;
   for (std::size_t n = 0; n < kNoises.size(); ++n)
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const double cost = costOf(*seen, steps[i], kNoises[n]);
@@ -110,12 +117,16 @@ void ClockComparison::learn(const Trajectory& sensor, const Trajectory& referenc
 }
 
 bool ClockComparison::hasJumped() {
+  if (told_ < kLeastTold) return false;
   const auto lasting = leastOf(lasting_), recent = leastOf(recent_);
   if (!lasting || !recent || std::abs(lasting->seconds - recent->seconds) < kJump_s) return false;
   lasting_ = recent_;
   return true;
 }
 
-std::optional<TimeOffset> ClockComparison::offset() const { return leastOf(lasting_); }
+std::optional<TimeOffset> ClockComparison::offset() const {
+  if (told_ < kLeastTold) return std::nullopt;
+  return leastOf(lasting_);
+}
 
 }  // namespace roomgraph

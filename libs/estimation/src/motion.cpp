@@ -28,6 +28,7 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
   return sigma.cwiseAbs2().asDiagonal();
 }
 
+constexpr double kCarriedPause_s = 2;  // of a source, in which the robot may be carried
 constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
 constexpr double kSourceWidth = 3;  // in standard deviations: wheels slip, images mislead
 constexpr std::array kOffFloor = {2, 3, 4};  // z, roll, pitch of a movement
@@ -92,6 +93,13 @@ Movement unknownMovement(double seconds) {
 }
 
 bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment) {
+  const double before_t = poses_.empty() ? t : poses_.lastTime();
+  if (!append(t, odom_from_robot, segment)) return false;
+  if (t > before_t + kCarriedPause_s) pauses_.emplace_back(before_t, t);
+  return true;
+}
+
+bool MotionSource::append(double t, const Pose3& odom_from_robot, int segment) {
   if (!poses_.empty() && t <= poses_.lastTime()) return false;
   if (begun_.insert(segment).second) beginnings_.insert(t);
   poses_.add(t, odom_from_robot, segment);
@@ -99,7 +107,7 @@ bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment) {
 }
 
 bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance) {
-  if (!add(t, odom_from_robot, segment)) return false;
+  if (!append(t, odom_from_robot, segment)) return false;
   const Matrix6d before = summed_.empty() ? Matrix6d::Zero() : summed_.back().second;
   summed_.emplace_back(t, before + step_covariance);
   return true;
@@ -132,8 +140,17 @@ std::optional<Movement> MotionSource::between(double t_a, double t_b, double hor
   if (poses_.empty()) return std::nullopt;
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;
-  return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b) +
+  return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b) + pausesWithin(t_a, t_b) +
                                  extrapolation(std::max(t_a, t_b))};
+}
+
+Matrix6d MotionSource::pausesWithin(double t_a, double t_b) const {
+  Matrix6d out = Matrix6d::Zero();
+  for (const auto& [from, until] : pauses_) {
+    const double seconds = std::min(until, std::max(t_a, t_b)) - std::max(from, std::min(t_a, t_b));
+    if (seconds > 0) out += unknownMovement(seconds).covariance;
+  }
+  return out;
 }
 
 // Of the step that ends at t or as the first one after it. No step leads to the pose that begins a segment: it is

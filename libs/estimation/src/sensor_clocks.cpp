@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace roomgraph {
 namespace {
 
 constexpr double kKnown_s = 0.015, kSure_s = 0.006;  // standard deviations from which on an offset says who differs, and by how much
 constexpr double kShareOfOffset = 0.125;                       // of an offset, that will do as well
+constexpr double kAway_s = 5;                          // without a pose
 constexpr double kLeastWrong_s = 0.015, kWrongSigmas = 4;
 constexpr std::size_t kLidar = 0, kCamera = 1, kWheels = 2;
 
@@ -31,17 +33,21 @@ TimeOffsets against(const TimeOffsets& offsets, std::size_t right) {
 
 }  // namespace
 
-void SensorClocks::compare(const Trajectory& lidar, const Trajectory& camera, const Trajectory& wheels) {
-  there_ = {!lidar.empty(), !camera.empty(), !wheels.empty()};
-  const bool camera_jumped = camera_lidar_.compare(camera, lidar);
+void SensorClocks::compare(const Trajectory& lidar, const Trajectory& camera, const Trajectory& wheels, double predicted_t) {
+  const std::array paths = {&lidar, &camera, &wheels};
+  double latest = -std::numeric_limits<double>::infinity();
+  for (const Trajectory* path : paths)
+    if (!path->empty()) latest = std::max(latest, path->lastTime());
+  for (std::size_t i = 0; i < paths.size(); ++i) there_[i] = !paths[i]->empty() && paths[i]->lastTime() > latest - kAway_s;
+  const bool camera_jumped = camera_lidar_.compare(camera, lidar, predicted_t);
   if (camera_jumped) wheels_lidar_.forget();
   const bool wheels_jumped = wheels_lidar_.compare(wheels, lidar);
   if (wheels_jumped) camera_lidar_.forget();
-  const bool jumped = !there_[kLidar] && camera_wheels_.compare(camera, wheels);
+  const bool jumped = camera_wheels_.compare(camera, wheels, predicted_t);
   jumped_ = jumped_ || camera_jumped || wheels_jumped || jumped;
-  if (agreed_) return;
   const auto all = offsets();
-  agreed_ = all && std::all_of(all->begin(), all->end(), [](const TimeOffset& offset) { return isSure(offset) && !isWrong(offset); });
+  if (!all) return;
+  for (std::size_t i = 0; i < all->size(); ++i) agreed_[i] = agreed_[i] || (there_[i] && isSure((*all)[i]) && !isWrong((*all)[i]));
 }
 
 // Against the lidar, or against the wheels where there is none.

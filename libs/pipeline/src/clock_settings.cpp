@@ -5,12 +5,37 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace roomgraph {
 namespace {
 
 constexpr const char* kOdometry = "odometry";
-constexpr double kAlike = 0.3;  // share of a jump by which an offset may differ from it
+constexpr double kAlike = 0.3;  // share of an offset by which a jump may differ from it
+constexpr double kExact_s = 0.01, kSigmas = 4;
+
+bool isAbout(double seconds, double expected_s) { return std::abs(seconds - expected_s) < kAlike * std::abs(expected_s); }
+
+// The jump that makes a clock seem wrong: its own, or the opposite one of a sensor that seems right. What was left out there is in a jump of
+// stamps, so that it says more of the offset only where both are alike.
+std::optional<ClockSetting> jumpLike(const ClockSetting& clock, const StampJumpsBySensor& jumps) {
+  const std::string own = clock.sensor == MotionSensor::kWheels ? kOdometry : clock.label;
+  for (const auto& [label, all] : jumps)
+    for (const StampJump& jump : all) {
+      const double seconds = label == own ? clock.offset.seconds : -clock.offset.seconds;
+      if (!isAbout(-jump.seconds, seconds)) continue;
+      ClockSetting out = clock;
+      if (label != own) {
+        out.label = label == kOdometry ? "" : label;
+        out.sensor = label == kOdometry ? MotionSensor::kWheels
+                                        : (clock.sensor == MotionSensor::kLidar ? MotionSensor::kCamera : MotionSensor::kLidar);
+      }
+      out.jumped = true;
+      out.offset.seconds = std::abs(seconds + jump.seconds) < kExact_s + kSigmas * clock.offset.sigma ? -jump.seconds : seconds;
+      return out;
+    }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -24,20 +49,30 @@ std::vector<ClockSetting> wrongClocks(const FrontEnds& sensors) {
   return out;
 }
 
-bool canBeSet(const SensorClocks& clocks) { return !clocks.agreed() || clocks.jumped(); }
-
-std::vector<ClockSetting> withJumps(std::vector<ClockSetting> wrong, const SensorClocks& clocks, const ReadStatistics& read) {
-  for (ClockSetting& clock : wrong) {
-    const auto found = read.stamp_jumps.find(clock.label.empty() ? kOdometry : clock.label);
-    if (found == read.stamp_jumps.end()) continue;
-    for (const double jump_s : found->second) {
-      if (std::abs(jump_s + clock.offset.seconds) > kAlike * std::abs(jump_s)) continue;
-      clock.jumped = true;
-      clock.offset.seconds = -jump_s;  // which the stamps say better
-    }
+std::vector<ClockSetting> settable(const std::vector<ClockSetting>& wrong, const SensorClocks& clocks, const StampJumpsBySensor& jumps) {
+  std::vector<ClockSetting> out;
+  for (const ClockSetting& clock : wrong) {
+    if (auto jumped = jumpLike(clock, jumps))
+      out.push_back(*jumped);
+    else if (!clocks.agreed(clock.sensor))
+      out.push_back(clock);
   }
-  if (clocks.agreed()) std::erase_if(wrong, [](const ClockSetting& clock) { return !clock.jumped; });
-  return wrong;
+  return out;
+}
+
+std::vector<ClockSetting> withoutCamera(const std::vector<ClockSetting>& clocks, const FrontEnds& sensors) {
+  std::vector<ClockSetting> out;
+  for (const ClockSetting& clock : clocks) {
+    if (clock.sensor != MotionSensor::kCamera) {
+      addClocks({clock}, out);
+      continue;
+    }
+    if (clock.jumped) continue;
+    for (const MotionSensor other : {MotionSensor::kLidar, MotionSensor::kWheels})
+      if (sensors.clocks().isThere(other))
+        addClocks({{other, sensors.labels()[static_cast<std::size_t>(other)], {-clock.offset.seconds, clock.offset.sigma}}}, out);
+  }
+  return out;
 }
 
 void addClocks(const std::vector<ClockSetting>& found, std::vector<ClockSetting>& clocks) {
@@ -58,11 +93,6 @@ void addClocks(const std::vector<ClockSetting>& clocks, RecordCorrections& corre
     auto& of_wheels = clock.jumped ? corrections.wheels_time_jump_s : corrections.wheels_time_offset_s;
     (wheels ? of_wheels : by_label[clock.label]) += clock.offset.seconds;
   }
-}
-
-bool isSet(const ClockSetting& clock, const ReadStatistics& read) {
-  const std::string what = "stamp of " + (clock.label.empty() ? kOdometry : "'" + clock.label + "'");
-  return std::any_of(read.corrected.begin(), read.corrected.end(), [&](const auto& one) { return one.first.starts_with(what); });
 }
 
 Finding clockFinding(const ClockSetting& clock, bool set) {

@@ -117,7 +117,7 @@ void FrontEnds::compareSensors() {
 
 void FrontEnds::compareClocks() {
   static const Trajectory kNone;
-  clocks_.compare(motion_.lidar.poses(), mounted_ ? motion_.visual.poses() : kNone, wheels_as_read_.poses());
+  clocks_.compare(motion_.lidar.poses(), mounted_ ? motion_.visual.poses() : kNone, wheels_as_read_.poses(), predicted_t_);
 }
 
 // Over movements that both have seen to their end. A teacher that saw nothing for a while begins anew.

@@ -110,7 +110,7 @@ ordered_json clocksJson(const std::vector<ClockSetting>& set, const SensorClocks
                         {"sigma_s", clock.offset.sigma}});
   if (const auto offsets = clocks.offsets())
     for (std::size_t i = 0; i < offsets->size(); ++i)
-      left[toString(kMotionSensors[i])] = {{"offset_s", (*offsets)[i].seconds}, {"sigma_s", (*offsets)[i].sigma}};
+      if (clocks.isThere(kMotionSensors[i])) left[toString(kMotionSensors[i])] = {{"offset_s", (*offsets)[i].seconds}, {"sigma_s", (*offsets)[i].sigma}};
   return {{"set", settings}, {"left", left}};
 }
 

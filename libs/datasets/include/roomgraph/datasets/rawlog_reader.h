@@ -16,15 +16,21 @@
 
 namespace roomgraph {
 
+/// A jump of the stamps of a sensor against those of the others, in the order of the file.
+struct StampJump {
+  double t = 0;        ///< s; stamp behind it, as it was read
+  double seconds = 0;  ///< by how much, and what was left out there
+};
+
+/// By sensor label; "odometry" for whatever gives it.
+using StampJumpsBySensor = std::map<std::string, std::vector<StampJump>>;
+
 /// What was met on the way.
 struct ReadStatistics {
   std::map<std::string, int> used;  ///< records per class
   std::map<std::string, int>
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
   std::map<std::string, int> corrected{};  ///< records that ReadOptions::corrections changed, by what of them
-  /// By how much stamps jump in the order of the file against those of other sensors, s, as they were read: by sensor label, "odometry" for
-  /// whatever gives it.
-  std::map<std::string, std::vector<double>> stamp_jumps{};
   SensorPoses placed{};  ///< ReadOptions::sensor_poses: where the reader put sensors in place of what was recorded
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
   std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for
@@ -56,6 +62,8 @@ class RawlogReader : public RecordStream {
   /// Share of the file read, [0, 1].
   double progress() const override;
   const ReadStatistics& statistics() const;
+  /// Of what was read; on any thread.
+  StampJumpsBySensor stampJumps() const;
 
  private:
   struct Impl;

@@ -35,6 +35,8 @@ class RecordConverter {
   /// The next usable record; nothing: there is none before more objects are taken.
   std::optional<Record> next();
   const ReadStatistics& statistics() const;
+  /// Of the records that were given; on any thread.
+  StampJumpsBySensor stampJumps() const;
 
  private:
   struct Impl;

@@ -2,6 +2,7 @@
 // By how much the clocks of two sensors differ, told by the turns, starts and stops that both measured.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,12 +23,12 @@ class ClockComparison {
  public:
   ClockComparison();
 
-  /// Movements that both have seen to their end, and a second beyond, since the last call. Both trajectories have only grown since then.
-  /// Returns whether a clock has jumped.
-  bool compare(const Trajectory& sensor, const Trajectory& reference);
+  /// Movements that both have seen to their end, and a second beyond, since the last call, that the sensor began after `after_t`. Both
+  /// trajectories have only grown since then. Returns whether a clock has jumped.
+  bool compare(const Trajectory& sensor, const Trajectory& reference, double after_t = -std::numeric_limits<double>::infinity());
   /// What was seen until now is of clocks that may have jumped.
   void forget();
-  /// Nothing while several offsets would do.
+  /// Nothing while several offsets would do, and before 30 movements told something.
   std::optional<TimeOffset> offset() const;
 
  private:
@@ -38,6 +39,7 @@ class ClockComparison {
 
   Costs lasting_, recent_;
   std::size_t next_ = 0;       // pose of the sensor from which on nothing was compared
+  int told_ = 0;               // movements that did
 };
 
 }  // namespace roomgraph

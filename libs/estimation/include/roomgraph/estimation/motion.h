@@ -28,7 +28,8 @@ class MotionSource {
   /// Ignores a pose whose stamp does not come after the last one; returns whether it was added.
   /// `step_covariance`: of the movement since the last pose, on top of the noise model.
   bool add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance);
-  /// The same for a source, of all its poses, of whose steps nothing but the noise model is known.
+  /// The same for a source, of all its poses, of whose steps nothing but the noise model is known. After a pause of more than two seconds
+  /// the robot may have been carried meanwhile: what the source says of it counts as unknownMovement().
   bool add(double t, const Pose3& odom_from_robot, int segment);
   /// Replaces the poses (later data refined them); the step covariances stay.
   void refine(const Trajectory& poses) { poses_ = poses; }
@@ -45,7 +46,9 @@ class MotionSource {
   Matrix6d addsUp(const Matrix6d& covariance) const;
 
  private:
+  bool append(double t, const Pose3& odom_from_robot, int segment);
   Matrix6d stepSum(double t_a, double t_b) const;
+  Matrix6d pausesWithin(double t_a, double t_b) const;
   Matrix6d stepAt(double t) const;
   /// What a pose after the last one is more unsure than that.
   Matrix6d extrapolation(double t) const;
@@ -54,6 +57,7 @@ class MotionSource {
   bool planar_;
   Trajectory poses_;
   GrowingList<std::pair<double, Matrix6d>> summed_;  // by time
+  std::vector<std::pair<double, double>> pauses_;    // from, until
   std::set<int> begun_;                              // segments
   std::set<double> beginnings_;                      // of segments, s
 };

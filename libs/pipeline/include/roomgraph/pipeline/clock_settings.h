@@ -24,18 +24,17 @@ struct ClockSetting {
 /// Those that differ from the others by more than they may be off by. Where some were set before, what is left.
 std::vector<ClockSetting> wrongClocks(const FrontEnds& sensors);
 
-/// Whether wrong clocks were wrong from the start or have jumped: others come apart, which no setting helps.
-bool canBeSet(const SensorClocks& clocks);
+/// Those of the wrong ones that can be set: from a jump on that the stamps show in the order of the file, or from the start where a clock
+/// was never right; what comes apart slowly cannot. The sensor that jumped is set, though another one seems wrong. `jumps`: until now.
+std::vector<ClockSetting> settable(const std::vector<ClockSetting>& wrong, const SensorClocks& clocks, const StampJumpsBySensor& jumps);
 
-/// With who has jumped, as the stamps show in the order of the file. Without those of clocks that were right before and have not.
-std::vector<ClockSetting> withJumps(std::vector<ClockSetting> wrong, const SensorClocks& clocks, const ReadStatistics& read);
+/// The same clocks with that of the camera as it is: those of the others are set instead. Boxes that were recorded elsewhere are found by
+/// the stamps of images. Without a camera that has jumped, which cannot be.
+std::vector<ClockSetting> withoutCamera(const std::vector<ClockSetting>& clocks, const FrontEnds& sensors);
 
 /// Adds to what is there.
 void addClocks(const std::vector<ClockSetting>& found, std::vector<ClockSetting>& clocks);
 void addClocks(const std::vector<ClockSetting>& clocks, RecordCorrections& corrections);
-
-/// Whether stamps were corrected: a jump may not be found in the file.
-bool isSet(const ClockSetting& clock, const ReadStatistics& read);
 
 /// "its stamps are 0.100 s (+- 0.003) too late against those of the others", and whether the run corrected them.
 Finding clockFinding(const ClockSetting& clock, bool set);
