@@ -151,6 +151,24 @@ TEST(SensorClocks, WhatIsOnlyPredictedSaysNothing) {
   expectOnlyWrong(seen, kCameraPlace, -0.2);
 }
 
+TEST(SensorClocks, WrongClocksAreWellKnown) {
+  for (const double late_s : {0.04, 0.3}) {
+    const Drive drive(120, 5);
+    const Trajectory lidar = seenBy(drive, {}, 6);
+    const Trajectory wheels = seenBy(drive, {.rate_hz = 20, .noise_rad = 0.004, .noise_m = 0.004, .late_s = alwaysLate(late_s)}, 7);
+    SensorClocks clocks;
+    bool was_wrong = false;
+    for (double t = 5; t < 119; t += 0.5) {
+      clocks.compare(until(lidar, t), {}, until(wheels, t));
+      const auto wrong = clocks.wrong();
+      if (!wrong) continue;
+      was_wrong = true;
+      EXPECT_LT((*wrong)[kWheelsPlace].sigma, std::max(0.006, 0.125 * std::abs((*wrong)[kWheelsPlace].seconds))) << late_s << " at " << t;
+    }
+    EXPECT_TRUE(was_wrong) << late_s;
+  }
+}
+
 // Records that say little at first: nothing is called wrong that is right, at any time.
 TEST(SensorClocks, RightClocksAreNeverCalledWrong) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
