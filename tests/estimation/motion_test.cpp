@@ -73,6 +73,12 @@ TEST(MotionSource, WhatWheelsSayOfAPauseCountsAsUnknown) {
     EXPECT_LT((source.between(from, until, 0)->covariance - model - unknownMovement(seconds).covariance).norm(), 1e-9) << from << ' ' << until;
   EXPECT_EQ(source.between(13, 14, 0)->covariance, model);
   EXPECT_EQ(other.between(1, 14, 0)->covariance, model) << "matches hold across a pause";
+  for (const Pose3& moved : {poseFromYpr(0.2, 0, 0, 0, 0, 0), poseFromYpr(0, 0, 0, 0.2, 0, 0)}) {
+    MotionSource driving(kNoise, false);
+    driving.add(0, Pose3::Identity(), 0);
+    driving.add(10, moved, 0);
+    EXPECT_LT(driving.between(0, 10, 0)->covariance.norm(), 1e-3) << "wheels that turned";
+  }
 }
 
 TEST(MotionSource, NothingAcrossALossAndOutsideTheData) {

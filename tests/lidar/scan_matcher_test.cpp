@@ -165,6 +165,10 @@ TEST(SubmapScanMatcher, AfterAPauseItIsInTheSamePlaceOrBeginsANewSegment) {
       EXPECT_TRUE(elsewhere.matched) << "its map begins there";
       EXPECT_EQ(elsewhere.score, 1);
     }
+    SubmapScanMatcher driving;
+    for (int i = 0; i < 5; ++i) driving.match(test::castScan(test::asymmetricRoom(), {0, 0, 0}, 0.1 * i, random), Pose2{});
+    const ScanMatch drove = driving.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, pause_s, random), Pose2{0.2, 0, 0});
+    EXPECT_EQ(drove.segment, 0) << "its wheels turned";
   }
 }
 

@@ -28,7 +28,7 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
   return sigma.cwiseAbs2().asDiagonal();
 }
 
-constexpr double kCarriedPause_s = 2;  // of a source, in which the robot may be carried
+constexpr double kCarriedPause_s = 2, kStands_m = 0.1, kStands_rad = 0.1;  // of a source, in which the robot may be carried
 constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
 constexpr double kSourceWidth = 3;  // in standard deviations: wheels slip, images mislead
 constexpr std::array kOffFloor = {2, 3, 4};  // z, roll, pitch of a movement
@@ -83,6 +83,9 @@ const Movement& referenceOf(const std::vector<Movement>& seen, const std::option
   return it == seen.end() ? seen.front() : *it;
 }
 
+// Wheels of a robot that is carried do not turn.
+bool stands(const Pose3& moved) { return moved.translation().norm() < kStands_m && rotationAngle(moved) < kStands_rad; }
+
 }  // namespace
 
 Movement unknownMovement(double seconds) {
@@ -93,9 +96,9 @@ Movement unknownMovement(double seconds) {
 }
 
 bool MotionSource::add(double t, const Pose3& odom_from_robot, int segment) {
-  const double before_t = poses_.empty() ? t : poses_.lastTime();
+  const auto before = poses_.empty() ? std::nullopt : std::optional(poses_.poses().back());
   if (!append(t, odom_from_robot, segment)) return false;
-  if (t > before_t + kCarriedPause_s) pauses_.emplace_back(before_t, t);
+  if (before && t > before->t + kCarriedPause_s && stands(before->pose.inverse() * odom_from_robot)) pauses_.emplace_back(before->t, t);
   return true;
 }
 

@@ -29,7 +29,7 @@ class MotionSource {
   /// `step_covariance`: of the movement since the last pose, on top of the noise model.
   bool add(double t, const Pose3& odom_from_robot, int segment, const Matrix6d& step_covariance);
   /// The same for a source, of all its poses, of whose steps nothing but the noise model is known. After a pause of more than two seconds
-  /// the robot may have been carried meanwhile: what the source says of it counts as unknownMovement().
+  /// in which it did not move, the robot may have been carried: what the source says of it counts as unknownMovement().
   bool add(double t, const Pose3& odom_from_robot, int segment);
   /// Replaces the poses (later data refined them); the step covariances stay.
   void refine(const Trajectory& poses) { poses_ = poses; }
