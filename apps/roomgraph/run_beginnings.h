@@ -2,13 +2,11 @@
 // A run that begins anew once it knows how to set the clocks of the sensors.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "roomgraph/pipeline/clock_settings.h"
 #include "roomgraph/pipeline/replay.h"
-#include "run_options.h"
 
 namespace roomgraph {
 

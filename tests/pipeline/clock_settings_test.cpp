@@ -71,6 +71,19 @@ TEST(ClockSettings, TheOneThatJumpedIsSetAndNotTheOneThatSeemsWrong) {
   EXPECT_EQ(of_wheels[0], (ClockSetting{MotionSensor::kWheels, "", {0.3, 0.01}, true}));
 }
 
+TEST(ClockSettings, OfCameraAndWheelsItIsTheCameraThatJumped) {
+  Trajectory camera, wheels;
+  for (int i = 0; i < 10; ++i) {
+    camera.add(0.1 * i, Pose3::Identity());
+    wheels.add(0.1 * i, Pose3::Identity());
+  }
+  SensorClocks clocks;
+  clocks.compare({}, camera, wheels);
+  const auto found = settable({{MotionSensor::kWheels, "", {0.5, 0.01}}}, clocks, {{"KINECT", {{9, 0.5}}}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0], (ClockSetting{MotionSensor::kCamera, "KINECT", {-0.5, 0.01}, true}));
+}
+
 TEST(ClockSettings, ClocksThatWereRightAndComeApartAreNotSet) {
   Trajectory lidar, wheels;
   double yaw = 0;

@@ -18,7 +18,8 @@ bool isAbout(double seconds, double expected_s) { return std::abs(seconds - expe
 
 // The jump that makes a clock seem wrong: its own, or the opposite one of a sensor that seems right. What was left out there is in a jump of
 // stamps, so that it says more of the offset only where both are alike.
-std::optional<ClockSetting> jumpLike(const ClockSetting& clock, const StampJumpsBySensor& jumps) {
+std::optional<ClockSetting> jumpLike(const ClockSetting& clock, const SensorClocks& clocks, const StampJumpsBySensor& jumps) {
+  const bool by_lidar = clock.sensor != MotionSensor::kLidar && (clocks.isThere(MotionSensor::kLidar) || !clocks.isThere(MotionSensor::kCamera));
   const std::string own = clock.sensor == MotionSensor::kWheels ? kOdometry : clock.label;
   for (const auto& [label, all] : jumps)
     for (const StampJump& jump : all) {
@@ -27,8 +28,7 @@ std::optional<ClockSetting> jumpLike(const ClockSetting& clock, const StampJumps
       ClockSetting out = clock;
       if (label != own) {
         out.label = label == kOdometry ? "" : label;
-        out.sensor = label == kOdometry ? MotionSensor::kWheels
-                                        : (clock.sensor == MotionSensor::kLidar ? MotionSensor::kCamera : MotionSensor::kLidar);
+        out.sensor = label == kOdometry ? MotionSensor::kWheels : (by_lidar ? MotionSensor::kLidar : MotionSensor::kCamera);
       }
       out.jumped = true;
       out.offset.seconds = std::abs(seconds + jump.seconds) < kExact_s + kSigmas * clock.offset.sigma ? -jump.seconds : seconds;
@@ -43,7 +43,8 @@ std::vector<ClockSetting> wrongClocks(const FrontEnds& sensors) {
   std::vector<ClockSetting> out;
   const auto wrong = sensors.clocks().wrong();
   const auto& labels = sensors.labels();
-  if (!wrong || labels[0] == labels[1]) return out;  // a label that two sensors have names none
+  const bool both = sensors.clocks().isThere(MotionSensor::kLidar) && sensors.clocks().isThere(MotionSensor::kCamera);
+  if (!wrong || (both && labels[0] == labels[1])) return out;  // a label that two sensors have names none
   for (std::size_t i = 0; i < wrong->size(); ++i)
     if ((*wrong)[i].seconds != 0) out.push_back({kMotionSensors[i], labels[i], (*wrong)[i]});
   return out;
@@ -52,7 +53,7 @@ std::vector<ClockSetting> wrongClocks(const FrontEnds& sensors) {
 std::vector<ClockSetting> settable(const std::vector<ClockSetting>& wrong, const SensorClocks& clocks, const StampJumpsBySensor& jumps) {
   std::vector<ClockSetting> out;
   for (const ClockSetting& clock : wrong) {
-    if (auto jumped = jumpLike(clock, jumps))
+    if (auto jumped = jumpLike(clock, clocks, jumps))
       out.push_back(*jumped);
     else if (!clocks.agreed(clock.sensor))
       out.push_back(clock);
