@@ -9,9 +9,9 @@
 namespace roomgraph {
 namespace {
 
-constexpr int kMostBeginnings = 3;
-constexpr double kLatest_s = 600;  // of the recording; clocks that are found wrong later are reported
-constexpr double kLasts_s = 5;
+constexpr int kMostBeginnings = 4;
+constexpr double kLatest_s = 600;  // of the recording; what is found wrong later is reported
+constexpr double kEvery_s = 1, kLasts_s = 5;
 constexpr double kLeastAgain_s = 0.03;  // that is worth another beginning
 
 // Those that had been read for certain, whatever a thread has read beyond.
@@ -24,36 +24,51 @@ StampJumpsBySensor until(double t, StampJumpsBySensor jumps) {
 
 void RunBeginnings::again() {
   ++begun_;
-  addClocks(found_, clocks_);
-  found_.clear();
+  addClocks(found_clocks_, clocks_);
+  addMounts(found_mounts_, mounts_);
+  found_clocks_.clear();
+  found_mounts_.clear();
   wrong_.clear();
+  looked_s_ = -1e300;
 }
 
-bool RunBeginnings::shallBegin(const SemanticSlam& slam, const RawlogReader& reader, const ReplayState& now, bool images_stay, bool ended) {
-  if (!slam.setup().options.general.set_clocks || begun_ >= kMostBeginnings || now.seconds() > kLatest_s) return false;
+bool RunBeginnings::shallBegin(const SemanticSlam& slam, const RawlogReader& reader, const ReplayState& now, const WhatStays& stays, bool ended) {
+  if (begun_ >= kMostBeginnings || now.seconds() > kLatest_s || (!ended && now.seconds() < looked_s_ + kEvery_s)) return false;
+  looked_s_ = now.seconds();
+  const GeneralOptions& options = slam.setup().options.general;
   const FrontEnds& sensors = slam.frontEnds();
-  const auto wrong = wrongClocks(sensors);
-  std::vector<MotionSensor> who;
-  for (const ClockSetting& clock : wrong) who.push_back(clock.sensor);
-  if (who != wrong_) {
-    wrong_ = who;
+  const auto clocks = options.set_clocks ? wrongClocks(sensors) : std::vector<ClockSetting>{};
+  const bool sets_poses = options.set_poses && !stays.poses && !sensors.shareLabel() && clocks.empty();
+  found_mounts_ = sets_poses ? wrongMounts(sensors.agreement(), slam.cameraTilt(), sensors.labels()) : std::vector<MountSetting>{};
+  std::vector<std::string> wrong;
+  for (const ClockSetting& clock : clocks) wrong.push_back(std::string("clock of ") + toString(clock.sensor));
+  for (const MountSetting& mount : found_mounts_) wrong.push_back(std::string("pose of ") + toString(mount.sensor));
+  if (wrong != wrong_) {
+    wrong_ = wrong;
     wrong_since_s_ = now.seconds();
   }
   if (wrong.empty() || (!ended && now.seconds() < wrong_since_s_ + kLasts_s)) return false;
-  found_ = settable(wrong, sensors.clocks(), until(now.last_t, reader.stampJumps()));
-  if (images_stay) found_ = withoutCamera(found_, sensors);
-  return std::any_of(found_.begin(), found_.end(),
-                     [&](const ClockSetting& clock) { return begun_ == 1 || std::abs(clock.offset.seconds) > kLeastAgain_s; });
+  found_clocks_ = settable(clocks, sensors.clocks(), until(now.last_t, reader.stampJumps()));
+  if (stays.stamps_of_images) found_clocks_ = withoutCamera(found_clocks_, sensors);
+  const bool worth = std::any_of(found_clocks_.begin(), found_clocks_.end(), [&](const ClockSetting& clock) {
+    return clocks_.empty() || std::abs(clock.offset.seconds) > kLeastAgain_s;
+  });
+  if (!worth) found_clocks_.clear();
+  return worth || !found_mounts_.empty();
+}
+
+void RunBeginnings::correct(RecordCorrections& corrections) const {
+  addClocks(clocks_, corrections);
+  addMounts(mounts_, corrections);
 }
 
 std::vector<std::string> RunBeginnings::reasons(const ReplayState& replayed) const {
   std::vector<std::string> out;
-  for (const ClockSetting& clock : found_) {
-    char seconds[96];
-    std::snprintf(seconds, sizeof seconds, ", as the first %.0f s show; begun anew with stamps corrected", replayed.seconds());
-    const Finding finding = clockFinding(clock, false);
-    out.push_back(finding.place + ": " + finding.what + seconds);
-  }
+  char seconds[96];
+  std::snprintf(seconds, sizeof seconds, ", as the first %.0f s show; begun anew with", replayed.seconds());
+  const auto add = [&](const Finding& finding, const char* corrected) { out.push_back(finding.place + ": " + finding.what + seconds + corrected); };
+  for (const ClockSetting& clock : found_clocks_) add(clockFinding(clock, false), " stamps corrected");
+  for (const MountSetting& mount : found_mounts_) add(mountFinding(mount, false), " its pose corrected");
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/text_file.h"
 #include "roomgraph/pipeline/run_output.h"
+#include "roomgraph/pipeline/settings_json.h"
 
 namespace roomgraph {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using CheckpointJson = nlohmann::ordered_json;
 
+constexpr int kFormat = 3;
 constexpr const char *kRunFile = "run.json", *kJournalFile = "results.journal";
 
 /// What run.json says.
@@ -28,28 +30,20 @@ struct KeptRun {
   std::string text;  ///< all of it
 };
 
-CheckpointJson jsonOf(const ClockSetting& clock) {
-  return {{"sensor", toString(clock.sensor)}, {"label", clock.label}, {"since_a_jump", clock.jumped},
-          {"added_s", clock.offset.seconds}, {"sigma_s", clock.offset.sigma}};
-}
-
-ClockSetting clockFrom(const CheckpointJson& json) {
-  const auto sensor = std::find_if(kMotionSensors.begin(), kMotionSensors.end(), [&](MotionSensor one) { return json.at("sensor") == toString(one); });
-  if (sensor == kMotionSensors.end()) throw InputError("no sensor: " + json.at("sensor").get<std::string>());
-  return {*sensor, json.at("label"), {json.at("added_s"), json.at("sigma_s")}, json.at("since_a_jump")};
-}
-
 KeptRun readKeptRun(const fs::path& file) {
   KeptRun run;
   run.text = readTextFile(file);
   const auto json = parseJson<CheckpointJson>(run.text, file.string());
   try {
+    if (json.at("format") != kFormat) throw InputError(file.string() + ": is of another version of the program; without --resume the run begins anew");
     run.begun.command = json.at("command").get<std::vector<std::string>>();
     run.working_directory = json.at("working_directory").get<std::string>();
     for (const auto& part : json.at("belongs_to")) run.begun.identity.emplace_back(part.at(0), part.at(1));
     std::vector<ClockSetting> clocks;
     for (const auto& clock : json.at("clocks")) clocks.push_back(clockFrom(clock));
-    run.begun.beginnings = {json.at("begun"), clocks};
+    std::vector<MountSetting> mounts;
+    for (const auto& mount : json.at("sensor_poses")) mounts.push_back(mountFrom(mount));
+    run.begun.beginnings = {json.at("begun"), clocks, mounts};
   } catch (const CheckpointJson::exception& error) {
     throw InputError(file.string() + ": " + firstLine(error));
   }
@@ -101,13 +95,15 @@ void RunCheckpoint::begin(const RunBegun& run) const {
   fs::remove_all(folder_, error);
   fs::create_directory(folder_, error);
   if (error) throw RunError("cannot make " + folder_.string() + ": " + error.message());
-  CheckpointJson json{{"format", 2},
+  CheckpointJson json{{"format", kFormat},
                       {"command", run.command},
                       {"working_directory", fs::current_path().string()},
                       {"begun", run.beginnings.begun()},
                       {"clocks", CheckpointJson::array()},
+                      {"sensor_poses", CheckpointJson::array()},
                       {"belongs_to", CheckpointJson::array()}};
   for (const ClockSetting& clock : run.beginnings.clocks()) json["clocks"].push_back(jsonOf(clock));
+  for (const MountSetting& mount : run.beginnings.mounts()) json["sensor_poses"].push_back(jsonOf(mount));
   for (const auto& [name, value] : run.identity) json["belongs_to"].push_back({name, value});
   try {
     // Names may be no UTF-8.

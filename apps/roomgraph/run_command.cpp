@@ -149,10 +149,12 @@ std::string whatWasReplayed(const ReplayState& replayed, RunCheckpoint* checkpoi
 }
 
 RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& networks,
-                   const RunCheckpoint* checkpoint) {
+                   const RunCheckpoint* checkpoint, const RunBeginnings& beginnings) {
   RunOrigin origin{options.input, kVersion, kRevision, checkpoint ? checkpoint->command() : commandLine(),
                    networks};
   origin.resumed = !options.resume.empty();
+  origin.clocks = beginnings.clocks();
+  origin.mounts = beginnings.mounts();
   return origin;
 }
 
@@ -169,6 +171,7 @@ Examination::Findings findingsOf(WholeRun& whole, const SemanticSlam& slam, bool
   Examination::Findings out = whole.examination->findings(quiet);
   if (!out) return out;
   for (const ClockSetting& clock : whole.beginnings.clocks()) out->push_back(clockFinding(clock, true));
+  for (const MountSetting& mount : whole.beginnings.mounts()) out->push_back(mountFinding(mount, true));
   for (const Finding& finding : slam.movementFindings()) out->push_back(finding);
   std::stable_sort(out->begin(), out->end(), [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return out;
@@ -223,9 +226,10 @@ void printReasons(const RunBeginnings& beginnings, const ReplayState& replayed) 
   for (const std::string& reason : beginnings.reasons(replayed)) std::cerr << "roomgraph: " << reason << "\n";
 }
 
-// Whether stamps of images are what boxes that are kept apart from them are found by.
-bool imagesStay(const RunOptions& options, const Configuration& configuration) {
-  return !options.recording.empty() || !options.detections.empty() || !configuration.config.text("detection", "file", "").empty();
+// Stamps of images are what boxes that are kept apart from them are found by; poses that the user gave are right.
+WhatStays whatStays(const RunOptions& options, const Configuration& configuration, const ReadOptions& reading) {
+  const bool boxes_apart = !options.recording.empty() || !options.detections.empty() || !configuration.config.text("detection", "file", "").empty();
+  return {.stamps_of_images = boxes_apart, .poses = !reading.sensor_poses.empty()};
 }
 
 void printEnd(const RunOptions& options, const OutputFolder& files, bool reported, bool drawn) {
@@ -239,7 +243,7 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   Configuration configuration = configurationOf(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
   ReadOptions reading = readOptionsOf(setup->options);
-  addClocks(whole.beginnings.clocks(), reading.corrections);
+  whole.beginnings.correct(reading.corrections);
   RawlogReader reader(options.input, reading);
   if (const std::string advice = missingDetections(setup->stages, options.input); whole.beginnings.begun() == 1 && !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
@@ -260,11 +264,12 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
 
   const Stopwatch watch;
   if (!whole.examination && !options.no_report) whole.examination.emplace(options.input, reading.sensor_poses, options.span.until_s);
-  bool again = false, images_stay = imagesStay(options, configuration);
+  bool again = false;
+  const WhatStays stays = whatStays(options, configuration, reading);
   const ReplayState replayed = replayWithProgress(options, reader, *slam, places, [&](const ReplayState& now) {
-    return again = !interrupted() && whole.beginnings.shallBegin(*slam, reader, now, images_stay);
+    return again = !interrupted() && whole.beginnings.shallBegin(*slam, reader, now, stays);
   });
-  if (again || (!replayed.interrupted && whole.beginnings.shallBegin(*slam, reader, replayed, images_stay, true))) {
+  if (again || (!replayed.interrupted && whole.beginnings.shallBegin(*slam, reader, replayed, stays, true))) {
     printReasons(whole.beginnings, replayed);
     if (checkpoint) checkpoint->discard();
     return true;
@@ -274,8 +279,7 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   SlamResult result = slam->finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
-  RunOrigin origin = originOf(options, networks, checkpoint.get());
-  origin.clocks = whole.beginnings.clocks();
+  RunOrigin origin = originOf(options, networks, checkpoint.get(), whole.beginnings);
   if (whole.examination && !replayed.interrupted) origin.findings = findingsOf(whole, *slam, options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;

@@ -106,6 +106,23 @@ TEST_F(CalibrationFileTest, StampsAndDepthsAreCorrected) {
   EXPECT_THAT(counts, IsEmpty());
 }
 
+// About the sensor's own place, along the robot's axes.
+TEST_F(CalibrationFileTest, PosesAreTurned) {
+  const std::vector<Object> written = {makeScan(1), makeImages(2)};
+  const auto recorded = records(written, {});
+  std::map<std::string, int> counts;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  const auto corrected = records(written, {.turns = {{"KINECT", turn}}}, &counts);
+  const Pose3 &before = std::get<Frame>(recorded[1]).robot_from_camera, &after = std::get<Frame>(corrected[1]).robot_from_camera;
+  EXPECT_EQ(after.translation(), before.translation());
+  EXPECT_LT((after.linear() - turn * before.linear()).norm(), 1e-12);
+  EXPECT_GT((after.linear() - before.linear()).norm(), 0.1);
+  EXPECT_TRUE(std::get<Scan>(corrected[0]).robot_from_lidar.isApprox(std::get<Scan>(recorded[0]).robot_from_lidar, 1e-12));
+  EXPECT_EQ(counts, (std::map<std::string, int>{{"pose of 'KINECT'", 1}}));
+  const auto scans = records(written, {.turns = {{"LASER", turn}}});
+  EXPECT_LT((std::get<Scan>(scans[0]).robot_from_lidar.linear() - turn * std::get<Scan>(recorded[0]).robot_from_lidar.linear()).norm(), 1e-12);
+}
+
 TEST_F(CalibrationFileTest, OdometryIsSummedUpFromCorrectedMovements) {
   // Straight on, a turn on the spot, and straight on again, from a pose that is not the origin.
   const auto corrected = records({makeOdometry(1, 5, 5, M_PI / 2), makeOdometry(2, 5, 6, M_PI / 2),

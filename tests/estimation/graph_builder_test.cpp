@@ -280,6 +280,21 @@ TEST(GraphBuilder, ABodyEndsWhereNothingMeasuresTheMovement) {
   for (int i = 10; i < 20; ++i) EXPECT_EQ(graph.bodyOf(NodeId{i}) == NodeId{i}, i == 10 || i == 15 || i == 16) << i;
 }
 
+// In which the robot may have been carried.
+TEST(GraphBuilder, APauseIsOneMovementAndNotSeen) {
+  Scenario scenario = wheelsOnly();
+  MotionSource paused(kWheelNoise, true);
+  for (int t = 0; t < kNodes; ++t)
+    if (t < 15 || t > 18) paused.add(t, Pose3::Identity(), 0);
+  scenario.motion.odometry = paused;
+  const KeyPoses poses = scenario.start();
+  EXPECT_EQ(buildGraph(poses, scenario.motion, {}, {}, scenario.options).factors(), 39u + 39u);
+  const auto& nodes = poses.nodes();
+  EXPECT_TRUE(connected(scenario.motion, nodes[13], nodes[14]));
+  EXPECT_FALSE(connected(scenario.motion, nodes[14], nodes[19]));
+  EXPECT_TRUE(connected(scenario.motion, nodes[19], nodes[20]));
+}
+
 // A handheld camera whose world is tilted: sightings of the floor level it; place and heading of the start
 // stay.
 TEST(GraphBuilder, FloorLevelsAHandheldCamera) {

@@ -72,6 +72,8 @@ TEST(MotionSource, WhatWheelsSayOfAPauseCountsAsUnknown) {
   for (const auto& [from, until, seconds] : {std::tuple(1.0, 14.0, 10.0), {14.0, 1.0, 10.0}, {5.0, 7.0, 2.0}, {3.0, 13.0, 10.0}, {12.0, 14.0, 1.0}})
     EXPECT_LT((source.between(from, until, 0)->covariance - model - unknownMovement(seconds).covariance).norm(), 1e-9) << from << ' ' << until;
   EXPECT_EQ(source.between(13, 14, 0)->covariance, model);
+  EXPECT_TRUE(source.pausedWithin(1, 14) && source.pausedWithin(14, 1) && source.pausedWithin(5, 6) && source.pausedWithin(12, 14));
+  EXPECT_FALSE(source.pausedWithin(0, 3) || source.pausedWithin(13, 14) || other.pausedWithin(1, 14));
   EXPECT_EQ(other.between(1, 14, 0)->covariance, model) << "matches hold across a pause";
   for (const Pose3& moved : {poseFromYpr(0.2, 0, 0, 0, 0, 0), poseFromYpr(0, 0, 0, 0.2, 0, 0)}) {
     MotionSource driving(kNoise, false);

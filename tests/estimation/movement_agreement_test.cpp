@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "roomgraph/core/random.h"
 
@@ -45,10 +47,32 @@ TEST(MovementAgreement, WhatGoesOnIsOneContradictionWhateverOthersDo) {
   EXPECT_EQ(agreement.contradictions()[2].from_t, 4);
 }
 
-TEST(MovementAgreement, NobodyIsToBlameWhereAllDifferOrTwoAreThereOrTheDifferenceIsExpected) {
+// Which is wrong is not known.
+TEST(MovementAgreement, OfTwoEachContradictsTheOther) {
+  using enum MotionSensor;
+  MovementAgreement agreement;
+  const auto still = seenAs(0, 0, 0), moving = seenAs(0.3, 0, 0);
+  agreement.compare(0, 1, {std::nullopt, moving, still});
+  agreement.compare(1, 2, {std::nullopt, moving, still});
+  agreement.compare(2, 3, {std::nullopt, moving, moving});
+  agreement.compare(3, 4, {moving, std::nullopt, still});
+  agreement.compare(4, 5, {moving, moving, still});
+  agreement.compare(5, 6, {std::nullopt, std::nullopt, still});
+  agreement.compare(6, 7, {still, moving, std::nullopt});
+  const auto& found = agreement.contradictions();
+  ASSERT_EQ(found.size(), 4u);
+  const std::array<std::pair<MotionSensor, std::optional<MotionSensor>>, 4> expected = {
+      {{kCamera, kWheels}, {kWheels, kLidar}, {kWheels, std::nullopt}, {kLidar, kCamera}}};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(std::pair(found[i].sensor, found[i].only_other), expected[i]) << i;
+  EXPECT_EQ(found[0].from_t, 0);
+  EXPECT_EQ(found[0].until_t, 2);
+  EXPECT_NEAR(found[0].off_m, 0.3, 1e-9);
+}
+
+TEST(MovementAgreement, NobodyIsToBlameWhereAllDifferOrTheDifferenceIsExpected) {
   MovementAgreement agreement;
   agreement.compare(0, 1, {seenAs(0, 0, 0), seenAs(0.3, 0, 0), seenAs(-0.3, 0, 0)});
-  agreement.compare(1, 2, {seenAs(0, 0, 0), seenAs(0.3, 0, 0), std::nullopt});
+  agreement.compare(1, 2, {seenAs(0, 0, 0), seenAs(0.3, 0, 0, 0.2), std::nullopt});
   agreement.compare(2, 3, {seenAs(0, 0, 0), seenAs(0, 0, 0), seenAs(0.3, 0, 0, 0.2)});
   agreement.compare(3, 4, {seenAs(0, 0, 0), seenAs(0.1, 0, 0), seenAs(0.03, 0, 0, 0.05)});
   agreement.compare(3, 4, {seenAs(0, 0, 0, 1e-4), seenAs(0, 0, 0, 1e-4), seenAs(0.02, 0, 0, 1e-4)});

@@ -266,14 +266,18 @@ TEST(PoseEstimator, TwoClosuresThatAgreePullAPathThatIsFarOff) {
   for (const double t : {29.0, 30.0}) EXPECT_LT(distance(estimator.poses().at(t), truth(t)), 0.1) << t;
 }
 
-// The wheels stop for a while, and nothing saw the way: a closure says where the robot went on.
-TEST(PoseEstimator, AClosureOverAGapMovesWhatCameAfterIt) {
+// The wheels stop for a while, and nothing saw the way, or they stand in a pause in which the robot may have been carried: a closure
+// says where the robot went on.
+class OverAGap : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(PoseEstimator, OverAGap, ::testing::Values(false, true));
+
+TEST_P(OverAGap, AClosureMovesWhatCameAfterIt) {
   BackendOptions options;
   const MotionSource none{MotionNoise{}, true};
   Motion motion{MotionSource{kWheelNoise, true}, none, none};
-  for (int i = 0; i <= 10; ++i) motion.odometry.add(i, poseFromYpr(0.1 * i, 0, 0, 0, 0, 0), 0, Matrix6d::Zero());
-  for (int i = 50; i <= 60; ++i)
-    motion.odometry.add(i, poseFromYpr(0.1 * (i - 50), 0, 0, 0, 0, 0), 1, Matrix6d::Zero());
+  const bool paused = GetParam();
+  for (int i = 0; i <= 10; ++i) motion.odometry.add(i, poseFromYpr(0.1 * i, 0, 0, 0, 0, 0), 0);
+  for (int i = 50; i <= 60; ++i) motion.odometry.add(i, poseFromYpr(0.1 * (i - 50) + paused, 0, 0, 0, 0, 0), paused ? 0 : 1);
   PoseEstimator estimator(options, motion);
   estimator.setPlanar();
   for (const double t : {0.0, 10.0, 50.0, 60.0}) ASSERT_TRUE(estimator.advance(t)) << t;

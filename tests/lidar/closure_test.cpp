@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shortest paths over closures, and confirmation by agreeing closures.
+// Shortest paths over closures, confirmation by agreeing closures, and votes for the place of a segment.
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "closure_confirmation.h"
 #include "closure_graph.h"
+#include "place_votes.h"
 
 namespace roomgraph {
 namespace {
@@ -227,6 +229,75 @@ TEST_F(Confirmation, OneSpotIsNotEnough) {
                                   {0, 2, {}, Eigen::Matrix3d::Identity(), 50},
                                   {0, 3, {}, Eigen::Matrix3d::Identity(), 50}};
   for (const Closure& closure : same) EXPECT_TRUE(confirmation.add(closure, still, rule_).empty());
+}
+
+// A segment of 40 scans, half a metre apart along x in its own frame, which lies at `kPlace` in world.
+class Votes : public ::testing::Test {
+ protected:
+  Votes() {
+    for (int i = 0; i < 40; ++i) way_.push_back({{0.5 * i, 0, 0}, 0.5 * i, 1});
+  }
+  // Scan b is seen from older scan `a` at a place in world, off by `error`.
+  std::vector<Closure> vote(int b, const Pose2& error = {}, int a = 0, int piece = 0) {
+    const Pose2 world_from_b = error * kPlace * way_[static_cast<std::size_t>(b)].odom_from_robot;
+    return votes_.add({a, b, places_[static_cast<std::size_t>(a)].inverse() * world_from_b, Eigen::Matrix3d::Identity(), 0}, piece, way_,
+                      [this](int scan) { return std::optional(places_[static_cast<std::size_t>(scan)]); });
+  }
+  const Pose2 kPlace{4, -7, 2};
+  std::vector<Pose2> places_ = {{}, {1, 2, 0.3}, {2, 2, 0.6}, {-5, 1, 3}};
+  std::vector<WayPoint> way_;
+  PlaceVotes votes_;
+};
+
+TEST_F(Votes, EightScansOverThreeMetresAreBelieved) {
+  for (int b = 0; b < 7; ++b) EXPECT_TRUE(vote(b, {0.1, 0.05, 0.01}, b % 4).empty()) << b;
+  const auto believed = vote(7);
+  ASSERT_EQ(believed.size(), 8u);
+  for (int b = 0; b < 8; ++b) EXPECT_EQ(believed[static_cast<std::size_t>(b)].b, b);
+  votes_.forget(0);
+  EXPECT_TRUE(vote(8).empty()) << "they count once";
+}
+
+TEST_F(Votes, ManyMatchesOfOneScanAreOne) {
+  for (int i = 0; i < 16; ++i) EXPECT_TRUE(vote(i < 8 ? 0 : 8).empty());
+}
+
+TEST_F(Votes, ScansOfOneSpotAreNotBelieved) {
+  for (std::size_t i = 0; i < 40; ++i) way_[i].path_m = 0.05 * static_cast<double>(i);
+  for (int b = 0; b < 40; ++b) EXPECT_TRUE(vote(b).empty()) << b;
+}
+
+TEST_F(Votes, OtherPlacesAreOutweighedByFourTimesAsMany) {
+  vote(0, {3, 0, 0}), vote(1, {0, 0, 0.5}), vote(2, {0, -3, 0});
+  for (int b = 3; b < 14; ++b) EXPECT_TRUE(vote(b).empty()) << b;
+  EXPECT_EQ(vote(14).size(), 12u);
+}
+
+// One by chance every few metres, each somewhere within three metres.
+TEST_F(Votes, WhatLiesLongAgoSaysNothing) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> off(-3, 3);
+  for (std::size_t i = 0; i < 40; ++i) way_[i].path_m = way_[i].odom_from_robot.x = 2.2 * static_cast<double>(i);
+  for (int b = 0; b < 40; ++b) EXPECT_TRUE(vote(b).empty()) << b << ": never more than eight within fifteen metres";
+  for (std::size_t i = 0; i < 40; ++i) way_[i].path_m = 100 + (way_[i].odom_from_robot.x = 1.2 * static_cast<double>(i));
+  for (int b = 0; b < 40; ++b) EXPECT_TRUE(vote(b, {off(random), off(random), 0}).empty()) << b;
+}
+
+TEST_F(Votes, OfAnotherSegmentOrPieceTheySayNothing) {
+  for (int b = 0; b < 7; ++b) vote(b);
+  for (std::size_t i = 7; i < 40; ++i) way_[i].segment = 2;
+  for (int b = 7; b < 14; ++b) {
+    EXPECT_TRUE(vote(b).empty()) << b;
+    EXPECT_TRUE(vote(b, {9, 9, 1}, 0, 1).empty()) << "which lies anywhere else";
+  }
+  EXPECT_EQ(vote(14).size(), 8u);
+}
+
+TEST_F(Votes, PlacesAreThoseOfNow) {
+  for (int b = 0; b < 7; ++b) vote(b, {}, b % 2);
+  const Pose2 moved{3, 1, 0.2};
+  places_[0] = moved * places_[0], places_[1] = moved * places_[1];
+  EXPECT_EQ(vote(7, moved).size(), 8u);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ struct Pass {
   std::vector<test::Wall> walls;
   std::vector<Pose2> poses;  ///< in the world of the walls
   Pose2 odom_from_world;     ///< drift the matcher has gathered until then
+  bool anywhere = false;     ///< begins a segment after a pause in which the robot was carried
 };
 
 struct Found {
@@ -48,18 +49,23 @@ Found drive(const std::vector<Pass>& passes, SubmapLoopCloser& closer) {
   closer.prepare();
   Found out;
   Trajectory world;
-  for (const Pass& pass : passes)
+  int segment = 0;
+  for (const Pass& pass : passes) {
+    segment += pass.anywhere;
     for (const Pose2& pose : pass.poses) {
       const double t = 0.2 * static_cast<double>(out.times.size());
       ScanMatch match;
       match.matched = true;
       match.odom_from_robot = pass.odom_from_world * pose;
+      match.segment = segment;
+      match.anywhere = pass.anywhere && &pose == &pass.poses.front();
       world.add(t, toPose3(match.odom_from_robot));
       closer.add(test::castScan(pass.walls, pose, t, random), match);
       for (const RelativePose& closure : closer.search([&](double at) { return world.at(at); })) out.closures.push_back(closure);
       out.times.push_back(t);
       out.truth.push_back(pose);
     }
+  }
   return out;
 }
 
@@ -93,6 +99,54 @@ TEST(SubmapLoopCloser, DoesNotJoinSimilarRooms) {
   for (const auto& wall : test::boxAt(0.3, 0, 0.7, 0.7)) other.push_back(wall);
   const Found found = drive({{test::asymmetricRoom(), oval(170), {}}, {other, oval(60), {0.3, 0.2, 0}}});
   for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170);
+}
+
+// Carried across the room, turned by more than a search around the old place reaches: the whole submaps are searched.
+TEST(SubmapLoopCloser, ASegmentThatMayBeAnywhereIsFoundInWholeSubmaps) {
+  const auto room = test::asymmetricRoom();
+  const Pose2 odom_from_world{7, -5, 2.6};
+  const Found lost = drive({{room, oval(170), {}}, {room, oval(90), odom_from_world}});
+  const auto ofSecondPass = [](const Found& found) {
+    std::vector<RelativePose> out;
+    for (const RelativePose& c : found.closures)
+      if (c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170) out.push_back(c);
+    return out;
+  };
+  EXPECT_TRUE(ofSecondPass(lost).empty()) << "too far from where it should be";
+  const Found found = drive({{room, oval(170), {}}, {room, oval(90), odom_from_world, true}});
+  const auto closures = ofSecondPass(found);
+  ASSERT_GE(closures.size(), 8u) << "and loops close as ever after that";
+  EXPECT_GE(closures.front().t_b, 0.2 * 170);
+  for (const RelativePose& c : closures) {
+    const auto index = [](double t) { return static_cast<std::size_t>(std::lround(t / 0.2)); };
+    const Pose2 error = (found.truth[index(c.t_a)].inverse() * found.truth[index(c.t_b)]).inverse() * planarPart(c.a_from_b);
+    EXPECT_LT(std::hypot(error.x, error.y), 0.05) << c.t_a << " " << c.t_b;
+    EXPECT_LT(std::abs(error.yaw), 0.03);
+  }
+}
+
+// A square room looks the same from four sides; two rooms of one shape look the same, however many scans agree on one of them.
+TEST(SubmapLoopCloser, ASegmentThatMayBeInTwoPlacesIsNotPlaced) {
+  const auto square = test::boxAt(-1.5, -2, 5, 5), room = test::asymmetricRoom();
+  std::vector<Pose2> beside = oval(170);
+  for (Pose2& pose : beside) pose.x += 20;
+  for (const Found& found : {drive({{square, oval(170), {}}, {square, oval(90), {7, -5, 2.6}, true}}),
+                             drive({{room, oval(170), {}}, {shifted(room, 20), beside, {}}, {room, oval(90), {7, -5, 2.6}, true}})}) {
+    const double carried_t = found.times[found.times.size() - 90];
+    for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= carried_t && c.t_a < carried_t) << c.t_a << ' ' << c.t_b;
+  }
+}
+
+// Once it is tied loops close as they ever did, with what came before and over later losses.
+TEST(SubmapLoopCloser, WhatIsTiedIsNotAdriftAnyMore) {
+  const auto room = test::asymmetricRoom();
+  SubmapLoopCloser closer;
+  drive({{room, oval(170), {}}, {room, oval(150), {7, -5, 2.6}, true}}, closer);
+  const auto verified = closer.verify({.t_a = 2, .t_b = 0.2 * 300, .a_from_b = toPose3(oval(170)[10].inverse() * oval(150)[130])});
+  ASSERT_TRUE(verified);
+  const Pose2 error = (oval(170)[static_cast<std::size_t>(std::lround(verified->t_a / 0.2))].inverse() *
+                       oval(150)[static_cast<std::size_t>(std::lround(verified->t_b / 0.2)) - 170]).inverse() * planarPart(verified->a_from_b);
+  EXPECT_LT(std::hypot(error.x, error.y), 0.05);
 }
 
 TEST(SubmapLoopCloser, FarPlacesAreNotCompared) {

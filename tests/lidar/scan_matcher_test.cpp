@@ -143,6 +143,18 @@ TEST(SubmapScanMatcher, StartsANewSegmentSomewhereElse) {
     match = matcher.match(test::castScan(elsewhere, {}, i, random), Pose2{});
   EXPECT_EQ(match.segment, 1);
   EXPECT_TRUE(match.matched);
+  EXPECT_FALSE(match.anywhere) << "wheels told how it moved";
+}
+
+TEST(SubmapScanMatcher, WithoutAnyMovementANewSegmentMayBeAnywhere) {
+  std::mt19937 random(1);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(matcher.match(test::castScan(test::asymmetricRoom(), {}, i, random), std::nullopt).anywhere);
+  ScanMatch match;
+  for (int i = 5; i < 20 && match.segment == 0; ++i) match = matcher.match(test::castScan(test::boxAt(-9, -9, 19, 17), {}, i, random), std::nullopt);
+  EXPECT_EQ(match.segment, 1);
+  EXPECT_TRUE(match.anywhere);
 }
 
 // After a pause, in which it may have been carried off.
@@ -155,20 +167,22 @@ TEST(SubmapScanMatcher, AfterAPauseItIsInTheSamePlaceOrBeginsANewSegment) {
       here.match(scan, Pose2{});
       carried.match(scan, Pose2{});
     }
-    const ScanMatch same = here.match(test::castScan(test::asymmetricRoom(), {0.1, 0, 0.05}, pause_s, random), Pose2{});
+    const ScanMatch same = here.match(test::castScan(test::asymmetricRoom(), {0.1, 0, 0.05}, pause_s, random), std::nullopt);
     EXPECT_TRUE(same.matched);
     EXPECT_EQ(same.segment, 0);
     EXPECT_GT(same.score, 0.8);
-    const ScanMatch elsewhere = carried.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, pause_s, random), Pose2{});
+    EXPECT_FALSE(same.anywhere);
+    const ScanMatch elsewhere = carried.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, pause_s, random), std::nullopt);
     EXPECT_EQ(elsewhere.segment, pause_s > 2 ? 1 : 0);
     if (pause_s > 2) {
       EXPECT_TRUE(elsewhere.matched) << "its map begins there";
       EXPECT_EQ(elsewhere.score, 1);
+      EXPECT_TRUE(elsewhere.anywhere);
     }
     SubmapScanMatcher driving;
     for (int i = 0; i < 5; ++i) driving.match(test::castScan(test::asymmetricRoom(), {0, 0, 0}, 0.1 * i, random), Pose2{});
     const ScanMatch drove = driving.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, pause_s, random), Pose2{0.2, 0, 0});
-    EXPECT_EQ(drove.segment, 0) << "its wheels turned";
+    EXPECT_EQ(drove.segment, 0) << "something says how it moved";
   }
 }
 

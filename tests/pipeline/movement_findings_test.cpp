@@ -40,6 +40,20 @@ TEST(MovementFindings, AContradictionIsANoteUntilItLasts) {
   EXPECT_THAT(often[0].what, HasSubstr("sensors 4 times, for 2.0 s, first"));
 }
 
+TEST(MovementFindings, OfTwoAWarningLastsTwoSecondsAtOnce) {
+  MovementAgreement agreement;
+  const MovementBySensor seen = {std::nullopt, kStraight, seenAs(0, 0)};
+  for (int i = 0; i < 8; ++i) agreement.compare(100 + i, 100.5 + i, seen);
+  const auto often = movementFindings(agreement, 90);
+  ASSERT_EQ(often.size(), 1u);
+  EXPECT_EQ(often[0].severity, Severity::kNote);
+  EXPECT_EQ(often[0].place, "camera and wheels");
+  EXPECT_EQ(often[0].what, "contradict each other 8 times, for 4.0 s, first from t = 10.0 s on, by up to 0.30 m and 0.0 deg");
+  EXPECT_EQ(often[0].hint, "one of them is wrong: pictures full of what moves or repeats mislead, or wheels slip or are lifted, or the robot is pushed");
+  for (int i = 0; i < 4; ++i) agreement.compare(200 + 0.5 * i, 200.5 + 0.5 * i, seen);
+  EXPECT_EQ(movementFindings(agreement, 90)[0].severity, Severity::kWarning);
+}
+
 TEST(MovementFindings, TheOneThatIsTurnedIsNamedOrBothWhereOnlyTheyAreThere) {
   const std::string its_way = "its way is turned by 11.5 deg (+- 0.0) against that of ";
   for (const auto& [seen, place, what] :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shifted stamps, corrected depths, odometry summed up again from corrected movements.
+// Shifted stamps, turned sensors, corrected depths, odometry summed up again from corrected movements.
 #include "record_correction.h"
 
 #include <mrpt/core/Clock.h>
@@ -37,8 +37,16 @@ void RecordCorrection::shift(double& t, const std::string& sensor, double second
   ++counts_["stamp of " + sensor + " " + text];
 }
 
+void RecordCorrection::turn(Pose3& robot_from_sensor, const std::string& label) {
+  const auto found = corrections_.turns.find(label);
+  if (found == corrections_.turns.end()) return;
+  robot_from_sensor.linear() = found->second.toRotationMatrix() * robot_from_sensor.linear();
+  ++counts_["pose of " + quoted(label)];
+}
+
 void RecordCorrection::apply(Frame& frame) {
   applyToStamp(frame.t, frame.sensor_label);
+  turn(frame.robot_from_camera, frame.sensor_label);
   if (corrections_.depth == DepthCorrection{} || !frame.hasDepth()) return;
   frame.depth = frame.depth.clone();
   for (float& z : cv::Mat_<float>(frame.depth))
@@ -49,6 +57,7 @@ void RecordCorrection::apply(Frame& frame) {
 
 void RecordCorrection::apply(Scan& scan) {
   applyToStamp(scan.t, scan.sensor_label);
+  turn(scan.robot_from_lidar, scan.sensor_label);
 }
 
 void RecordCorrection::apply(OdometryReading& reading) {

@@ -18,7 +18,7 @@ class RecordCorrection {
  public:
   explicit RecordCorrection(RecordCorrections corrections) : corrections_(std::move(corrections)) {}
 
-  /// Stamp, depths or odometry; recorded boxes move with the images that they belong to.
+  /// Stamp, pose on the robot, depths or odometry; recorded boxes move with the images that they belong to.
   void apply(Record& record);
   /// Records that were changed, by what was changed.
   const std::map<std::string, int>& counts() const { return counts_; }
@@ -30,6 +30,7 @@ class RecordCorrection {
   double jumpOf(const std::string& label) const;
   void applyToStamp(double& t, const std::string& label);
   void shift(double& t, const std::string& sensor, double seconds);
+  void turn(Pose3& robot_from_sensor, const std::string& label);
   void apply(Frame& frame);
   void apply(Scan& scan);
   void apply(OdometryReading& reading);

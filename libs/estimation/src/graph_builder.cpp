@@ -17,12 +17,13 @@ constexpr double kFixRobustWidth = 2;  // Cauchy, in standard deviations: things
 
 // Steps of wheels add up their errors; so do those of images and scans when no local maps are wanted.
 void addSteps(FactorGraph& graph, const KeyPose& a, const KeyPose& b, const Motion& motion, bool local_maps) {
+  bool covered = false;
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar}) {
-    if (local_maps && source != &motion.odometry) continue;
-    if (const auto seen = source->between(a.t, b.t, kSourceGap_s))
-      graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
+    const auto seen = source->between(a.t, b.t, kSourceGap_s);
+    covered |= seen.has_value();
+    if (seen && (!local_maps || source == &motion.odometry)) graph.add(BetweenFactor{a.id, b.id, seen->a_from_b, seen->covariance, 3.0});
   }
-  if (connected(motion, a, b)) return;
+  if (covered) return;
   const Movement unknown = unknownMovement(b.t - a.t);
   graph.add(BetweenFactor{a.id, b.id, unknown.a_from_b, unknown.covariance, 0});
 }
@@ -159,7 +160,7 @@ bool alwaysInBodies(std::size_t key_poses) {
 
 bool connected(const Motion& motion, const KeyPose& a, const KeyPose& b) {
   for (const auto* source : {&motion.odometry, &motion.visual, &motion.lidar})
-    if (source->between(a.t, b.t, kSourceGap_s)) return true;
+    if (source->between(a.t, b.t, kSourceGap_s) && !source->pausedWithin(a.t, b.t)) return true;
   return false;
 }
 

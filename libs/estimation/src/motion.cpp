@@ -156,6 +156,11 @@ Matrix6d MotionSource::pausesWithin(double t_a, double t_b) const {
   return out;
 }
 
+bool MotionSource::pausedWithin(double t_a, double t_b) const {
+  const auto [early, late] = std::minmax(t_a, t_b);
+  return std::any_of(pauses_.begin(), pauses_.end(), [&](const auto& pause) { return pause.first < late && pause.second > early; });
+}
+
 // Of the step that ends at t or as the first one after it. No step leads to the pose that begins a segment: it is
 // where its frame begins, and known in it without error.
 Matrix6d MotionSource::stepAt(double t) const {

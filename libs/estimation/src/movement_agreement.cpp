@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Votes of three sensors, and medians of directions.
+// Votes of three sensors, differences of two, and medians of directions.
 #include "roomgraph/estimation/movement_agreement.h"
 
 #include <Eigen/Cholesky>
@@ -64,6 +64,13 @@ void MovementAgreement::compare(double from_t, double until_t, const MovementByS
     const auto &one = seen[i], &next = seen[(i + 1) % kSensors];
     if (one && next && isStraight(*one) && isStraight(*next)) turns_[i].push_back(angleBetween(*next, *one));
   }
+  for (std::size_t i = 0; i < kSensors; ++i) {
+    const std::size_t next = (i + 1) % kSensors;
+    if (!seen[i] || !seen[next] || seen[(i + 2) % kSensors]) continue;
+    const Difference difference = differenceOf(*seen[i], *seen[next]);
+    if (differ(difference))
+      add({kMotionSensors[i], from_t, until_t, difference.off.head<2>().norm(), std::abs(difference.off.z()), kMotionSensors[next]});
+  }
   if (!seen[0] || !seen[1] || !seen[2]) return;
   for (std::size_t i = 0; i < kSensors; ++i) {
     const Movement &one = *seen[i], &other = *seen[(i + 1) % kSensors], &third = *seen[(i + 2) % kSensors];
@@ -75,7 +82,7 @@ void MovementAgreement::compare(double from_t, double until_t, const MovementByS
 }
 
 void MovementAgreement::add(const Contradiction& now) {
-  auto& last = last_[static_cast<std::size_t>(now.sensor)];
+  auto& last = last_[static_cast<std::size_t>(now.sensor) + (now.only_other ? kSensors : 0)];
   if (!last || contradictions_[*last].until_t != now.from_t) {
     last = contradictions_.size();
     contradictions_.push_back(now);

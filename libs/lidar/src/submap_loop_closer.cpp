@@ -149,6 +149,7 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
     const Candidate candidate{s, kept->scan, kept->kept_from_this * planarPart(proposed.a_from_b), 0, trusted_path_m_ + 1};
     const std::optional<Closure> found = match(candidate, probeOf(b));
     if (!found) continue;
+    tie(*found);
     graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);
     return toRelativePose(*found);
   }
@@ -165,6 +166,10 @@ void SubmapLoopCloser::prepare() {
   graph_ = ClosureGraph();
   stands_for_.clear();
   confirmation_ = ClosureConfirmation();
+  adrift_.clear();
+  tied_to_.clear();
+  votes_ = PlaceVotes();
+  turn_ = searched_whole_ = found_whole_ = 0;
   waiting_.clear();
 }
 
@@ -181,6 +186,7 @@ void SubmapLoopCloser::add(const Scan& scan, const ScanMatch& match) {
   if (connected && !filter.moved(scans_.back().t, last->odom_from_robot, scan.t, match.odom_from_robot))
     return;
   if (last && !connected) store(active_->finishAll());
+  if (last && match.anywhere) beginPiece(static_cast<int>(scans_.size()));
 
   WayPoint here{match.odom_from_robot, last ? last->path_m : 0, match.segment};
   const Pose2 step = connected ? movement(*last, here) : Pose2{};
@@ -216,16 +222,24 @@ std::vector<RelativePose> SubmapLoopCloser::search(const PoseAt& world_from_robo
   const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_path_m_};
   for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
     const Probe b = probeOf(waiting_.front());
+    const std::vector<std::size_t> untied = nextUntied(b);
+    matches += static_cast<int>(untied.size());
+    std::vector<Closure> closures = locate(b, untied, world);
     for (const Candidate& candidate : candidatesFor(b, world)) {
       ++matches;
       const std::optional<Closure> closure = match(candidate, b);
       if (!closure) continue;
       std::vector<Closure> confirmed{*closure};
-      if (closure->path_m > trusted_path_m_) confirmed = confirmation_.add(*closure, way_, rule);
-      for (const Closure& c : confirmed) {
-        graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
-        found.push_back(toRelativePose(c));
-      }
+      if (pieceOf(closure->a) != pieceOf(closure->b))
+        confirmed = vote(*closure, b, world);
+      else if (closure->path_m > trusted_path_m_)
+        confirmed = confirmation_.add(*closure, way_, rule);
+      std::move(confirmed.begin(), confirmed.end(), std::back_inserter(closures));
+    }
+    for (const Closure& c : closures) {
+      tie(c);
+      graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
+      found.push_back(toRelativePose(c));
     }
   }
   giveUpRepeated(world);
@@ -288,28 +302,36 @@ SearchWindow SubmapLoopCloser::windowFor(double path_m) const {
 }
 
 std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const Probe& b) {
-  const Submap& submap = *submaps_[candidate.submap].map;
-  const ScorePyramid& pyramid = pyramids_.of(candidate.submap, submap.grid);
-  const Pose2& odom_from_a = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot;
-  const Pose2 expected = odom_from_a * candidate.a_from_b;
-  const SearchWindow window = windowFor(candidate.path_m);
+  const Pose2 expected = way_[static_cast<std::size_t>(candidate.a)].odom_from_robot * candidate.a_from_b;
+  const auto found = fit(candidate.submap, b, expected, windowFor(candidate.path_m), candidate.path_m > trusted_path_m_);
+  if (!found) return std::nullopt;
+  return closureOf(candidate.a, b.scan, *found, candidate.path_m);
+}
+
+std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Probe& b, const Pose2& expected, const SearchWindow& window,
+                                                    bool surely) {
+  const Submap& submap = *submaps_[number].map;
+  const ScorePyramid& pyramid = pyramids_.of(number, submap.grid);
   const auto coarse = correlativeSearch(pyramid, b.points, expected, window);
   if (!coarse) return std::nullopt;
   const PosePrior prior{coarse->grid_from_scan};
   GridRefinement fine = refineOnGrid(submap.grid, b.points, coarse->grid_from_scan, prior);
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
-  if (candidate.path_m > trusted_path_m_ && ambiguous(pyramid, b.points, expected, window, *coarse))
-    return std::nullopt;
+  if (surely && ambiguous(pyramid, b.points, expected, window, *coarse)) return std::nullopt;
 
   const FacedScan scan = faced(b.planar);
   refineFurther(submap.surfaces, scan, prior, fine);
   if (shareOnWrongSide(submap.surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
+  return fine;
+}
+
+Closure SubmapLoopCloser::closureOf(int a, int b, const GridRefinement& fit, double path_m) const {
+  const Pose2& odom_from_a = way_[static_cast<std::size_t>(a)].odom_from_robot;
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
   model.floor_sigma_rad = floor_sigma_rad_;
-  return Closure{candidate.a, b.scan, odom_from_a.inverse() * fine.grid_from_scan,
-                 rotateCovariance(poseCovariance(fine, model), -odom_from_a.yaw), candidate.path_m};
+  return {a, b, odom_from_a.inverse() * fit.grid_from_scan, rotateCovariance(poseCovariance(fit, model), -odom_from_a.yaw), path_m};
 }
 
 bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,

@@ -11,6 +11,8 @@
 #include "closure_confirmation.h"
 #include "closure_graph.h"
 #include "correlative_search.h"
+#include "grid_refinement.h"
+#include "place_votes.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
 #include "submap_settings.h"
@@ -19,7 +21,7 @@ namespace roomgraph {
 
 /// Finds returns by matching kept scans against older submaps: branch-and-bound search as wide as the drift
 /// may be, refinement, and for returns after a long path the agreement of several scans. After Hess et al.
-/// 2016, sec. V.
+/// 2016, sec. V. A segment of which nothing tells where it is (ScanMatch::anywhere) is looked for in all of every submap.
 class SubmapLoopCloser : public ScanLoopCloser {
   DEFINE_MRPT_OBJECT(SubmapLoopCloser, roomgraph)
  public:
@@ -72,6 +74,23 @@ class SubmapLoopCloser : public ScanLoopCloser {
                                      PlacesInWorld& world) const;
   SearchWindow windowFor(double path_m) const;
   std::optional<Closure> match(const Candidate& candidate, const Probe& b);
+  /// Nothing when the submap does not explain the scan there or, if it is asked for `surely`, explains it elsewhere as well.
+  std::optional<GridRefinement> fit(std::size_t submap, const Probe& b, const Pose2& expected, const SearchWindow& window, bool surely);
+  Closure closureOf(int a, int b, const GridRefinement& fit, double path_m) const;
+  /// The path falls into pieces where nothing tells how the robot moved; those that closures tie have the number of the first of them.
+  int pieceOf(int scan) const;
+  void beginPiece(int scan);
+  void tie(const Closure& closure);
+  /// Those of other pieces.
+  std::vector<std::size_t> untiedSubmaps(int scan) const;
+  /// The untied submaps whose turn it is.
+  std::vector<std::size_t> nextUntied(const Probe& b);
+  /// Looks in all of these; closures once enough scans agree.
+  std::vector<Closure> locate(const Probe& b, const std::vector<std::size_t>& submaps, PlacesInWorld& world);
+  /// A closure between two pieces; closures once enough scans agree, and none of the other submaps explains the scan as well.
+  std::vector<Closure> vote(const Closure& closure, const Probe& b, PlacesInWorld& world);
+  bool hasRival(const Closure& closure, const Probe& b, PlacesInWorld& world);
+  std::optional<Closure> matchAnywhere(std::size_t submap, const Probe& b);
   int nearestScan(double t) const;
   /// Submaps whose places older ones hold are given up: memory, and the time of a search, grow with the area seen, not with time.
   void giveUpRepeated(PlacesInWorld& world);
@@ -114,6 +133,11 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::vector<Scan> scans_;  ///< kept ones
   std::vector<WayPoint> way_;  ///< one per kept scan
   ClosureGraph graph_;           ///< of kept scans, without those that were given up
+  std::vector<int> adrift_;      ///< kept scans with which a piece of the path begins; the first piece has none
+  std::vector<int> tied_to_;     ///< by piece after the first: the first of those that it is tied to
+  PlaceVotes votes_;
+  std::size_t turn_ = 0;  ///< of the untied submaps
+  std::size_t searched_whole_ = 0, found_whole_ = 0;  ///< since the last piece began: submaps, and those that explained the scan
   std::map<int, KeptScan> stands_for_;  ///< by scan that was given up: the nearest of an older submap
   ClosureConfirmation confirmation_;
   std::deque<int> waiting_;  ///< kept scans not searched yet

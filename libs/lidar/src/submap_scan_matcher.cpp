@@ -17,7 +17,6 @@ namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
-constexpr double kStood_m = 0.1, kStood_rad = 0.1;
 constexpr double kPause_s = 2, kSamePlace = 0.5;  // after which it is asked whether this is the same place, by the share that is explained
 constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
 }  // namespace
@@ -127,16 +126,16 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), false);
     if (steady.explained > found.explained + kClearlyBetter) found = steady;
   }
-  // Recording may have paused while the robot was carried off; one whose wheels turned drove.
-  const bool stood = !has_prior || (std::hypot(previous_from_current->x, previous_from_current->y) < kStood_m &&
-                                    std::abs(previous_from_current->yaw) < kStood_rad);
-  const bool elsewhere = last_t_ && scan.t - *last_t_ > kPause_s && stood && found.explained < kSamePlace;
+  // Recording may have paused while the robot was carried off.
+  const bool elsewhere = last_t_ && scan.t - *last_t_ > kPause_s && !has_prior && found.explained < kSamePlace;
   if (found.explained < min_score_ || elsewhere) {
     if (!elsewhere && lost_scans_ < max_lost_scans_) return lose(scan.t, predicted, has_prior, "no overlap");
     ++segment_;
     submaps_->finishAll();
     free_space_.clear();
-    return start(scan, planar, predicted);
+    ScanMatch begun = start(scan, planar, predicted);
+    begun.anywhere = !has_prior;
+    return begun;
   }
   ScanMatch out;
   out.matched = true;

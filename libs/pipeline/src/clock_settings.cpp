@@ -43,10 +43,9 @@ std::vector<ClockSetting> wrongClocks(const FrontEnds& sensors) {
   std::vector<ClockSetting> out;
   const auto wrong = sensors.clocks().wrong();
   const auto& labels = sensors.labels();
-  const bool both = sensors.clocks().isThere(MotionSensor::kLidar) && sensors.clocks().isThere(MotionSensor::kCamera);
-  if (!wrong || (both && labels[0] == labels[1])) return out;  // a label that two sensors have names none
+  if (!wrong || sensors.shareLabel()) return out;
   for (std::size_t i = 0; i < wrong->size(); ++i)
-    if ((*wrong)[i].seconds != 0) out.push_back({kMotionSensors[i], labels[i], (*wrong)[i]});
+    if ((*wrong)[i].seconds != 0) out.push_back({kMotionSensors[i], labels[i].value_or(""), (*wrong)[i]});
   return out;
 }
 
@@ -71,7 +70,7 @@ std::vector<ClockSetting> withoutCamera(const std::vector<ClockSetting>& clocks,
     if (clock.jumped) continue;
     for (const MotionSensor other : {MotionSensor::kLidar, MotionSensor::kWheels})
       if (sensors.clocks().isThere(other))
-        addClocks({{other, sensors.labels()[static_cast<std::size_t>(other)], {-clock.offset.seconds, clock.offset.sigma}}}, out);
+        addClocks({{other, sensors.labels()[static_cast<std::size_t>(other)].value_or(""), {-clock.offset.seconds, clock.offset.sigma}}}, out);
   }
   return out;
 }

@@ -42,6 +42,17 @@ FrameGround SemanticSlam::seeGround(const Frame& frame) {
   return ground;
 }
 
+// Where the floor is not where it should be it is sought wherever it is: the recorded pose may be wrong. The front ends, which know the
+// camera by its name, must have seen it.
+void SemanticSlam::watchTilt(const Frame& frame, const std::optional<GroundEstimate>& where_expected) {
+  const Pose2 robot = planarPart(estimator_.poses().at(frame.t));
+  if (!isMounted(frame) || !setup_->stages.rgbd_odometry || !tilt_.wants(frame.t, robot)) return;
+  const bool there = where_expected && where_expected->from_depth;
+  const auto seen = there ? where_expected : groundOf(frame, std::nullopt, *setup_->stages.ground_detector).estimate;
+  const auto in_robot = seen ? std::optional(transformed(frame.robot_from_camera, seen->plane)) : std::nullopt;
+  tilt_.add(frame.t, robot, in_robot, frame.robot_from_camera.translation());
+}
+
 // Levels the world by a floor that several frames agree on; returns whether it did.
 bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
   const Pose3 world_from_camera = estimator_.poses().at(frame.t) * frame.robot_from_camera;

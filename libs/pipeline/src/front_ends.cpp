@@ -82,6 +82,11 @@ FrontEnds::~FrontEnds() = default;
 
 WheelCorrection FrontEnds::wheelCorrection() const { return correctionOf(calibration_.errors()); }
 
+bool FrontEnds::shareLabel() const {
+  const auto &lidar = labels_[static_cast<std::size_t>(MotionSensor::kLidar)], &camera = labels_[static_cast<std::size_t>(MotionSensor::kCamera)];
+  return lidar && lidar == camera;
+}
+
 void FrontEnds::setPlanar() {
   motion_.floor = OnFloor{options_.backend.planar_sigma_z_m, options_.backend.planar_sigma_tilt_rad};
 }
@@ -90,6 +95,7 @@ bool FrontEnds::add(const OdometryReading& reading) {
   setPlanar();
   const Pose2 before = wheels_as_read_.poses().empty() ? reading.odom_from_robot : planarPart(wheels_as_read_.poses().poses().back().pose);
   if (!wheels_as_read_.add(reading.t, toPose3(reading.odom_from_robot), 0)) return false;
+  labels_[static_cast<std::size_t>(MotionSensor::kWheels)] = "";
   const Pose2 step = before.inverse() * reading.odom_from_robot;
   wheels_ = wheels_ ? *wheels_ * corrected(step, wheelCorrection()) : reading.odom_from_robot;
   return motion_.odometry.add(reading.t, toPose3(*wheels_), 0);

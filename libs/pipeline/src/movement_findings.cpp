@@ -9,41 +9,47 @@
 #include <string>
 
 #include "roomgraph/geometry/degree.h"
+#include "roomgraph/pipeline/mount_settings.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr double kLong_s = 2;  // a contradiction that lasts spoils more than its moment
-constexpr double kTurned_rad = 3 * kDegree, kTurnedSigmas = 5;
 
-const char* reasonOf(MotionSensor sensor) {
+const char* causeOf(MotionSensor sensor) {
   switch (sensor) {
-    case MotionSensor::kWheels: return "wheels slip or are lifted, or the robot is pushed: what they measure counts less there";
-    case MotionSensor::kCamera: return "pictures full of what moves or repeats mislead: what they measure counts less there";
-    case MotionSensor::kLidar: return "scans full of what moves, or along bare corridors, mislead: what they measure counts less there";
+    case MotionSensor::kWheels: return "wheels slip or are lifted, or the robot is pushed";
+    case MotionSensor::kCamera: return "pictures full of what moves or repeats mislead";
+    case MotionSensor::kLidar: return "scans full of what moves, or along bare corridors, mislead";
   }
   return "";
 }
 
-std::optional<Finding> contradictionsOf(MotionSensor sensor, const std::vector<Contradiction>& all, double start_t) {
-  double seconds = 0, off_m = 0, off_rad = 0, first_t = 0;
+// Of one sensor with both others, or with the only other one.
+std::optional<Finding> contradictionsOf(MotionSensor sensor, std::optional<MotionSensor> only_other, const std::vector<Contradiction>& all,
+                                        double start_t) {
+  double seconds = 0, longest_s = 0, off_m = 0, off_rad = 0, first_t = 0;
   int times = 0;
   for (const Contradiction& one : all) {
-    if (one.sensor != sensor) continue;
+    if (one.sensor != sensor || one.only_other != only_other) continue;
     if (times++ == 0) first_t = one.from_t;
     seconds += one.until_t - one.from_t;
+    longest_s = std::max(longest_s, one.until_t - one.from_t);
     off_m = std::max(off_m, one.off_m);
     off_rad = std::max(off_rad, one.off_rad);
   }
   if (times == 0) return std::nullopt;
   char text[200];
-  std::snprintf(text, sizeof text, "contradicts both other sensors%s for %.1f s, first from t = %.1f s on, by up to %.2f m and %.1f deg",
-                times > 1 ? (" " + std::to_string(times) + " times,").c_str() : "", seconds, first_t - start_t, off_m, off_rad / kDegree);
-  return Finding{seconds >= kLong_s ? Severity::kWarning : Severity::kNote, text, toString(sensor), reasonOf(sensor)};
-}
-
-bool isTurned(const std::optional<TurnedBy>& by) {
-  return by && std::abs(by->rad) > std::max(kTurned_rad, kTurnedSigmas * by->sigma_rad);
+  const std::string how_often = times > 1 ? " " + std::to_string(times) + " times," : "";
+  std::snprintf(text, sizeof text, "%s%s for %.1f s, first from t = %.1f s on, by up to %.2f m and %.1f deg",
+                only_other ? "contradict each other" : "contradicts both other sensors", how_often.c_str(), seconds, first_t - start_t, off_m,
+                off_rad / kDegree);
+  // Two that differ now and then have nobody who says that one of them is right.
+  const Severity severity = (only_other ? longest_s : seconds) >= kLong_s ? Severity::kWarning : Severity::kNote;
+  if (only_other)
+    return Finding{severity, text, std::string(toString(sensor)) + " and " + toString(*only_other),
+                   std::string("one of them is wrong: ") + causeOf(sensor) + ", or " + causeOf(*only_other)};
+  return Finding{severity, text, toString(sensor), std::string(causeOf(sensor)) + ": what they measure counts less there"};
 }
 
 Finding turnedFinding(const std::string& place, const char* pattern, const TurnedBy& by, const std::string& others, const std::string& hint) {
@@ -85,8 +91,11 @@ void addTurned(const MovementAgreement& agreement, std::vector<Finding>& out) {
 std::vector<Finding> movementFindings(const MovementAgreement& agreement, double start_t) {
   std::vector<Finding> out;
   addTurned(agreement, out);
-  for (const MotionSensor sensor : kMotionSensors)
-    if (auto found = contradictionsOf(sensor, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
+  for (std::size_t i = 0; i < kMotionSensors.size(); ++i) {
+    const MotionSensor sensor = kMotionSensors[i], next = kMotionSensors[(i + 1) % kMotionSensors.size()];
+    if (auto found = contradictionsOf(sensor, std::nullopt, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
+    if (auto found = contradictionsOf(sensor, next, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
+  }
   return out;
 }
 

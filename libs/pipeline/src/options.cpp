@@ -20,6 +20,9 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
   v.add("set_clocks", set_clocks,
         {.doc = "Whether a run begins anew, with stamps corrected, once the turns, starts and stops that its sensors measure show that "
                 "their clocks differ."});
+  v.add("set_poses", set_poses,
+        {.doc = "Whether a run begins anew, with the recorded poses of camera and lidar turned, once their ways, straight ahead, or the floor "
+                "that the camera sees show that they are wrong; none is with poses of sensor_poses or calibration_file."});
   v.add("calibration_file", calibration_file,
         {.doc = "Calibration applied to the records as they are read: sensor poses, time offsets, wheels, "
                 "depth (docs/calibration.md). Empty: none.",

@@ -9,7 +9,9 @@
 
 #include "frame_lines.h"
 #include "graph_file.h"
+#include "roomgraph/geometry/degree.h"
 #include "roomgraph/mapping/map_files.h"
+#include "roomgraph/pipeline/settings_json.h"
 
 namespace roomgraph {
 namespace {
@@ -103,14 +105,22 @@ ordered_json wheelsJson(const FrontEnds& sensors) {
 ordered_json clocksJson(const std::vector<ClockSetting>& set, const SensorClocks& clocks) {
   ordered_json settings = ordered_json::array(), left = nullptr;
   for (const ClockSetting& clock : set)
-    settings.push_back({{"sensor", toString(clock.sensor)},
-                        {"label", clock.label},
-                        {"since_a_jump", clock.jumped},
-                        {"added_s", clock.offset.seconds},
-                        {"sigma_s", clock.offset.sigma}});
+    settings.push_back(jsonOf(clock));
   if (const auto offsets = clocks.offsets())
     for (std::size_t i = 0; i < offsets->size(); ++i)
       if (clocks.isThere(kMotionSensors[i])) left[toString(kMotionSensors[i])] = {{"offset_s", (*offsets)[i].seconds}, {"sigma_s", (*offsets)[i].sigma}};
+  return {{"set", settings}, {"left", left}};
+}
+
+// By what poses of sensors were turned, and by what the ways that two sensors saw are turned still (none while too little was driven).
+ordered_json mountsJson(const std::vector<MountSetting>& set, const MovementAgreement& agreement) {
+  ordered_json settings = ordered_json::array(), left = ordered_json::array();
+  for (const MountSetting& mount : set) settings.push_back(jsonOf(mount));
+  for (std::size_t i = 0; i < kMotionSensors.size(); ++i) {
+    const MotionSensor sensor = kMotionSensors[i], other = kMotionSensors[(i + 1) % kMotionSensors.size()];
+    if (const auto turned = agreement.turned(sensor, other))
+      left.push_back({{"sensor", toString(sensor)}, {"against", toString(other)}, {"yaw_deg", turned->rad / kDegree}, {"sigma_deg", turned->sigma_rad / kDegree}});
+  }
   return {{"set", settings}, {"left", left}};
 }
 
@@ -144,6 +154,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
     summary["calibration"] = calibrationJson(file, read);
   if (slam.frontEnds().wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.frontEnds());
   summary["clocks"] = clocksJson(origin.clocks, slam.frontEnds().clocks());
+  summary["sensor_poses"] = mountsJson(origin.mounts, slam.frontEnds().agreement());
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;
   summary["input_warning"] = read.warning;

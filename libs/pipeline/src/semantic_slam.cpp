@@ -73,6 +73,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   localize(frame.t);                                                      // sec. 4, M-step
   views_.add(frame, people, estimator_.poses().at(frame.t));
   FrameProposals proposals = take(proposing);
+  watchTilt(frame, proposals.ground);
   std::vector<ObjectDecision> decisions;
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;

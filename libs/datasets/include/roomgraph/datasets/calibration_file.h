@@ -2,6 +2,7 @@
 // Calibration file: what takes the place of sensor poses, stamps, wheel odometry and depths of a recording.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -34,6 +35,8 @@ struct RecordCorrections {
   /// other sensors, until they jump back.
   std::map<std::string, double> time_jumps_s = {};
   double wheels_time_jump_s = 0;  ///< the same, of whatever gives odometry
+  /// By sensor label: by what its recorded pose on the robot is turned, about the sensor's own place and along the robot's axes.
+  std::map<std::string, Eigen::Quaterniond> turns = {};
   bool operator==(const RecordCorrections&) const = default;
 };
 

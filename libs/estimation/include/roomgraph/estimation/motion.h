@@ -37,6 +37,8 @@ class MotionSource {
   const Trajectory& poses() const { return poses_; }
   /// Covariance: noise model, sum of the steps, and more for a time after the last pose.
   std::optional<Movement> between(double t_a, double t_b, double horizon_s) const;
+  /// Whether a pause lies in it in which the robot may have been carried.
+  bool pausedWithin(double t_a, double t_b) const;
   /// As seen in a local map that begins at `t_a`: the covariance is that of the match at `t_b`, and does not
   /// grow with the movement. A segment's first pose is matched to nothing: it has the noise model's alone.
   std::optional<Movement> inLocalMap(double t_a, double t_b, double horizon_s) const;

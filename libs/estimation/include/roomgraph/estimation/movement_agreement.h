@@ -17,11 +17,12 @@ const char* toString(MotionSensor sensor);
 /// One movement as each sensor saw it, in the order of kMotionSensors; nothing where one did not.
 using MovementBySensor = std::array<std::optional<Movement>, kMotionSensors.size()>;
 
-/// A time in which one sensor differed from both others, and these did not from each other.
+/// A time in which one sensor differed from both others, and these did not from each other; or from the only other one.
 struct Contradiction {
   MotionSensor sensor;
   double from_t = 0, until_t = 0;        ///< s
   double off_m = 0, off_rad = 0;  ///< the largest differences from the others, of movements of some tenths of a second
+  std::optional<MotionSensor> only_other = std::nullopt;  ///< the only other one: which of the two is wrong is not known
 };
 
 /// An angle with what it may be off by.
@@ -44,7 +45,7 @@ class MovementAgreement {
   void add(const Contradiction& now);
 
   std::vector<Contradiction> contradictions_;
-  std::array<std::optional<std::size_t>, kMotionSensors.size()> last_;  // contradiction of each
+  std::array<std::optional<std::size_t>, 2 * kMotionSensors.size()> last_;  // contradiction of each, and of each with the next one alone
   std::array<std::vector<double>, kMotionSensors.size()> turns_;  // of each against the next one
 };
 

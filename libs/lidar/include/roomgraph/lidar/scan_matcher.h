@@ -25,6 +25,7 @@ struct ScanMatch {
   /// Beams with returns on what moves by itself, as the scans before show; ascending. The local map is
   /// without them.
   std::vector<std::size_t> moving;
+  bool anywhere = false;  ///< begins a segment, and nothing tells where: of the movement since the last one nothing is known
 };
 
 /// Matches each scan against a local map made of the scans before it.

@@ -23,6 +23,9 @@ namespace roomgraph {
 
 class ScansAhead;
 
+/// In the order of kMotionSensors; nothing where there is no such sensor.
+using LabelsOfSensors = std::array<std::optional<std::string>, kMotionSensors.size()>;
+
 /// Sensor records -> movement of the robot. Owns the trajectories of the three sources, each in its own
 /// frame; every source predicts for the others.
 class FrontEnds {
@@ -40,8 +43,11 @@ class FrontEnds {
   const MovementAgreement& agreement() const { return agreement_; }
   /// Whether they did so at the same times.
   const SensorClocks& clocks() const { return clocks_; }
-  /// Labels of the sensors, in the order of kMotionSensors; empty for wheels and for what gave nothing.
-  const std::array<std::string, kMotionSensors.size()>& labels() const { return labels_; }
+  /// Of the sensors that gave something; that of wheels is empty.
+  const LabelsOfSensors& labels() const { return labels_; }
+
+  /// Whether camera and lidar have one label, which names neither.
+  bool shareLabel() const;
 
   /// False when the stamp does not come after the last one.
   bool add(const OdometryReading& reading);
@@ -79,7 +85,7 @@ class FrontEnds {
   std::optional<double> taught_by_lidar_, taught_by_camera_;  ///< until then wheels were compared with them
   MovementAgreement agreement_;
   SensorClocks clocks_;
-  std::array<std::string, kMotionSensors.size()> labels_;
+  LabelsOfSensors labels_;
   std::optional<double> compared_t_;  ///< until then sensors were compared
   double predicted_t_ = -std::numeric_limits<double>::infinity();  ///< of the last image whose place was only predicted
   std::unique_ptr<ScansAhead> scans_ahead_;

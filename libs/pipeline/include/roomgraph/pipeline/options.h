@@ -19,7 +19,7 @@ struct GeneralOptions : Configurable {
   std::vector<std::string> plugins;
   std::string objects_file;
   double lookahead_s = 0.5;
-  bool set_clocks = true;
+  bool set_clocks = true, set_poses = true;
   std::string calibration_file, sensor_poses;
   void declareParameters(ParameterVisitor& v) override;
 };

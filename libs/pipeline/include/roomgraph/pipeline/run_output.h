@@ -15,6 +15,7 @@
 #include "roomgraph/pipeline/best_views.h"
 #include "roomgraph/pipeline/clock_settings.h"
 #include "roomgraph/pipeline/lost_spans.h"
+#include "roomgraph/pipeline/mount_settings.h"
 #include "roomgraph/pipeline/replay.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
@@ -28,6 +29,7 @@ struct RunOrigin {
   std::vector<std::string> networks = {};  ///< of the model folder, chosen because nothing else gave boxes
   std::optional<std::vector<Finding>> findings = {};  ///< about the recording; nothing: not examined
   std::vector<ClockSetting> clocks = {};  ///< of sensors, that were set
+  std::vector<MountSetting> mounts = {};  ///< poses of sensors, that were set
   bool resumed = false;  ///< what an interrupted run had computed was recalled: timings are without it
 };
 

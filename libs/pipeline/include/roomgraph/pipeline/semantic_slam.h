@@ -10,6 +10,7 @@
 
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/datasets/record_stream.h"
+#include "roomgraph/estimation/camera_tilt.h"
 #include "roomgraph/estimation/floor_consensus.h"
 #include "roomgraph/estimation/map_anchor.h"
 #include "roomgraph/estimation/object_loop_closer.h"
@@ -98,6 +99,8 @@ class SemanticSlam {
   void account(const char* stage, const Work& work) { times_.add(stage, work); }
   /// The sensors, with what wheels were found to err by.
   const FrontEnds& frontEnds() const { return front_ends_; }
+  /// Where a camera on the robot sees the floor.
+  const CameraTilt& cameraTilt() const { return tilt_; }
   /// What the movements that the sensors measured say against each other.
   std::vector<Finding> movementFindings() const;
   /// Of every call of every stage.
@@ -113,6 +116,7 @@ class SemanticSlam {
   FrameDetections detect(const Frame& frame);
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   FrameGround seeGround(const Frame& frame);
+  void watchTilt(const Frame& frame, const std::optional<GroundEstimate>& where_expected);
   bool findFloor(const Frame& frame, const Plane& in_camera);
   struct Proposed {
     FrameProposals proposals;
@@ -154,6 +158,7 @@ class SemanticSlam {
   double last_foreseen_t_;
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
   FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
+  CameraTilt tilt_;          ///< of a camera on a robot
   ObjectMapper objects_;     ///< what was seen of objects
   ExistenceModel existence_;
   ObjectLoopCloser object_loops_;
