@@ -56,7 +56,7 @@ FAULTS = [
     Fault("freeze-camera", "--freeze-camera {a}:{b}", ("camera",), "images in a row are the same", True),
     Fault("freeze-lidar", "--freeze-lidar {a}:{b}", ("lidar",), "scans in a row are the same", True),
     Fault("freeze-odometry", "--freeze-odometry {a}:{b}", ("odometry",), "stands still|jumps, the largest", True),
-    Fault("lift-wheels", "--lift-wheels {a}:{b}", ("odometry",), "stands still", True),
+    Fault("lift-wheels", "--lift-wheels {a}:{b}", ("odometry",), "stands still|contradict", True),
     Fault("black", "--black {a}:{b}", ("camera",), "pictures show nothing", True),
     Fault("white", "--white {a}:{b}", ("camera",), "pictures show nothing", True),
     Fault("no-depth", "--no-depth {a}:{b}", ("camera",), "depth images are empty", True),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "roomgraph/core/config.h"
@@ -36,6 +37,7 @@ struct Pass {
   std::vector<Pose2> poses;  ///< in the world of the walls
   Pose2 odom_from_world;     ///< drift the matcher has gathered until then
   bool anywhere = false;     ///< begins a segment after a pause in which the robot was carried
+  bool lost = false;         ///< begins a segment after a loss: the place in world is about right
 };
 
 struct Found {
@@ -51,7 +53,7 @@ Found drive(const std::vector<Pass>& passes, SubmapLoopCloser& closer) {
   Trajectory world;
   int segment = 0;
   for (const Pass& pass : passes) {
-    segment += pass.anywhere;
+    segment += pass.anywhere || pass.lost;
     for (const Pose2& pose : pass.poses) {
       const double t = 0.2 * static_cast<double>(out.times.size());
       ScanMatch match;
@@ -123,18 +125,32 @@ TEST(SubmapLoopCloser, ASegmentThatMayBeAnywhereIsFoundInWholeSubmaps) {
     EXPECT_LT(std::hypot(error.x, error.y), 0.05) << c.t_a << " " << c.t_b;
     EXPECT_LT(std::abs(error.yaw), 0.03);
   }
+  std::map<double, int> of_scan;
+  for (const RelativePose& c : closures) EXPECT_LE(++of_scan[c.t_b], 4) << c.t_b << ": two submaps by guess, two searched whole";
 }
 
 // A square room looks the same from four sides; two rooms of one shape look the same, however many scans agree on one of them.
 TEST(SubmapLoopCloser, ASegmentThatMayBeInTwoPlacesIsNotPlaced) {
   const auto square = test::boxAt(-1.5, -2, 5, 5), room = test::asymmetricRoom();
-  std::vector<Pose2> beside = oval(170);
+  std::vector<Pose2> beside = oval(170), seldom = oval(100);
   for (Pose2& pose : beside) pose.x += 20;
+  for (Pose2& pose : seldom) pose.x += 20;
   for (const Found& found : {drive({{square, oval(170), {}}, {square, oval(90), {7, -5, 2.6}, true}}),
-                             drive({{room, oval(170), {}}, {shifted(room, 20), beside, {}}, {room, oval(90), {7, -5, 2.6}, true}})}) {
+                             drive({{room, oval(170), {}}, {shifted(room, 20), beside, {}}, {room, oval(90), {7, -5, 2.6}, true}}),
+                             drive({{room, oval(600), {}}, {shifted(room, 20), seldom, {}}, {room, oval(90), {7, -5, 2.6}, true}})}) {
     const double carried_t = found.times[found.times.size() - 90];
     for (const RelativePose& c : found.closures) EXPECT_FALSE(c.t_b >= carried_t && c.t_a < carried_t) << c.t_a << ' ' << c.t_b;
   }
+}
+
+// A segment that begins after a loss is about where it should be: three scans that agree are enough.
+TEST(SubmapLoopCloser, ASegmentAfterALossIsFoundSooner) {
+  const auto room = test::asymmetricRoom();
+  const auto ofSecondPass = [](const Found& found) {
+    return std::count_if(found.closures.begin(), found.closures.end(), [](const RelativePose& c) { return c.t_b >= 0.2 * 170 && c.t_a < 0.2 * 170; });
+  };
+  EXPECT_GE(ofSecondPass(drive({{room, oval(170), {}}, {.walls = room, .poses = oval(20), .lost = true}})), 3);
+  EXPECT_EQ(ofSecondPass(drive({{room, oval(170), {}}, {.walls = room, .poses = oval(20), .anywhere = true}})), 0);
 }
 
 // Once it is tied loops close as they ever did, with what came before and over later losses.

@@ -38,7 +38,7 @@ void CameraTilt::add(double t, const Pose2& robot, const std::optional<Plane>& i
 }
 
 std::optional<Eigen::Vector3d> CameraTilt::up() const {
-  if (seen_.size() < kLeastSeen) return std::nullopt;
+  if (seen_.empty()) return std::nullopt;
   const auto medianOver = [this](const auto& value) {
     std::vector<double> values;
     for (const Sighting& one : seen_) values.push_back(value(one));

@@ -237,7 +237,6 @@ std::vector<RelativePose> SubmapLoopCloser::search(const PoseAt& world_from_robo
       std::move(confirmed.begin(), confirmed.end(), std::back_inserter(closures));
     }
     for (const Closure& c : closures) {
-      tie(c);
       graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
       found.push_back(toRelativePose(c));
     }

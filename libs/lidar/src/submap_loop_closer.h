@@ -87,7 +87,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::vector<std::size_t> nextUntied(const Probe& b);
   /// Looks in all of these; closures once enough scans agree.
   std::vector<Closure> locate(const Probe& b, const std::vector<std::size_t>& submaps, PlacesInWorld& world);
-  /// A closure between two pieces; closures once enough scans agree, and none of the other submaps explains the scan as well.
+  /// A closure between two pieces; closures, which tie them, once enough scans agree and none of the other submaps explains the scan as well.
   std::vector<Closure> vote(const Closure& closure, const Probe& b, PlacesInWorld& world);
   bool hasRival(const Closure& closure, const Probe& b, PlacesInWorld& world);
   std::optional<Closure> matchAnywhere(std::size_t submap, const Probe& b);

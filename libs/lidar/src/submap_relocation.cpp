@@ -47,9 +47,12 @@ std::vector<Closure> SubmapLoopCloser::vote(const Closure& closure, const Probe&
   const auto placeOf = [&](int scan) { return world.of(scan); };
   std::vector<Closure> believed = votes_.add(closure, piece, way_, placeOf);
   if (believed.empty()) return {};
-  if (!hasRival(closure, b, world)) return believed;
-  votes_.forget(piece);  // from here on, where the robot may see what tells the two apart
-  return {};
+  if (hasRival(closure, b, world)) {
+    votes_.forget(piece);  // from here on, where the robot may see what tells the two apart
+    return {};
+  }
+  tie(closure);
+  return believed;
 }
 
 // Rooms of one shape: what is believed of one must not hold in another.
