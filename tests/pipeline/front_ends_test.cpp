@@ -53,6 +53,21 @@ TEST_F(FrontEndsTest, WheelsPredictForTheCamera) {
   EXPECT_EQ(fakes::world().by_scans, (std::vector<bool>{false, false}));
 }
 
+// The robot may have been carried.
+TEST_F(FrontEndsTest, WheelsDoNotPredictOverAPause) {
+  for (const double pause_s : {1.0, 5.0}) {
+    start();
+    fakes::world().expected.clear();
+    for (const double t : {0.0, 0.1, 0.1 + pause_s}) {
+      ASSERT_TRUE(front_->add({t, {0.02, 0, 0}}));
+      front_->track(Drive::frame(t), {});
+    }
+    ASSERT_EQ(fakes::world().expected.size(), 3u);
+    EXPECT_TRUE(fakes::world().expected[1]);
+    EXPECT_EQ(fakes::world().expected[2].has_value(), pause_s < 2) << pause_s;
+  }
+}
+
 TEST_F(FrontEndsTest, AHandheldCameraIsOnNoFloorWheelsAndMountedCamerasAre) {
   const auto onFloorAfter = [&](const auto& work) {
     start();

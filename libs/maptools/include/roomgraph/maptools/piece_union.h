@@ -15,7 +15,7 @@ struct PathAlignment {
   Pose2 a_from_b;
   int poses = 0;             ///< instants that both have
   double rms_m = 0;          ///< of what is left between the two paths
-  Eigen::Vector2d middle{};  ///< of the common path, in frame a
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< of the common path, in frame a
 };
 
 /// From the poses of the same instants (to the microsecond): medians, which the first moments of a piece,
