@@ -39,6 +39,9 @@ TEST(PathsOfPieces, MeetWhereTheyAreOfTheSameTime) {
     ASSERT_TRUE(met) << met.reason();
     EXPECT_LT(apart(met->a_from_b, b_from_world.inverse()), 1e-9);
     EXPECT_EQ(met->poses, 101);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int i = 200; i <= 300; ++i) sum += Eigen::Vector2d(truePose(0.1 * i).x, truePose(0.1 * i).y);
+    EXPECT_LT((met->middle - sum / 101).norm(), 1e-9);
     EXPECT_LT(met->rms_m, 1e-9);
   }
 }
