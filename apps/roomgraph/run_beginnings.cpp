@@ -57,9 +57,10 @@ bool RunBeginnings::shallBegin(const SemanticSlam& slam, const RawlogReader& rea
   return worth || !found_mounts_.empty();
 }
 
-void RunBeginnings::correct(RecordCorrections& corrections) const {
-  addClocks(clocks_, corrections);
-  addMounts(mounts_, corrections);
+void RunBeginnings::correct(ReadOptions& reading, const WhatStays& stays) const {
+  addClocks(clocks_, reading.corrections);
+  addMounts(mounts_, reading.corrections);
+  reading.continue_time = reading.continue_time && !stays.stamps_of_images;
 }
 
 std::vector<std::string> RunBeginnings::reasons(const ReplayState& replayed) const {

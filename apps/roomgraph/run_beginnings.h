@@ -33,8 +33,8 @@ class RunBeginnings {
   int begun() const { return begun_; }
   const std::vector<ClockSetting>& clocks() const { return clocks_; }
   const std::vector<MountSetting>& mounts() const { return mounts_; }
-  /// Adds what was set.
-  void correct(RecordCorrections& corrections) const;
+  /// Adds what was set; time goes on where all clocks are set back only where stamps of images need not stay.
+  void correct(ReadOptions& reading, const WhatStays& stays) const;
   /// Why, in a line for each clock and pose.
   std::vector<std::string> reasons(const ReplayState& replayed) const;
   /// The longest that is added to a stamp, s.

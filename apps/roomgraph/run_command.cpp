@@ -243,7 +243,8 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   Configuration configuration = configurationOf(options);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
   ReadOptions reading = readOptionsOf(setup->options);
-  whole.beginnings.correct(reading.corrections);
+  const WhatStays stays = whatStays(options, configuration, reading);
+  whole.beginnings.correct(reading, stays);
   RawlogReader reader(options.input, reading);
   if (const std::string advice = missingDetections(setup->stages, options.input); whole.beginnings.begun() == 1 && !advice.empty())
     std::cerr << "roomgraph: warning: " << advice << "\n";
@@ -265,7 +266,6 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   const Stopwatch watch;
   if (!whole.examination && !options.no_report) whole.examination.emplace(options.input, reading.sensor_poses, options.span.until_s);
   bool again = false;
-  const WhatStays stays = whatStays(options, configuration, reading);
   const ReplayState replayed = replayWithProgress(options, reader, *slam, places, [&](const ReplayState& now) {
     return again = !interrupted() && whole.beginnings.shallBegin(*slam, reader, now, stays);
   });

@@ -62,6 +62,32 @@ TEST_F(DriveWithFaults, NoneNoWarning) {
   EXPECT_THAT(findings(), Each(Field(&Finding::severity, Severity::kNote)));
 }
 
+TEST_F(DriveWithFaults, ClocksThatAreSetBackAreOneFindingAndReadersGoOn) {
+  const auto setBack = [](auto& records, std::size_t from) {
+    for (std::size_t i = from; i < records.size(); ++i)
+      records[i]->timestamp = mrpt::Clock::fromDouble(mrpt::Clock::toDouble(records[i]->timestamp) - 2);
+  };
+  setBack(odometry, 50);
+  setBack(scans, 25);
+  setBack(images, 25);
+  const auto found = findings();
+  EXPECT_THAT(found, warning("all sensors", "their clock is set back by 2.00 s at t = 105.000 s"));
+  EXPECT_THAT(found, Not(Contains(Field(&Finding::what, HasSubstr("older than")))));
+  EXPECT_THAT(found, Not(Contains(Field(&Finding::what, HasSubstr("out of order")))));
+  for (const bool continues : {true, false}) {
+    RawlogReader reader(folder.file("x.rawlog"), {.continue_time = continues});
+    int records = 0, older = 0;
+    double last_t = 0;
+    for (; const auto record = reader.next(); ++records) {
+      older += timeOf(*record) < last_t;
+      last_t = std::max(last_t, timeOf(*record));
+    }
+    EXPECT_EQ(records, 200);
+    EXPECT_EQ(older > 0, !continues);
+    EXPECT_EQ(reader.statistics().clocks_set_back.size(), continues ? 1u : 0u);
+  }
+}
+
 TEST_F(DriveWithFaults, SilenceAtTheBeginningAndTheEnd) {
   for (std::size_t i = 60; i < odometry.size(); ++i) odometry[i] = nullptr;
   for (std::size_t i = 0; i < 12; ++i) scans[i] = nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Returns that contradict free space: walkers, new walls, pose errors, doors that close, jumps of the pose.
-#include "free_space_memory.h"
+#include "roomgraph/lidar/free_space_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -94,6 +94,22 @@ TEST(FreeSpaceMemory, WhoeverWalksBehindTheRobotIsMoving) {
   EXPECT_GT(watch.near.returns, 500);
   EXPECT_GT(watch.near.value(), 0.97);
   EXPECT_LT(watch.elsewhere.value(), 0.0005);
+}
+
+// Beams of a depth image that saw the floor so far, and nothing on it.
+TEST(FreeSpaceMemory, BeamsWithoutReturnFreeSpaceAsFarAsTheyAreKnownToHaveGone) {
+  for (const float free_m : {0.F, 1.5F, 4.F}) {
+    FreeSpaceMemory memory;
+    Scan scan;
+    scan.angle_min_rad = -0.5;
+    scan.angle_step_rad = 0.01;
+    scan.ranges_m.assign(101, 4.F);
+    scan.valid.assign(101, 0);
+    for (scan.t = 0; scan.t < 3; scan.t += 0.1) EXPECT_TRUE(memory.observe(scan, {}, 0, std::vector<float>(101, free_m)).empty());
+    scan.valid.assign(101, 1);
+    std::fill(scan.ranges_m.begin() + 45, scan.ranges_m.begin() + 56, 2.F);
+    EXPECT_EQ(memory.observe(scan, {}).size(), free_m > 2 ? 11u : 0u) << free_m;
+  }
 }
 
 TEST(FreeSpaceMemory, AllRoundTheRobotAndWhileItTurns) {

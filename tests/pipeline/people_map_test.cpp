@@ -39,6 +39,11 @@ using Grid = mrpt::maps::COccupancyGridMap2D;
 const Eigen::Vector2d kSeat(2, 0.3);
 constexpr double kSitsDown_s = 6, kEnd_s = 150;
 
+// A cylinder as large as a person.
+fakes::WorldObject personAt(const Eigen::Vector2d& place) {
+  return {"person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, poseFromYpr(place.x(), place.y(), 0, 0, 0, 0)};
+}
+
 // Two minutes and a half before a room with one chair in it; the person comes after six seconds and stays.
 SlamResult standBeforeTheSeat(bool with_person) {
   registerAllClasses();
@@ -48,8 +53,7 @@ SlamResult standBeforeTheSeat(bool with_person) {
   fakes::world() = {};
   fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
   const fakes::WorldObject chair{"swivel_chair", {ShapeKind::kCylinder, 0.6, 0.6, 0.9}, poseFromYpr(3, -1, 0, 0, 0, 0)};
-  const fakes::WorldObject person{
-      "person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, poseFromYpr(kSeat.x(), kSeat.y(), 0, 0, 0, 0)};
+  const fakes::WorldObject person = personAt(kSeat);
   SemanticSlam slam(setupWith("[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n[tracking]\n"
                               "enabled = false\n[lidar]\nclass = WatchingMatcher\nloop_closing = false\n"));
   std::mt19937 random{3};
@@ -107,16 +111,8 @@ TEST(PeopleMap, ASittingPersonIsNotDrawnAndErasesNothing) {
   }
 }
 
-// Depth images of a wall 3.5 m ahead and somebody before it, at whom the detector looks or not.
-Grid gridFromDepth(bool detected) {
-  registerAllClasses();
-  fakes::registerClasses();
-  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(WatchingMatcher, fakes));
-  fakes::world() = {};
-  fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
-  const fakes::WorldObject person{
-      "person", {ShapeKind::kCylinder, 0.5, 0.5, 1.7}, poseFromYpr(kSeat.x(), kSeat.y(), 0, 0, 0, 0)};
-  if (detected) fakes::world().objects = {person};
+// A depth image of a wall 3.5 m ahead and somebody before it.
+Frame depthOf(const fakes::WorldObject& person) {
   Frame frame = Drive::frame(0);
   frame.depth.setTo(3.5F);
   const Pose3 camera_from_person = Drive::robotFromCamera().inverse() * person.world_from_object;
@@ -125,6 +121,19 @@ Grid gridFromDepth(bool detected) {
       .depth(cv::Rect(cv::Point(static_cast<int>(seen.u_min) + 1, static_cast<int>(seen.v_min) + 1),
                       cv::Point(static_cast<int>(seen.u_max), static_cast<int>(seen.v_max))))
       .setTo(1.8F);
+  return frame;
+}
+
+// At whom the detector looks or not.
+Grid gridFromDepth(bool detected) {
+  registerAllClasses();
+  fakes::registerClasses();
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(WatchingMatcher, fakes));
+  fakes::world() = {};
+  fakes::world().world_from_camera = [](double) { return Drive::robotFromCamera(); };
+  const fakes::WorldObject person = personAt(kSeat);
+  if (detected) fakes::world().objects = {person};
+  Frame frame = depthOf(person);
   SemanticSlam slam(
       setupWith("[detection]\nclass = FakeDetector\n[proposals]\nclass = FakeProposals\n[tracking]\n"
                 "enabled = false\n[lidar]\nclass = WatchingMatcher\nloop_closing = false\n"
@@ -146,6 +155,38 @@ TEST(PeopleMap, DepthImagesLeavePeopleOut) {
   EXPECT_FALSE(occupiedWithin(left_out, front, 0.4));
   EXPECT_TRUE(occupiedWithin(drawn, wall, 0.1));
   EXPECT_TRUE(occupiedWithin(left_out, wall, 0.1));
+}
+
+// Somebody whom no detector knows comes before a robot that stands and has looked for three seconds, walks, and stands for three more.
+SlamResult walkPastACamera(const std::string& mapping_keys) {
+  registerAllClasses();
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(WatchingMatcher, fakes));
+  SemanticSlam slam(setupWith("[detection]\nenabled = false\n[tracking]\nenabled = false\n[lidar]\nclass = WatchingMatcher\n"
+                              "loop_closing = false\n[mapping]\n" + mapping_keys));
+  std::mt19937 random{3};
+  for (int i = 0; i < 80; ++i) {
+    const double t = 0.1 * i, walked_m = std::clamp(0.65 * (t - 3), 0., 1.3);
+    Frame frame = depthOf(personAt({2, t < 3 ? -50 : walked_m - 1}));
+    if (t < 3) frame.depth.setTo(3.5F);
+    frame.t = t;
+    frame.id = FrameId{i};
+    slam.process(frame);
+    slam.process(castScan(asymmetricRoom(), {}, t + 0.05, random, 0.01, 720));
+  }
+  return slam.finish();
+}
+
+TEST(PeopleMap, WhoeverWalksThroughDepthImagesLeavesNoTrace) {
+  const SlamResult with = walkPastACamera("source = depth\nmax_wait_s = 0.05\n"),
+                   without = walkPastACamera("source = depth\nmax_wait_s = 0.05\nleave_out_moving = false\n");
+  ASSERT_TRUE(with.map.occupancy && without.map.occupancy);
+  EXPECT_EQ(without.counts.returns_in_free_space, 0);
+  EXPECT_GT(with.counts.returns_in_free_space, 500);
+  const Eigen::Vector2d end(1.9, 0.3);
+  EXPECT_TRUE(occupiedWithin(*without.map.occupancy, end, 0.2)) << "else the test shows nothing";
+  EXPECT_FALSE(occupiedWithin(*with.map.occupancy, end, 0.4));
+  EXPECT_TRUE(occupiedWithin(*with.map.occupancy, {3.6, -0.8}, 0.1)) << "the wall stays";
+  EXPECT_EQ(walkPastACamera("").counts.returns_in_free_space, 0) << "the grid is of scans";
 }
 
 constexpr double kFollowsFrom_s = 4, kStops_s = 8.5;

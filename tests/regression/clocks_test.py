@@ -38,6 +38,15 @@ class Clocks(SmallLoop):
         self.assertTrue(set_clock["since_a_jump"])
         self.assertAlmostEqual(set_clock["added_s"], 0.4, delta=1e-3)
 
+    # As a computer does whose time is corrected while it records.
+    def test_time_goes_on_where_all_clocks_are_set_back(self):
+        rawlog, out = self.jumped("20:-2"), self.folder / "back"
+        call(*self.run_words(rawlog, out))
+        self.assertLess(self.error(out), LARGEST_ERROR_M)
+        (step,) = self.summary(out)["clocks"]["set_back"]
+        self.assertAlmostEqual(step["seconds"], 2, delta=0.05)
+        self.assertTrue(any(what.startswith("their clock is set back by 2.0") for what in self.findings(out, "all sensors")))
+
     def test_stamps_stay_where_clocks_agree_or_are_not_to_be_set(self):
         right = self.folder / "right"
         self.assertNotIn("begun anew", call(*self.run_words(self.simulated / "small_loop.rawlog", right)).stderr)

@@ -83,6 +83,15 @@ void checkKinds(const RawlogReport& report, Findings& out) {
     if (const auto what = choice->what(); !what.empty()) out.warning(what, choice->hint());
 }
 
+// Of all sensors together.
+void checkTime(const std::vector<ClockSetBack>& set_back, Findings& out) {
+  constexpr const char* kHint = "a run adds it to the stamps from there on (not with boxes that are kept apart from their images)";
+  if (set_back.empty()) return;
+  out.at("all sensors");
+  const std::string first = format("their clock is set back by %.2f s at t = %.3f s", set_back[0].seconds, set_back[0].t + set_back[0].seconds);
+  out.warning(set_back.size() == 1 ? first : first + format(", the first of %zu times", set_back.size()), kHint);
+}
+
 void checkWhole(const RawlogReport& report, Findings& out) {
   constexpr double kLargeStepBackS = 1;
   const auto has = [&](auto predicate) {
@@ -108,6 +117,7 @@ void checkWhole(const RawlogReport& report, Findings& out) {
 std::vector<Finding> findProblems(const RawlogReport& report) {
   Findings out;
   checkWhole(report, out);
+  checkTime(report.clocks_set_back, out);
   const bool on_robot = std::any_of(report.sensors.begin(), report.sensors.end(),
                                     [](const SensorReport& s) { return s.scans || s.odometry; });
   for (const auto& sensor : report.sensors) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "clock_offset.h"
+#include "continued_time.h"
 #include "image_folder.h"
 #include "odometry_statistics.h"
 #include "odometry_sum.h"
@@ -31,6 +32,11 @@ using mrpt::obs::CObservationOdometry;
 
 constexpr double kPoseTolerance = 1e-6;  // m, rad
 
+bool showsTheClock(const CObservation& observation) {
+  return dynamic_cast<const CObservation2DRangeScan*>(&observation) || dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+         dynamic_cast<const CObservationOdometry*>(&observation);
+}
+
 struct Sensor {
   SensorReport report;
   TimeStatistics times;
@@ -47,17 +53,18 @@ class Inspector {
 
   void add(const mrpt::serialization::CSerializable::Ptr& object) {
     take(object);
-    while (const auto item = waiting_.pop(false)) use(*item);
+    useWaiting(false);
   }
   /// No more records.
   void finish() {
-    while (const auto item = waiting_.pop(true)) use(*item);
+    useWaiting(true);
   }
 
   void report(RawlogReport& out) const {
     for (const auto& [reason, count] : skipped_) out.skipped[reason] += count;
     out.format = paired_ == 0 ? "observations" : single_ == 0 ? "actions and sensory frames" : "mixed";
     out.records = paired_ + single_;
+    out.clocks_set_back = time_.found();
     out.largest_step_back_s = largest_step_back_;
     out.first_time = std::numeric_limits<double>::infinity();
     out.last_time = -out.first_time;
@@ -89,8 +96,6 @@ class Inspector {
   }
 
  private:
-  using Waiting = StampQueue<CObservation::Ptr>;
-
   void take(const mrpt::serialization::CSerializable::Ptr& object) {
     if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
       ++paired_;
@@ -124,12 +129,18 @@ class Inspector {
       addObservation(observation);
   }
 
-  void use(const Waiting::Item& item) {
-    const std::string name = shortClassName(item.record->GetRuntimeClass()->className);
-    if (item.stamp_is_wrong)
-      ++skipped_[name + ": " + kStampIsWrong];
-    else
-      addObservation(item.record);
+  void useWaiting(bool complete) {
+    while (const auto item = waiting_.pop(complete)) {
+      const std::string name = shortClassName(item->record->GetRuntimeClass()->className);
+      if (item->stamp_is_wrong)
+        ++skipped_[name + ": " + kStampIsWrong];
+      else
+        time_.push(showsTheClock(*item->record) ? item->sensor : "", item->t, item->record);
+    }
+    while (const auto item = time_.pop(complete)) {
+      if (item->added_s != 0) item->record->timestamp = mrpt::Clock::fromDouble(item->t + item->added_s);
+      addObservation(item->record);
+    }
   }
 
   Sensor& sensor(const std::string& label, const std::string& class_name) {
@@ -189,8 +200,10 @@ class Inspector {
       return;
     }
     Sensor& entry = sensor("", "CActionCollection");
-    addTime(entry, sum_.time());
-    addOdometry(entry, sum_.time(), sum_.pose());
+    auto t = sum_.time();
+    if (t) *t += time_.addedSoFar();
+    addTime(entry, t);
+    addOdometry(entry, t, sum_.pose());
   }
 
   void addPose(Sensor& entry, const CObservation& observation) {
@@ -235,7 +248,8 @@ class Inspector {
   std::string image_folder_;
   SensorPoses poses_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  Waiting waiting_;
+  StampQueue<CObservation::Ptr> waiting_;
+  ContinuedTime<CObservation::Ptr> time_;
   std::map<std::string, int> skipped_;
   OdometrySum sum_;
   Trajectory odometry_;

@@ -9,6 +9,7 @@
 
 #include <mutex>
 
+#include "continued_time.h"
 #include "frame_conversion.h"
 #include "image_folder.h"
 #include "odometry_sum.h"
@@ -29,9 +30,27 @@ using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CSensoryFrame;
 
+// Boxes say nothing of clocks: they have the stamps of their images.
+std::string clockOf(const Record& record) {
+  if (const auto* frame = std::get_if<Frame>(&record)) return "camera " + frame->sensor_label;
+  if (const auto* scan = std::get_if<Scan>(&record)) return "lidar " + scan->sensor_label;
+  return std::holds_alternative<OdometryReading>(record) ? "wheels" : "";
+}
+
 // `wheels`: whether there are any.
 std::string sensorHangs(bool wheels) {
   return std::string(": the same as those before it") + (wheels ? " while the wheels turned" : "") + ", the sensor hangs";
+}
+
+void addToTime(Record& record, double seconds) {
+  if (auto* detections = std::get_if<std::shared_ptr<CObservationDetections>>(&record))
+    (*detections)->timestamp = mrpt::Clock::fromDouble(timeOf(record) + seconds);
+  else if (auto* frame = std::get_if<Frame>(&record))
+    frame->t += seconds;
+  else if (auto* scan = std::get_if<Scan>(&record))
+    scan->t += seconds;
+  else
+    std::get<OdometryReading>(record).t += seconds;
 }
 
 struct RecordConverter::Impl {
@@ -42,6 +61,7 @@ struct RecordConverter::Impl {
         image_folder(recording.empty() ? std::string() : imageFolderOf(recording)) {}
 
   std::optional<Record> nextAsRecorded();
+  std::optional<Record> nextInTime();
   void end();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeActions(const CActionCollection& actions);
@@ -62,6 +82,7 @@ struct RecordConverter::Impl {
   bool odometry_waits = false;  ///< for the time of the next observation
   // Observations are converted when they are asked for: a sensory frame may hold many images.
   StampQueue<std::variant<CObservation::Ptr, OdometryReading>> waiting;
+  ContinuedTime<Record> time;
   bool ended = false;
   std::int64_t frame_count = 0;
   OneCamera camera;
@@ -215,6 +236,23 @@ std::optional<Record> RecordConverter::Impl::nextAsRecorded() {
   return std::nullopt;
 }
 
+std::optional<Record> RecordConverter::Impl::nextInTime() {
+  if (!options.continue_time) return nextAsRecorded();
+  bool complete = false;
+  while (true) {
+    if (auto item = time.pop(complete)) {
+      if (item->added_s != 0) addToTime(item->record, item->added_s);
+      return std::move(item->record);
+    }
+    auto record = nextAsRecorded();
+    if (!record && (!ended || complete)) return std::nullopt;
+    complete = !record;
+    if (!record) continue;
+    const double t = timeOf(*record);
+    time.push(clockOf(*record), t, std::move(*record));
+  }
+}
+
 RecordConverter::RecordConverter(const ReadOptions& options, const std::filesystem::path& recording)
     : impl_(std::make_unique<Impl>(options, recording)) {}
 RecordConverter::~RecordConverter() = default;
@@ -233,7 +271,7 @@ void RecordConverter::end(const std::string& warning) {
 }
 
 std::optional<Record> RecordConverter::next() {
-  auto record = impl_->nextAsRecorded();
+  auto record = impl_->nextInTime();
   const std::lock_guard lock(impl_->correcting);
   if (record) impl_->correction.apply(*record);
   return record;
@@ -248,6 +286,7 @@ const ReadStatistics& RecordConverter::statistics() const {
   impl_->statistics.sensor_warnings = impl_->choices.warnings();
   impl_->statistics.corrected = impl_->correction.counts();
   impl_->statistics.placed = impl_->options.sensor_poses;
+  impl_->statistics.clocks_set_back = impl_->time.found();
   return impl_->statistics;
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kKnown_s = 0.015, kSure_s = 0.006;  // standard deviations from which on an offset says who differs, and by how much
 constexpr double kShareOfOffset = 0.125;                       // of an offset, that will do as well
 constexpr double kAway_s = 5;                          // without a pose
-constexpr double kLeastWrong_s = 0.015, kWrongSigmas = 4;
+constexpr double kLeastWrong_s = 0.015, kWrongSigmas = 6;
 constexpr std::size_t kLidar = 0, kCamera = 1, kWheels = 2;
 
 bool isKnown(const TimeOffset& offset, double sigma_s) { return offset.sigma < std::max(sigma_s, kShareOfOffset * std::abs(offset.seconds)); }

@@ -22,11 +22,17 @@ bool advance(std::optional<double>& last, double t) {
   return true;
 }
 
+// Poses are asked for by the stamps that the engine reads.
+ReadOptions withStampsAsRecorded(ReadOptions options) {
+  options.continue_time = false;
+  return options;
+}
+
 }  // namespace
 
 EngineFrontEnd::EngineFrontEnd(std::unique_ptr<Setup> setup, const std::filesystem::path& recording)
     : setup_(std::move(setup)),
-      converter_(readOptionsOf(setup_->options), recording),
+      converter_(withStampsAsRecorded(readOptionsOf(setup_->options)), recording),
       front_ends_(setup_->stages, setup_->options),
       poses_(front_ends_.motion()) {}
 EngineFrontEnd::~EngineFrontEnd() = default;

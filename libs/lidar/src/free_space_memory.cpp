@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rolling grid of free space: test of returns against it, and its update by hits, surfaces and beams.
-#include "free_space_memory.h"
+#include "roomgraph/lidar/free_space_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +98,7 @@ void FreeSpaceMemory::clear() {
 }
 
 std::vector<std::size_t> FreeSpaceMemory::observe(const Scan& scan, const Pose2& odom_from_robot,
-                                                  double min_range_m) {
+                                                  double min_range_m, const std::vector<float>& free_m) {
   const Eigen::Vector3d mount = scan.robot_from_lidar.translation();
   if (std::abs(scan.robot_from_lidar.linear()(2, 2)) < kLevelCosine) return {};
   if (scan_ > 0 && std::abs(mount.z() - height_m_) > kSamePlane_m) return {};
@@ -112,13 +112,13 @@ std::vector<std::size_t> FreeSpaceMemory::observe(const Scan& scan, const Pose2&
   if (!(origin_.cwiseAbs().maxCoeff() < kFarthest_m)) return {};
   roll(cellOf(origin_));
 
-  std::vector<Return> returns = returnsOf(scan, odom_from_robot, min_range_m);
+  std::vector<Return> returns = returnsOf(scan, odom_from_robot, min_range_m, free_m);
   dropThin(returns, std::abs(scan.angle_step_rad));
   std::vector<std::size_t> moving;
   for (const Return& r : returns)
     if (r.moving) moving.push_back(r.beam);
-  const auto most =
-      options_.max_share * static_cast<double>(std::max<std::size_t>(kFewestToJudge, returns.size()));
+  const auto hits = std::count_if(returns.begin(), returns.end(), [](const Return& r) { return r.is_hit; });
+  const auto most = options_.max_share * static_cast<double>(std::max<std::ptrdiff_t>(kFewestToJudge, hits));
   if (static_cast<double>(moving.size()) > most) {
     implausible_s_ += static_cast<double>(step_s_);
     if (implausible_s_ >= kImplausible_s) clear();
@@ -175,17 +175,19 @@ void FreeSpaceMemory::roll(const Eigen::Vector2i& center) {
 
 std::vector<FreeSpaceMemory::Return> FreeSpaceMemory::returnsOf(const Scan& scan,
                                                                 const Pose2& odom_from_robot,
-                                                                double min_range_m) {
+                                                                double min_range_m,
+                                                                const std::vector<float>& free_m) {
   std::vector<Return> out;
   out.reserve(scan.ranges_m.size());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-    const auto range = static_cast<double>(scan.ranges_m[i]);
-    if (!scan.valid[i] || !(range >= min_range_m) || !std::isfinite(range)) continue;
+    const bool is_hit = scan.valid[i] != 0;
+    const auto range = static_cast<double>(is_hit || free_m.empty() ? scan.ranges_m[i] : free_m[i]);
+    if ((!is_hit && (free_m.empty() || range <= 0)) || !(range >= min_range_m) || !std::isfinite(range)) continue;
     const double angle = scan.angle_min_rad + static_cast<double>(i) * scan.angle_step_rad;
     const Eigen::Vector3d in_lidar(range * std::cos(angle), range * std::sin(angle), 0);
     const Eigen::Vector2d point =
         odom_from_robot * Eigen::Vector2d((scan.robot_from_lidar * in_lidar).head<2>());
-    out.push_back({i, point, range <= options_.reach_m && isFreeAround(cellOf(point))});
+    out.push_back({i, point, is_hit && range <= options_.reach_m && isFreeAround(cellOf(point)), is_hit});
   }
   return out;
 }
@@ -209,7 +211,7 @@ void FreeSpaceMemory::dropThin(std::vector<Return>& returns, double beam_step_ra
 // for a while, so that somebody who walks through leaves it free.
 void FreeSpaceMemory::hit(const std::vector<Return>& returns) {
   for (const Return& r : returns) {
-    if ((r.point - origin_).squaredNorm() > options_.reach_m * options_.reach_m) continue;
+    if (!r.is_hit || (r.point - origin_).squaredNorm() > options_.reach_m * options_.reach_m) continue;
     Cell& cell = at(cellOf(r.point));
     if (cell.scan == scan_) continue;
     cell.scan = scan_;
@@ -223,7 +225,7 @@ void FreeSpaceMemory::hit(const std::vector<Return>& returns) {
 void FreeSpaceMemory::keepSurfaces(const std::vector<Return>& returns) {
   for (std::size_t i = 1; i < returns.size(); ++i) {
     const Return &a = returns[i - 1], &b = returns[i];
-    if (b.beam != a.beam + 1 || (b.point - a.point).norm() > kSurfaceGap_m) continue;
+    if (!a.is_hit || !b.is_hit || b.beam != a.beam + 1 || (b.point - a.point).norm() > kSurfaceGap_m) continue;
     if ((a.point - origin_).norm() > options_.reach_m || (b.point - origin_).norm() > options_.reach_m)
       continue;
     crossCells(a.point / options_.cell_m, b.point / options_.cell_m, [&](int x, int y) {

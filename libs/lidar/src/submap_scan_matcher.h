@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "free_space_memory.h"
 #include "grid_refinement.h"
+#include "roomgraph/lidar/free_space_memory.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
 #include "submap_settings.h"

@@ -88,8 +88,16 @@ void OccupancyMapper::add(const Scan& scan) {
 }
 
 void OccupancyMapper::add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving) {
-  if (!frame.hasDepth() || !frame.camera.valid()) return;
-  slices_.push_back(fanFromDepth(frame, ground, options_.slice, moving));
+  if (auto of_frame = slice(frame, ground, moving)) add(std::move(*of_frame));
+}
+
+std::optional<RangeFan> OccupancyMapper::slice(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving) const {
+  if (!frame.hasDepth() || !frame.camera.valid()) return std::nullopt;
+  return fanFromDepth(frame, ground, options_.slice, moving);
+}
+
+bool OccupancyMapper::drawsDepth() const {
+  return options_.source == "depth" || options_.source == "both" || (options_.source == "auto" && scans_.empty());
 }
 
 void OccupancyMapper::giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot) {
@@ -119,10 +127,9 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(
     const Trajectory& world_from_robot, const mrpt::maps::COccupancyGridMap2D* earlier) const {
   const std::string& source = options_.source;
   const bool use_scans = source == "lidar" || source == "both" || (source == "auto" && !scans_.empty());
-  const bool use_depth = source == "depth" || source == "both" || (source == "auto" && scans_.empty());
   std::vector<PosedFan> posed;
   if (use_scans) select(scans_, world_from_robot, posed);
-  if (use_depth) select(slices_, world_from_robot, posed);
+  if (drawsDepth()) select(slices_, world_from_robot, posed);
   Eigen::AlignedBox2d area;
   for (const auto& fan : posed) {
     area.extend(fan.origin());

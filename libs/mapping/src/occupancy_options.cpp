@@ -72,6 +72,9 @@ void OccupancyOptions::declareParameters(ParameterVisitor& v) {
        .min = 0,
        .max = 1e6});
   declare(slice, v);
+  v.add("leave_out_moving", leave_out_moving,
+        {.doc = "Whether returns of depth images in space that earlier ones saw as free are taken as on people and left out of a grid that is "
+                "drawn from them."});
 }
 
 }  // namespace roomgraph

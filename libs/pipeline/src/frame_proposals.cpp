@@ -3,6 +3,7 @@
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
+#include "moving_in_depth.h"
 #include "roomgraph/observations/mounting.h"
 #include "roomgraph/pipeline/semantic_slam.h"
 
@@ -40,6 +41,14 @@ FrameGround SemanticSlam::seeGround(const Frame& frame) {
   if (!expected && ground.estimate)
     return {std::nullopt, "a plane that few frames have seen may be no floor"};
   return ground;
+}
+
+void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people) {
+  auto slice = mapper_.slice(frame, floor, people);
+  if (!slice) return;
+  if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth())
+    counts_.returns_in_free_space += moving_->leaveOut(*slice, estimator_.poses().at(frame.t));
+  mapper_.add(std::move(*slice));
 }
 
 // Where the floor is not where it should be it is sought wherever it is: the recorded pose may be wrong. The front ends, which know the

@@ -19,7 +19,7 @@ void GeneralOptions::declareParameters(ParameterVisitor& v) {
          .max = 10});
   v.add("set_clocks", set_clocks,
         {.doc = "Whether a run begins anew, with stamps corrected, once the turns, starts and stops that its sensors measure show that "
-                "their clocks differ."});
+                "their clocks differ; and whether time goes on where the clocks of all are set back."});
   v.add("set_poses", set_poses,
         {.doc = "Whether a run begins anew, with the recorded poses of camera and lidar turned, once their ways, straight ahead, or the floor "
                 "that the camera sees show that they are wrong; none is with poses of sensor_poses or calibration_file."});

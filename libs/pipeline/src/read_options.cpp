@@ -18,7 +18,8 @@ ReadOptions readOptionsOf(const Options& options) {
           .lidar_label = options.lidar.label,
           .odometry_label = options.odometry.label,
           .sensor_poses = calibration.poses,
-          .corrections = calibration.corrections};
+          .corrections = calibration.corrections,
+          .continue_time = options.general.set_clocks};
 }
 
 void placeSensor(Config& config, const std::string& assignment) {

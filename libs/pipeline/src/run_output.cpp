@@ -53,6 +53,7 @@ ordered_json countsJson(const SlamResult& result) {
   const auto& counts = result.counts;
   return {{"frames", counts.frames},
           {"frames_lost", counts.frames_lost},
+          {"frames_with_movers", counts.frames_with_movers},
           {"scans", counts.scans},
           {"scans_unmatched", counts.scans_unmatched},
           {"returns_on_people", counts.returns_on_people},
@@ -101,15 +102,16 @@ ordered_json wheelsJson(const FrontEnds& sensors) {
           {"sigma", {{"scale", sigma[0]}, {"turn_scale", sigma[1]}, {"drift_rad_m", sigma[2]}}}};
 }
 
-// What was added to the stamps of sensors, and what would still have to be.
-ordered_json clocksJson(const std::vector<ClockSetting>& set, const SensorClocks& clocks) {
-  ordered_json settings = ordered_json::array(), left = nullptr;
+// What was added to the stamps of sensors, and what would still have to be; where time went on as all clocks were set back.
+ordered_json clocksJson(const std::vector<ClockSetting>& set, const SensorClocks& clocks, const std::vector<ClockSetBack>& set_back) {
+  ordered_json settings = ordered_json::array(), left = nullptr, back = ordered_json::array();
+  for (const ClockSetBack& step : set_back) back.push_back({{"t", step.t}, {"seconds", step.seconds}});
   for (const ClockSetting& clock : set)
     settings.push_back(jsonOf(clock));
   if (const auto offsets = clocks.offsets())
     for (std::size_t i = 0; i < offsets->size(); ++i)
       if (clocks.isThere(kMotionSensors[i])) left[toString(kMotionSensors[i])] = {{"offset_s", (*offsets)[i].seconds}, {"sigma_s", (*offsets)[i].sigma}};
-  return {{"set", settings}, {"left", left}};
+  return {{"set", settings}, {"left", left}, {"set_back", back}};
 }
 
 // By what poses of sensors were turned, and by what the ways that two sensors saw are turned still (none while too little was driven).
@@ -153,7 +155,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   if (const auto& file = slam.setup().options.general.calibration_file; !file.empty())
     summary["calibration"] = calibrationJson(file, read);
   if (slam.frontEnds().wheelCalibration().compared() > 0) summary["wheels"] = wheelsJson(slam.frontEnds());
-  summary["clocks"] = clocksJson(origin.clocks, slam.frontEnds().clocks());
+  summary["clocks"] = clocksJson(origin.clocks, slam.frontEnds().clocks(), read.clocks_set_back);
   summary["sensor_poses"] = mountsJson(origin.mounts, slam.frontEnds().agreement());
   summary["records_used"] = read.used;
   summary["records_skipped"] = read.skipped;

@@ -8,6 +8,7 @@
 
 #include "detection_schedule.h"
 #include "movement_findings.h"
+#include "moving_in_depth.h"
 #include "people_in_view.h"
 #include "roomgraph/core/heap.h"
 #include "roomgraph/observations/mounting.h"
@@ -36,6 +37,7 @@ SemanticSlam::SemanticSlam(std::unique_ptr<Setup> setup)
       object_loops_(setup_->options.object_loops),
       mapper_(setup_->options.mapping),
       people_(std::make_unique<PeopleInView>()),
+      moving_(std::make_unique<MovingInDepth>()),
       views_(setup_->options.relocalisation),
       last_frame_t_(-std::numeric_limits<double>::infinity()),
       last_scan_t_(last_frame_t_) {}
@@ -78,7 +80,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
-    mapper_.add(frame, floor, people);  // sec. 5
+    drawDepth(frame, floor, people);  // sec. 5
     objects_.look(frame, estimator_.poses().at(frame.t), people);
     if (detections.current() && setup_->options.landmarks.enabled) {
       auto measurements = select(frame, proposals, tracked.features);            // sec. 3
@@ -187,6 +189,7 @@ TrackingResult SemanticSlam::track(const Frame& frame, const std::vector<Box2>& 
   const auto timing = times_.measure("RGB-D odometry");
   TrackingResult result = front_ends_.track(frame, people);
   counts_.frames_lost += !result.tracked;
+  counts_.frames_with_movers += result.moving > 0;
   if (!result.reason.empty()) ++counts_.reasons["tracking: " + result.reason];
   return result;
 }

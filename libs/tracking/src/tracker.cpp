@@ -55,7 +55,8 @@ Pose3 Tracker::lastPose() const {
   return map_.keyframe(placed_.keyframe).odom_from_camera * placed_.keyframe_from_camera;
 }
 
-TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
+TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others) {
+  const TrackingPrior prior = withMovers(by_others, frame.t);
   // Without other sensors the last velocity is trusted for a moment only.
   robot_from_camera_ = isMounted(frame) ? std::optional(frame.robot_from_camera) : std::nullopt;
   const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
@@ -74,7 +75,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& prior) {
     habit_from_.reset();
   if (!parameters_.dense_alignment) return result;
   if (result.tracked)
-    dense_.begin(frame, prior.dynamic_regions, velocity_.has_value());
+    dense_.begin(frame, withMovers(by_others, frame.t).dynamic_regions, velocity_.has_value());
   else
     acceptDense(frame, result);
   return result;
@@ -196,7 +197,10 @@ TrackingResult Tracker::lost(const std::string& reason, View* view) {
   result.reason = reason;
   result.segment = segment_;
   if (!records_.empty()) result.odom_from_camera = lastPose() * dead_reckoned_;
-  if (view) result.matches = view->matches;
+  if (view) {
+    result.matches = view->matches;
+    result.moving = view->moving;
+  }
   return result;
 }
 
@@ -220,12 +224,13 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   lost_frames_ = blind_frames_ = 0;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
+  result.moving = view.moving;
   if (reference_inliers_ == 0) reference_inliers_ = view.solution.inliers;
   last_points_.clear();
   for (const auto id : view.points)
     if (id >= 0) last_points_.push_back(id);
-  result.keyframe = needsKeyframe(view);
-  keep(result.keyframe || elsewhere ? nullptr : &view);
+  result.keyframe = view.moving == 0 && needsKeyframe(view);  // the next one leaves out what moves
+  keep(result.keyframe || elsewhere || view.moving > 0 ? nullptr : &view);
   if (result.keyframe) addKeyframe(view, map_.keyframe(reference_).origin);
   records_.push_back({view.frame->t, reference_,
                       result.keyframe

@@ -27,7 +27,7 @@ class Tracker {
  public:
   explicit Tracker(const TrackingParameters& parameters) : parameters_(parameters) {}
   void setResultStore(ResultStore& store) { results_ = &store; }
-  TrackingResult track(const Frame& frame, const TrackingPrior& prior);
+  TrackingResult track(const Frame& frame, const TrackingPrior& by_others);
   /// Finds the features of a frame before its turn; beside all else, but not beside itself.
   void foresee(const Frame& frame);
   Trajectory trajectory() const;
@@ -48,6 +48,7 @@ class Tracker {
     Pose3 odom_from_camera = Pose3::Identity();
     PoseSolution solution;
     int matches = 0;
+    int moving = 0;  ///< features of something that moves before the camera
     bool jumped = false;  ///< relocalised in another place than the last view's, and not where other sensors say
   };
   /// What images alone tell.
@@ -66,7 +67,7 @@ class Tracker {
 
   /// Each tries to match the view to the map and to place it; on failure the view's points and pose are
   /// undefined.
-  bool trackLastPoints(View& view, const Pose3& predicted, double radius_px) const;
+  bool trackLastPoints(View& view, const Pose3& predicted, double radius_px);
   bool trackKeyframe(View& view, int keyframe, int min_inliers) const;
   bool relocalise(View& view);
   bool trackLocalMap(View& view);
@@ -74,8 +75,15 @@ class Tracker {
   bool findPose(View& view, const Pose3& previous);
   /// Whether the keyframe shows what the last tracked frame did.
   bool seesLastPoints(int keyframe) const;
+  /// The pose of the view as a problem; `used`: the features that are in it.
+  PoseProblem problemOf(const View& view, std::vector<std::size_t>& used) const;
   /// Solves for the pose of the view from its matched points and drops outliers.
   bool solve(View& view, int min_inliers, bool start_is_good) const;
+  /// The same, where something may move before the camera: that gives up its points.
+  bool solveWithMovers(View& view, const Pose3& predicted);
+  void giveUpMoving(View& view, const std::vector<std::size_t>& features);
+  /// With what moved lately.
+  TrackingPrior withMovers(const TrackingPrior& prior, double t) const;
   std::vector<std::int64_t> localPoints(const View& view) const;
 
   /// Grey image and features of the view.
@@ -137,6 +145,8 @@ class Tracker {
   std::vector<Record> records_;
   Record placed_{};  ///< the last one that features placed
   std::vector<RelativePose> closures_;
+  Box2 mover_;                               ///< what moved before the camera, px,
+  double mover_t_ = -1e300;                  ///< when it was seen last
   std::vector<std::int64_t> last_points_;    ///< inliers of the last tracked frame
   std::optional<Pose3> velocity_;            ///< previous_from_current of the last step
   /// Movement since the last frame that features placed, as far as is known: now, and one frame before.

@@ -28,9 +28,8 @@ void assign(std::vector<std::int64_t>& points, const std::vector<PointMatch>& ma
 
 }  // namespace
 
-bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
+PoseProblem Tracker::problemOf(const View& view, std::vector<std::size_t>& used) const {
   PoseProblem problem{view.frame->camera, {}, {}};
-  std::vector<std::size_t> used;
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     if (view.points[i] < 0) continue;
     used.push_back(i);
@@ -38,6 +37,12 @@ bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
     problem.observations.push_back(makeObservation(view.features.pixel(i), view.features.places[i].octave,
                                                    view.features.depth[i], parameters_));
   }
+  return problem;
+}
+
+bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
+  std::vector<std::size_t> used;
+  const PoseProblem problem = problemOf(view, used);
   view.matches = static_cast<int>(used.size());
   if (view.matches < min_inliers) return false;
   view.solution = refinePose(problem, view.odom_from_camera.inverse(), start_is_good);
@@ -48,14 +53,13 @@ bool Tracker::solve(View& view, int min_inliers, bool start_is_good) const {
   return true;
 }
 
-bool Tracker::trackLastPoints(View& view, const Pose3& predicted, double radius_px) const {
+bool Tracker::trackLastPoints(View& view, const Pose3& predicted, double radius_px) {
   view.points.assign(view.features.size(), -1);
   view.odom_from_camera = predicted;
   const Pose3 camera_from_odom = predicted.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, radius_px};
   assign(view.points, search.match(last_points_, view.features, view.points, parameters_));
-  // Half of what was matched must agree, otherwise the prediction was wrong.
-  return solve(view, parameters_.min_inliers, false) && view.solution.inliers > view.matches / 2;
+  return solveWithMovers(view, predicted);
 }
 
 bool Tracker::trackKeyframe(View& view, int keyframe, int min_inliers) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "roomgraph/datasets/calibration_file.h"
+#include "roomgraph/datasets/clock_set_back.h"
 #include "roomgraph/datasets/record_stream.h"
 #include "roomgraph/datasets/sensor_poses.h"
 
@@ -32,6 +33,7 @@ struct ReadStatistics {
       skipped;          ///< records per reason: "CObservationIMU: not used", "image missing: …", …
   std::map<std::string, int> corrected{};  ///< records that ReadOptions::corrections changed, by what of them
   SensorPoses placed{};  ///< ReadOptions::sensor_poses: where the reader put sensors in place of what was recorded
+  std::vector<ClockSetBack> clocks_set_back{};  ///< where ReadOptions::continue_time went on with the time before
   std::string warning;  ///< truncated file: reason with the byte offset; empty otherwise
   std::vector<std::string> sensor_warnings;  ///< several sensors of a kind, and none was asked for
 };
@@ -43,6 +45,8 @@ struct ReadOptions {
   std::string rgbd_label{}, lidar_label{}, odometry_label{};
   SensorPoses sensor_poses{};  ///< instead of what the records say; labels that are not here keep theirs
   RecordCorrections corrections{};
+  /// Where the clock of all sensors is set back, stamps go on as they were before: they differ from those recorded from there on.
+  bool continue_time = false;
 };
 
 /// Streams a rawlog (observation-only or action/sensory-frame, plain or gzipped, images embedded or

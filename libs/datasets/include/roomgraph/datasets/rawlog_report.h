@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "roomgraph/datasets/clock_set_back.h"
 #include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
@@ -136,6 +137,7 @@ struct RawlogReport {
   std::string format;                    ///< "observations", "actions and sensory frames" or "mixed"
   int records = 0;                       ///< top-level objects
   double first_time = 0, last_time = 0;  ///< s, of all sensors
+  std::vector<ClockSetBack> clocks_set_back;  ///< times are counted on from there
   double largest_step_back_s = 0;        ///< how far a record is older than one before it in the file
   std::vector<SensorReport> sensors;     ///< in the order they first appear
   std::map<std::string, int> skipped;    ///< broken records by reason

@@ -4,6 +4,8 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "roomgraph/mapping/occupancy_options.h"
@@ -21,6 +23,11 @@ class OccupancyMapper {
   /// `ground`: floor in the camera frame. `moving`: boxes (px) of what moves by itself, which is not drawn. A
   /// frame without depth is left out.
   void add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {});
+  /// What add() of a frame stores, and such a slice.
+  std::optional<RangeFan> slice(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {}) const;
+  void add(RangeFan slice) { slices_.push_back(std::move(slice)); }
+  /// Whether the grid would be drawn from depth images, as far as is known.
+  bool drawsDepth() const;
   /// Gives up scans and images that repeat others from that place in that direction, when there are more than `kept` of a kind.
   void giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot);
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null

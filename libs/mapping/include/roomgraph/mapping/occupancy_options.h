@@ -18,6 +18,7 @@ struct OccupancyOptions : Configurable {
   double hit_probability = 0.7, pass_probability = 0.45;
   double min_move_m = 0.1, min_turn_rad = 0.1, max_wait_s = 2;
   DepthSlice slice;
+  bool leave_out_moving = true;
   void declareParameters(ParameterVisitor& v) override;
 };
 

@@ -31,7 +31,8 @@ struct RunCounts {
   int frames = 0, scans = 0, odometry = 0, detections = 0;
   int frames_lost = 0, scans_unmatched = 0;
   int returns_on_people = 0;      ///< left out, as images show somebody there
-  int returns_in_free_space = 0;  ///< left out, as the scans before show that nothing was there
+  int frames_with_movers = 0;  ///< in which features moved together, and not with the rest
+  int returns_in_free_space = 0;  ///< of scans, or of depth images for the grid: left out, as those before show that nothing was there
   int key_poses = 0, loop_closures = 0;
   int links = 0;                  ///< between segments of tracking: movements, which close no loop
   std::map<std::string, int> reasons;  ///< expected failures by reason
@@ -61,6 +62,7 @@ struct SlamResult {
 
 class DetectionClock;
 class DetectionSchedule;
+class MovingInDepth;
 class ResultStore;
 struct PeopleInView;
 
@@ -116,6 +118,7 @@ class SemanticSlam {
   FrameDetections detect(const Frame& frame);
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   FrameGround seeGround(const Frame& frame);
+  void drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people);
   void watchTilt(const Frame& frame, const std::optional<GroundEstimate>& where_expected);
   bool findFloor(const Frame& frame, const Plane& in_camera);
   struct Proposed {
@@ -164,6 +167,7 @@ class SemanticSlam {
   ObjectLoopCloser object_loops_;
   OccupancyMapper mapper_;                ///< scans and depth images, for the grid
   std::unique_ptr<PeopleInView> people_;  ///< in the last frame, for the scans after it
+  std::unique_ptr<MovingInDepth> moving_;  ///< before the camera, where the grid is of depth images
   std::optional<MapAnchor> map_;          ///< an earlier map that is continued
   ViewMemory views_;                      ///< for whoever continues this one
   RunCounts counts_;

@@ -33,6 +33,7 @@ struct TrackingResult {
   Pose3 odom_from_camera = Pose3::Identity();  ///< pose in the tracker's own, drifting frame
   int segment = 0;  ///< counts up where no movement leads from the last pose: closures and links tie segments together
   int inliers = 0, matches = 0;
+  int moving = 0;  ///< features of something that moves before the camera, and was left out
   bool keyframe = false;
   Matrix6d step_covariance =
       Matrix6d::Identity();            ///< of the movement since the last frame (translation, rotation)

@@ -35,8 +35,10 @@ class FreeSpaceMemory {
 
   /// Beams of a matched scan whose returns contradict free space, in ascending order; then takes the scan
   /// into the memory. None when the scan is not level, or when so many contradict that it is the pose that is
-  /// wrong. Returns nearer than `min_range_m` (the robot itself) are left out.
-  std::vector<std::size_t> observe(const Scan& scan, const Pose2& odom_from_robot, double min_range_m = 0);
+  /// wrong. Returns nearer than `min_range_m` (the robot itself) are left out. `free_m`: how far a beam without return is known to
+  /// have gone (0: nobody knows); empty: of none.
+  std::vector<std::size_t> observe(const Scan& scan, const Pose2& odom_from_robot, double min_range_m = 0,
+                                   const std::vector<float>& free_m = {});
   /// Nothing is known any more: poses from now on have nothing to do with those before.
   void clear();
 
@@ -47,10 +49,11 @@ class FreeSpaceMemory {
     float passed_s = -1e9F;    ///< time of the last beam through it
     std::uint32_t scan = 0;    ///< number of the last scan that changed it or was not to change it
   };
+  /// Where a beam ends, in the matcher's frame, m.
   struct Return {
     std::size_t beam;
-    Eigen::Vector2d point;  ///< m, matcher's frame
-    bool moving;
+    Eigen::Vector2d point;
+    bool moving, is_hit = true;  ///< else it is only known to have gone so far
   };
 
   Cell& at(const Eigen::Vector2i& cell);
@@ -59,7 +62,7 @@ class FreeSpaceMemory {
   bool isFreeAround(const Eigen::Vector2i& cell);
   void roll(const Eigen::Vector2i& center);
   void dropThin(std::vector<Return>& returns, double beam_step_rad) const;
-  std::vector<Return> returnsOf(const Scan& scan, const Pose2& odom_from_robot, double min_range_m);
+  std::vector<Return> returnsOf(const Scan& scan, const Pose2& odom_from_robot, double min_range_m, const std::vector<float>& free_m);
   void hit(const std::vector<Return>& returns);
   void keepSurfaces(const std::vector<Return>& returns);
   void pass(Cell& cell);
