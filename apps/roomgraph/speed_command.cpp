@@ -90,7 +90,7 @@ void benchSpeed(const SpeedOptions& options) {
   const ThreadLimit limit(options.threads);
   Configuration configuration = readConfiguration(options.config, options.overrides);
   auto [setup, networks, folder] = makeRunSetup(configuration, options.input, options.networks);
-  RawlogReader reader(options.input, readOptionsOf(setup->options));
+  RawlogReader reader(options.input, readOptionsOf(setup->options, configuration.config));
   if (!options.json.empty()) requireOther(options.json, {options.input, options.config});
   catchInterrupts();
   SemanticSlam slam(std::move(setup));

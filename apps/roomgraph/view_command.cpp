@@ -70,7 +70,7 @@ std::unique_ptr<FrameFinder> imagesOf(const std::filesystem::path& recording,
       readConfiguration(std::filesystem::exists(config_file) ? config_file.string() : "",
                         {"detection.enabled=false", "pipeline.plugins="});
   const auto setup = makeSetup(configuration.config, configuration.objects_file);
-  const ReadOptions read = readOptionsOf(setup->options);
+  const ReadOptions read = readOptionsOf(setup->options, configuration.config);
   return std::make_unique<FrameFinder>([=] { return openRecording(recording, read); });
 }
 
@@ -95,7 +95,7 @@ void viewReplay(ViewOptions& options) {
   Configuration configuration = readConfiguration(options.config, options.overrides);
   for (const auto& pose : options.poses) placeSensor(configuration.config, pose);
   auto setup = makeRunSetup(configuration, options.input, options.networks).setup;
-  const ReadOptions read = readOptionsOf(setup->options);
+  const ReadOptions read = readOptionsOf(setup->options, configuration.config);
   auto recording = openRecording(options.input, read);
   ShowViewer* show = loadWindow();
   if (const std::string advice = missingDetections(setup->stages, options.input); !advice.empty())

@@ -115,7 +115,7 @@ TEST(ContinuedTime, WhatWasTakenBeforeAndIsWrittenLaterCostsItsRecordsOnly) {
 }
 
 TEST(ContinuedTime, SwappedRecordsSingleStampsAndPausesAreNoJump) {
-  auto swapped = recordingOf({{"wheels", 0.2}, {"lidar", 0.25}, {"camera", 1}}, 20);
+  auto swapped = recordingOf({{"wheels", 0.2}, {"lidar", 1.5}, {"camera", 2}}, 60);
   for (const char* name : {"wheels", "lidar", "camera"}) {
     std::vector<Written*> own;
     for (Written& record : swapped)
@@ -130,6 +130,36 @@ TEST(ContinuedTime, SwappedRecordsSingleStampsAndPausesAreNoJump) {
   for (Written& record : pause)
     if (record.true_t > 5) record.t += 30;
   EXPECT_THAT(Continued(pause).found, IsEmpty());
+}
+
+// Its driver began with another clock, or only its clock was wrong and is set right.
+TEST(ContinuedTime, AClockThatWasAheadAloneIsLeftAlone) {
+  auto first = recordingOf(robot(0), 20);
+  std::find_if(first.begin(), first.end(), [](const Written& record) { return record.sensor == "camera"; })->t += 3;
+  EXPECT_THAT(Continued(first).found, IsEmpty());
+  auto ahead = recordingOf(robot(0), 20);
+  for (Written& record : ahead)
+    if (record.sensor == "camera" && record.true_t < kJump) record.t += 5;
+  EXPECT_THAT(Continued(ahead).found, IsEmpty());
+}
+
+TEST(ContinuedTime, SensorsThatFallSilentKeepNobodyWaiting) {
+  auto records = recordingOf(robot(20), 40);
+  std::erase_if(records, [](const Written& record) { return record.sensor == "wheels" && record.true_t > kJump - 0.2; });
+  const Continued out(records);
+  ASSERT_THAT(out.found, SizeIs(1));
+  EXPECT_NEAR(out.found[0].seconds, 20, 0.2);
+  EXPECT_LT(out.most_waiting, 100u);
+}
+
+// Stamps that stand still behind the jump: nothing is known, and hardly anything waits.
+TEST(ContinuedTime, FrozenStampsAreGivenUp) {
+  auto records = recordingOf({{"lidar", 0.1}}, 200);
+  for (Written& record : records)
+    if (record.true_t > kJump) record.t = 3;
+  const Continued out(records);
+  EXPECT_THAT(out.found, IsEmpty());
+  EXPECT_LE(out.most_waiting, 300u);
 }
 
 // As in logs that several processes wrote into one file, each with a buffer.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,7 +19,7 @@ namespace roomgraph {
 /// Look-ahead buffer of records in file order that tells when the clock of a computer was set back while it recorded: the next stamps
 /// of every sensor are older than expected by about the same time, and go on from there for two seconds. Believed, all records would be "older than
 /// the one before" until the clock has caught up. A clock that is set forward looks like a pause, and is left alone.
-/// Records wait only where a stamp is much older than the last one of its sensor, and at most kLongest of them.
+/// Records wait only where a stamp is much older than the last one of its sensor, and at most kLongest of them: two seconds of 150 a second.
 template <class T>
 class ContinuedTime {
  public:
@@ -31,18 +30,22 @@ class ContinuedTime {
     double added_s = 0;  ///< to its stamp, so that time goes on
   };
 
-  void push(std::string sensor, double t, T record) { items_.push_back({std::move(sensor), t, std::move(record)}); }
+  void push(std::string sensor, double t, T record) {
+    clocked_ += !sensor.empty();
+    items_.push_back({std::move(sensor), t, std::move(record)});
+  }
 
   /// The next record, when it is known what its stamp is worth; `complete`: none will be pushed any more.
   std::optional<Item> pop(bool complete) {
     if (items_.empty()) return std::nullopt;
-    const auto back_s = setBackBy(complete || items_.size() >= kLongest);
+    const bool too_many = clocked_ >= kLongest;
+    const auto back_s = given_up_ ? std::optional(0.) : setBackBy(complete || too_many);
     if (!back_s) return std::nullopt;
+    given_up_ = given_up_ || too_many;
     if (*back_s > 0) {
       found_.push_back({items_.front().t, *back_s});
       added_s_ += *back_s;
       for (auto& [name, clock] : clocks_) clock.t -= *back_s;
-      latest_ -= *back_s;
     }
     Item item = std::move(items_.front());
     items_.pop_front();
@@ -51,15 +54,14 @@ class ContinuedTime {
     return item;
   }
 
-  double addedSoFar() const { return added_s_; }
   const std::vector<ClockSetBack>& found() const { return found_; }
 
  private:
   static constexpr double kLeast_s = 1;  // buffers of logs that several processes write are shorter
-  static constexpr double kLive_s = 1, kLiveIntervals = 10;
+  static constexpr double kSilent_s = 5, kSilentIntervals = 10;  // of a sensor that is there no more, at most
   static constexpr double kLasting_s = 2;  // without a jump forward
   static constexpr double kAhead = 0.5;    // share of a jump that a jump forward has at least
-  static constexpr std::size_t kLongest = 1000, kSteps = 16;
+  static constexpr std::size_t kLongest = 300, kSteps = 16, kLeastSteps = 8;
 
   struct Clock {
     double t = 0;                ///< of the last record; as recorded, were the clock set back all the time
@@ -69,10 +71,10 @@ class ContinuedTime {
     double interval() const { return steps_s.empty() ? 0 : median({steps_s.begin(), steps_s.end()}); }
   };
 
-  bool isLive(const Clock& clock) const { return clock.t > latest_ - std::max(kLive_s, kLiveIntervals * clock.interval()); }
-
   void follow(const Item& item) {
-    if (item.sensor.empty() || !std::isfinite(item.t)) return;
+    if (item.sensor.empty()) return;
+    --clocked_;
+    if (!std::isfinite(item.t)) return;
     const auto [place, is_new] = clocks_.try_emplace(item.sensor, Clock{item.t});
     Clock& clock = place->second;
     if (item.t > clock.t) {
@@ -80,10 +82,10 @@ class ContinuedTime {
       if (clock.steps_s.size() > kSteps) clock.steps_s.pop_front();
       clock.t = item.t;
       clock.older = 0;
+      given_up_ = false;
     } else if (!is_new) {
       ++clock.older;
     }
-    latest_ = std::max(latest_, clock.t);
   }
 
   std::vector<double> stampsOf(const std::string& sensor) const {
@@ -100,7 +102,7 @@ class ContinuedTime {
   std::optional<double> setBackBy(bool decide) const {
     const Item& next = items_.front();
     const auto known = clocks_.find(next.sensor);
-    if (known == clocks_.end() || !(next.t < known->second.t - kLeast_s) || !isLive(known->second)) return 0;
+    if (known == clocks_.end() || known->second.steps_s.size() < kLeastSteps || !(next.t < known->second.t - kLeast_s)) return 0;
     const double own_s = lateness(known->second, next.t);
     const auto stamps = stampsOf(next.sensor);
     // Records that were written late, or in another order, come before or behind a jump forward.
@@ -108,13 +110,16 @@ class ContinuedTime {
     if (!std::all_of(known->second.steps_s.begin(), known->second.steps_s.end(), isRegular)) return 0;
     for (std::size_t i = 1; i < stamps.size(); ++i)
       if (!isRegular(stamps[i] - stamps[i - 1])) return 0;
+    const double waited_s = stamps.back() - stamps.front();
     double finest_s = known->second.interval(), back_s = own_s;
-    bool all = stamps.back() - stamps.front() >= kLasting_s;
+    bool all = waited_s >= kLasting_s;
     for (const auto& [sensor, clock] : clocks_) {
-      if (sensor == next.sensor || !isLive(clock)) continue;
+      if (sensor == next.sensor || clock.steps_s.empty()) continue;
       const auto others = stampsOf(sensor);
-      all = all && !others.empty();
-      if (others.empty()) continue;
+      if (others.empty()) {
+        all = all && waited_s >= std::min(kSilent_s, kSilentIntervals * clock.interval());
+        continue;
+      }
       const double late_s = lateness(clock, others.front());
       if (std::abs(late_s - own_s) > std::abs(late_s)) return 0;
       if (clock.interval() >= finest_s) continue;
@@ -126,8 +131,10 @@ class ContinuedTime {
   }
 
   std::deque<Item> items_;
+  std::size_t clocked_ = 0;  ///< of them, records that say something of clocks
   std::map<std::string, Clock> clocks_;
-  double latest_ = -std::numeric_limits<double>::infinity(), added_s_ = 0;
+  bool given_up_ = false;  ///< too many waited: none does until time goes on by itself
+  double added_s_ = 0;
   std::vector<ClockSetBack> found_;
 };
 

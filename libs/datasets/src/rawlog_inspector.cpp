@@ -4,6 +4,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -135,12 +136,12 @@ class Inspector {
       if (item->stamp_is_wrong)
         ++skipped_[name + ": " + kStampIsWrong];
       else
-        time_.push(showsTheClock(*item->record) ? item->sensor : "", item->t, item->record);
+        time_.push(showsTheClock(*item->record) ? item->sensor : "", item->t, [this, t = item->t, observation = item->record](double added_s) {
+          if (added_s != 0) observation->timestamp = mrpt::Clock::fromDouble(t + added_s);
+          addObservation(observation);
+        });
     }
-    while (const auto item = time_.pop(complete)) {
-      if (item->added_s != 0) item->record->timestamp = mrpt::Clock::fromDouble(item->t + item->added_s);
-      addObservation(item->record);
-    }
+    while (const auto item = time_.pop(complete)) item->record(item->added_s);
   }
 
   Sensor& sensor(const std::string& label, const std::string& class_name) {
@@ -199,11 +200,15 @@ class Inspector {
       ++skipped_["CActionCollection: " + problem];
       return;
     }
-    Sensor& entry = sensor("", "CActionCollection");
-    auto t = sum_.time();
-    if (t) *t += time_.addedSoFar();
-    addTime(entry, t);
-    addOdometry(entry, t, sum_.pose());
+    const auto add = [this, pose = sum_.pose()](std::optional<double> t) {
+      Sensor& entry = sensor("", "CActionCollection");
+      addTime(entry, t);
+      addOdometry(entry, t, pose);
+    };
+    if (const auto t = sum_.time())
+      time_.push("CActionCollection", *t, [add, t](double added_s) { add(*t + added_s); });
+    else
+      add(std::nullopt);
   }
 
   void addPose(Sensor& entry, const CObservation& observation) {
@@ -249,7 +254,7 @@ class Inspector {
   SensorPoses poses_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
   StampQueue<CObservation::Ptr> waiting_;
-  ContinuedTime<CObservation::Ptr> time_;
+  ContinuedTime<std::function<void(double added_s)>> time_;
   std::map<std::string, int> skipped_;
   OdometrySum sum_;
   Trajectory odometry_;

@@ -43,10 +43,11 @@ FrameGround SemanticSlam::seeGround(const Frame& frame) {
   return ground;
 }
 
-void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people) {
+// `placed`: it is known where from; else all may seem to have moved.
+void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, bool placed) {
   auto slice = mapper_.slice(frame, floor, people);
   if (!slice) return;
-  if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth())
+  if (setup_->options.mapping.leave_out_moving && placed && mapper_.drawsDepth())
     counts_.returns_in_free_space += moving_->leaveOut(*slice, estimator_.poses().at(frame.t));
   mapper_.add(std::move(*slice));
 }

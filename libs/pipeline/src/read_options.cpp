@@ -22,6 +22,12 @@ ReadOptions readOptionsOf(const Options& options) {
           .continue_time = options.general.set_clocks};
 }
 
+ReadOptions readOptionsOf(const Options& options, const Config& config) {
+  ReadOptions out = readOptionsOf(options);
+  out.continue_time = out.continue_time && config.text("detection", "file", "").empty();
+  return out;
+}
+
 void placeSensor(Config& config, const std::string& assignment) {
   parseSensorPoses(assignment, "--pose " + assignment);
   const std::string before = config.text("pipeline", "sensor_poses", "");

@@ -191,7 +191,7 @@ TrackingResult Tracker::start(View view) {
 
 TrackingResult Tracker::lost(const std::string& reason, View* view) {
   ++blind_frames_;
-  if (++lost_frames_ > parameters_.relocalisation_frames && view && reference_ >= 0)
+  if (++lost_frames_ > parameters_.relocalisation_frames && view && view->moving == 0 && reference_ >= 0)
     return start(std::move(*view));
   TrackingResult result;
   result.reason = reason;

@@ -53,6 +53,12 @@ std::vector<char> without(const std::vector<char>& some) {
   return out;
 }
 
+std::vector<char> onlyIn(const PoseSolution& one, const PoseSolution& other) {
+  std::vector<char> out;
+  for (std::size_t i = 0; i < one.inlier.size(); ++i) out.push_back(one.inlier[i] && !other.inlier[i]);
+  return out;
+}
+
 }  // namespace
 
 std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolution& solution, const Pose3& predicted_camera_from_world,
@@ -73,10 +79,10 @@ std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolu
   const int least = prior.measured ? kLeastTogether : kLeastWithout;
   if (together && second.inliers >= least && apartOf(second) < kNearer * apart_px) {
     const PoseSolution camera = refinePose(problem, second.camera_from_world, true);  // some went with the first one as well
-    return TwoMovements{camera, without(camera.inlier)};
+    return TwoMovements{camera, onlyIn(first, camera)};
   }
   if (near.inliers >= std::max(1. * least, kEnough * first.inliers) && apartOf(near) < kNearer * apart_px)
-    return TwoMovements{near, without(near.inlier)};
+    return TwoMovements{near, onlyIn(first, near)};
   return std::nullopt;
 }
 

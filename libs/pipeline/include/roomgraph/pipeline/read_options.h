@@ -14,6 +14,8 @@ namespace roomgraph {
 /// what else [pipeline] calibration_file corrects. Throws
 /// ConfigError when [pipeline] sensor_poses makes no sense, and like readCalibration().
 ReadOptions readOptionsOf(const Options& options);
+/// The same; stamps stay as recorded where boxes are kept apart from their images ([detection] file), by whose stamps they are found.
+ReadOptions readOptionsOf(const Options& options, const Config& config);
 
 /// Adds "LABEL=x,y,z,yaw,pitch,roll" (metres, degrees), as given to --pose, to [pipeline] sensor_poses, so
 /// that the run can be repeated from its config. Throws ConfigError when it does not have that form.
