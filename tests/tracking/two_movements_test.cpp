@@ -67,6 +67,7 @@ TEST(TwoMovements, WrongMatchesAndSmallThingsAreNoMovement) {
   EXPECT_FALSE(TwoMovementsScene(200, 20, kWalk).told());
   EXPECT_TRUE(TwoMovementsScene(200, 20, kWalk).told(true));
   EXPECT_FALSE(TwoMovementsScene(200, 0, kWalk, 60).told(true));
+  EXPECT_FALSE(TwoMovementsScene(200, 14, kWalk, 60).told(true)) << "among so many wrong ones";
 }
 
 TEST(TwoMovements, AVelocityNeedsMoreThatGoesOn) {
