@@ -117,8 +117,8 @@ std::vector<std::size_t> FreeSpaceMemory::observe(const Scan& scan, const Pose2&
   std::vector<std::size_t> moving;
   for (const Return& r : returns)
     if (r.moving) moving.push_back(r.beam);
-  const auto hits = std::count_if(returns.begin(), returns.end(), [](const Return& r) { return r.is_hit; });
-  const auto most = options_.max_share * static_cast<double>(std::max<std::ptrdiff_t>(kFewestToJudge, hits));
+  const auto most =
+      options_.max_share * static_cast<double>(std::max<std::size_t>(kFewestToJudge, returns.size()));
   if (static_cast<double>(moving.size()) > most) {
     implausible_s_ += static_cast<double>(step_s_);
     if (implausible_s_ >= kImplausible_s) clear();

@@ -43,12 +43,15 @@ FrameGround SemanticSlam::seeGround(const Frame& frame) {
   return ground;
 }
 
-// `placed`: it is known where from; else all may seem to have moved.
-void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, bool placed) {
+// What moves is told in the tracker's frame: in world poses jump where loops close.
+void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, const TrackingResult& tracked) {
   auto slice = mapper_.slice(frame, floor, people);
   if (!slice) return;
-  if (setup_->options.mapping.leave_out_moving && placed && mapper_.drawsDepth())
-    counts_.returns_in_free_space += moving_->leaveOut(*slice, estimator_.poses().at(frame.t));
+  const bool tracks = setup_->stages.rgbd_odometry != nullptr;
+  if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth() && (tracked.tracked || !tracks)) {
+    const Pose3 robot = tracks ? tracked.odom_from_camera * frame.robot_from_camera.inverse() : estimator_.poses().at(frame.t);
+    counts_.returns_in_free_space += moving_->leaveOut(*slice, robot, tracked.segment);
+  }
   mapper_.add(std::move(*slice));
 }
 

@@ -19,7 +19,13 @@ FreeSpaceOptions optionsOfDepth() {
 
 MovingInDepth::MovingInDepth() : memory_(optionsOfDepth()) {}
 
-int MovingInDepth::leaveOut(RangeFan& slice, const Pose3& world_from_robot) {
+int MovingInDepth::leaveOut(RangeFan& slice, const Pose3& odom_from_robot, int segment) {
+  const Pose3 odom_from_fan = odom_from_robot * slice.robot_from_fan;
+  if (segment_ != segment) {
+    segment_ = segment;
+    level_from_odom_ = odom_from_fan.inverse();
+    memory_.clear();
+  }
   Scan scan;
   scan.t = slice.t;
   scan.angle_min_rad = slice.angle_min_rad;
@@ -30,7 +36,7 @@ int MovingInDepth::leaveOut(RangeFan& slice, const Pose3& world_from_robot) {
     scan.valid.push_back(range > 0);
     free_m.push_back(std::max(0.F, -range));
   }
-  const auto moving = memory_.observe(scan, planarPart(world_from_robot * slice.robot_from_fan), 0, free_m);
+  const auto moving = memory_.observe(scan, planarPart(level_from_odom_ * odom_from_fan), 0, free_m);
   for (const std::size_t beam : moving) slice.ranges_m[beam] = 0;
   return static_cast<int>(moving.size());
 }

@@ -2,6 +2,8 @@
 // MovingInDepth: what moves before a depth camera, by the contradiction with free space.
 #pragma once
 
+#include <optional>
+
 #include "roomgraph/lidar/free_space_memory.h"
 #include "roomgraph/mapping/range_fan.h"
 
@@ -11,11 +13,14 @@ namespace roomgraph {
 class MovingInDepth {
  public:
   MovingInDepth();
-  /// Makes the beams of such returns unknown; returns how many. `world_from_robot` may be in any level frame in which poses seldom jump.
-  int leaveOut(RangeFan& slice, const Pose3& world_from_robot);
+  /// Makes the beams of such returns unknown; returns how many. The robot's pose is in any frame of a source of movements, which drifts, but
+  /// does not jump within a `segment`; where a new one begins nothing is known.
+  int leaveOut(RangeFan& slice, const Pose3& odom_from_robot, int segment);
 
  private:
   FreeSpaceMemory memory_;
+  Pose3 level_from_odom_ = Pose3::Identity();  ///< the frame of the segment's first slice, which is level
+  std::optional<int> segment_;
 };
 
 }  // namespace roomgraph

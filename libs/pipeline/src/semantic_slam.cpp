@@ -80,7 +80,7 @@ StepReport SemanticSlam::step(const Frame& frame) {
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
-    drawDepth(frame, floor, people, tracked.tracked || !setup_->stages.rgbd_odometry);  // sec. 5
+    drawDepth(frame, floor, people, tracked);  // sec. 5
     objects_.look(frame, estimator_.poses().at(frame.t), people);
     if (detections.current() && setup_->options.landmarks.enabled) {
       auto measurements = select(frame, proposals, tracked.features);            // sec. 3

@@ -118,7 +118,7 @@ class SemanticSlam {
   FrameDetections detect(const Frame& frame);
   TrackingResult track(const Frame& frame, const std::vector<Box2>& people);
   FrameGround seeGround(const Frame& frame);
-  void drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, bool placed);
+  void drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, const TrackingResult& tracked);
   void watchTilt(const Frame& frame, const std::optional<GroundEstimate>& where_expected);
   bool findFloor(const Frame& frame, const Plane& in_camera);
   struct Proposed {
