@@ -37,7 +37,7 @@ RIDGE_COMMON, RIDGE_OWN, RIDGE_BIAS, RIDGE_SHIPPED = 4.0, 8.0, 0.05, 4.0
 # Without "size": simulated objects are nearer to the usual sizes than real ones, and the shapes' scores contain it.
 SIGNS = {"filter": 1, "sightings": 1, "directions": 1, "score": 1, "label": 1, "scatter": -1, "turned": -1, "measured": 1,
          "detected": 1, "contested": -1, "outdone": -1, "mislabelled": -1, "crossed": -1, "filled": 1, "spread": 1, "beside_crossed": -1, "beside_filled": 1, "beams_crossed": -1, "above_filled": -1, "uneven": -1, "confidence": 1,
-         "missed_since": -1}
+         "missed_since": -1, "emptied": -1, "shorter": -1}
 ROUNDS, STEP = 60, 0.8
 BINS = (0, 0.1, 0.3, 0.5, 0.7, 0.9, 1)
 

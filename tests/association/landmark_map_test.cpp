@@ -39,6 +39,24 @@ TEST(LandmarkMap, FirstSightingMakesALandmark) {
   EXPECT_EQ(map.find(LandmarkId{99}), nullptr);
 }
 
+TEST(LandmarkMap, WhatRaysSaidOfAFormerPlaceIsForgotten) {
+  LandmarkMap map = mapWith("birth_existence = 0.4");
+  const LandmarkId id = born(map, sightingAt(1, 2)), same = born(map, sightingAt(2, 2));
+  for (int i = 0; i < 9; ++i) map.supported(id, 20);
+  const double most = map.find(id)->existence;
+  map.supported(id, 20);
+  ASSERT_EQ(map.find(id)->existence, most) << "returns support only so much";
+  const double variance = map.find(id)->covariance(0, 0);
+  map.setMoved(id, same, {1.6, 2});
+  ASSERT_EQ(map.landmarks().size(), 1u);
+  EXPECT_EQ(map.identity().today(same), id);
+  EXPECT_EQ(map.find(id)->position, Eigen::Vector3d(1.6, 2, 0));
+  EXPECT_GT(map.find(id)->covariance(0, 0), variance);
+  const double joined = map.find(id)->existence;
+  map.supported(id, 20);
+  EXPECT_GT(map.find(id)->existence, joined) << "where it stands now";
+}
+
 // Independent axes: after n sightings the place is the mean weighted with 1 / sigma^2, the variance 1 / sum
 // of these.
 TEST(LandmarkMap, PlaceIsTheWeightedMeanOfItsSightings) {

@@ -191,8 +191,8 @@ TEST_F(Doctor, ScanGeometry) {
 }
 
 /// Turning on the spot, 0.15 rad each, in a room without symmetry; scans of 181 beams over 180 degrees. Odometry of some turns, but
-/// for the first so many of each four, says two fifths more.
-std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int right_of_four = 4) {
+/// for the first so many of each four, says two fifths more. `forward_m`: it says that the robot drives on meanwhile.
+std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int right_of_four = 4, double forward_m = 0) {
   const auto wall = [](double a) {
     return 3 + std::sin(a + 1) + 0.6 * std::cos(2 * a) + 0.4 * std::sin(5 * a + 2);
   };
@@ -206,7 +206,7 @@ std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int ri
       scan->setScanRange(static_cast<std::size_t>(i), static_cast<float>(wall(beam + 0.15 * k)));
     }
     if (k > 0) yaw += k % 4 < right_of_four ? 0.15 : 0.21;
-    objects.push_back(makeOdometry(k, 0, 0, yaw));
+    objects.push_back(makeOdometry(k, forward_m * k, 0, yaw));
     objects.push_back(scan);
   }
   return objects;
@@ -220,6 +220,8 @@ TEST_F(Doctor, ApertureIsComparedWithOdometry) {
               Contains(findingOf(Severity::kWarning, "odometry turns 1.9")));
   EXPECT_THAT(findings(turningRobot(M_PI, true)), Contains(findingOf(Severity::kWarning, "mirrored")));
   EXPECT_THAT(findings(turningRobot(M_PI, false, 0)), Contains(findingOf(Severity::kWarning, "odometry turns 1.3")));
+  EXPECT_TRUE(inspect(turningRobot(M_PI, false, 0, 0.05)).sensors[1].scans->rotation_ratio);
+  EXPECT_FALSE(inspect(turningRobot(M_PI, false, 0, 0.07)).sensors[1].scans->rotation_ratio) << "an arc, past walls";
   EXPECT_FALSE(inspect(turningRobot(M_PI, false, 2)).sensors[1].scans->rotation_ratio) << "some turns say that all is well";
 }
 

@@ -1,76 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Evidence for existence: means over sightings by hand, rays through volumes, walls beside doors, contested
-// boxes.
-#include "existence_evidence.h"
-
-#include <gtest/gtest.h>
-
+// Evidence for existence: means over sightings by hand, contested boxes, places from which it was detected and missed.
 #include <cmath>
 
-#include "still_camera.h"
+#include "evidence_fixture.h"
 
 namespace roomgraph::test {
 namespace {
-
-const ObjectDatabase& database() {
-  static const ObjectDatabase out = ObjectDatabase::fromText(
-      "[chair]\nlabels = chair\nshape = cylinder\nwidth_m = .6\ndepth_m = .6\nheight_m = .9\n"
-      "width_sigma_m = .1\ndepth_sigma_m = .1\nheight_sigma_m = .1\nsymmetry = 0\n"
-      "[sofa]\nlabels = sofa\nshape = cuboid\nwidth_m = 1.8\ndepth_m = .8\nheight_m = .8\nsolid_share = .5\n"
-      "[door]\nlabels = door\nshape = planar\nwidth_m = .9\ndepth_m = .1\nheight_m = 2\nsymmetry = 2\n");
-  return out;
-}
-
-Landmark landmarkOf(int id, const std::string& class_name, double x, double y) {
-  Landmark out;
-  out.id = LandmarkId{id};
-  out.class_name = class_name;
-  out.shape = database().find(class_name)->nominal();
-  out.position = {x, y, 0};
-  out.existence = 0.9;
-  out.class_posterior = {{class_name, 0.75}, {"other", 0.25}};
-  out.observations = 10;
-  return out;
-}
-
-// Seen as its landmark is, in a frame without depth.
-ObjectFrame frameWith(int i, double t, const std::vector<Landmark>& seen) {
-  const Frame frame = frameAt(i, t);
-  ObjectFrame out{frame.id, t, frame.camera, frame.robot_from_camera, {}, {}};
-  for (const auto& landmark : seen) {
-    ObjectDecision decision;
-    decision.landmark = landmark.id;
-    decision.seen.world_from_object = landmark.worldFromObject();
-    auto& measurement = decision.seen.measurement;
-    measurement.proposal.class_name = landmark.class_name;
-    measurement.proposal.score = 0.5;
-    const auto projected = projectShape(
-        landmark.shape, frame.robot_from_camera.inverse() * landmark.worldFromObject(), frame.camera);
-    measurement.detection.box = projected->visible;
-    out.decisions.push_back(decision);
-  }
-  return out;
-}
-
-class Evidence : public ::testing::Test {
- protected:
-  Evidence() : poses_(standing()) { poses_.add(0, Pose3::Identity()); }
-
-  ExistenceEvidence of(const std::vector<Landmark>& landmarks) const {
-    return existenceEvidence(landmarks, frames_, poses_, memory_.posed(poses_), database(), searched_).at(0);
-  }
-
-  // This image alone is remembered.
-  void see(const Frame& frame) {
-    memory_ = {};
-    memory_.add(frame, Pose3::Identity());
-  }
-
-  KeyPoses poses_;
-  SpaceMemory memory_;
-  std::vector<ObjectFrame> frames_;
-  std::vector<SearchedImage> searched_;
-};
 
 TEST_F(Evidence, OfSightingsByHand) {
   const Landmark chair = landmarkOf(4, "chair", 3, 0);
@@ -106,6 +41,17 @@ TEST_F(Evidence, SizeInStandardDeviations) {
   Landmark chair = landmarkOf(4, "chair", 3, 0);
   chair.shape.width += 0.2, chair.shape.depth += 0.1, chair.shape.height -= 0.2;
   EXPECT_NEAR(of({chair}).size, 3, 1e-9);
+}
+
+TEST_F(Evidence, ShorterThanItsClassBeyondTwoStandardDeviations) {
+  Landmark sofa = landmarkOf(1, "sofa", 3, 0);
+  EXPECT_EQ(of({sofa}).shorter, 0);
+  sofa.shape.width = 1.55;
+  EXPECT_NEAR(of({sofa}).shorter, 0.5, 1e-9);
+  sofa.shape.width = 1.61;
+  EXPECT_EQ(of({sofa}).shorter, 0);
+  sofa.shape.width = 2.5, sofa.shape.depth = 0.3, sofa.shape.height = 0.3;
+  EXPECT_EQ(of({sofa}).shorter, 0) << "the longer side alone";
 }
 
 // The class's widths vary by .1 m: information of 100 / m^2.
@@ -205,21 +151,6 @@ TEST_F(Evidence, TheWorseOfTwoLabelsOfOneBoxIsOutdone) {
   EXPECT_NEAR(of({chair, sofa}).outdone, 0.25, 1e-12) << "the same label twice is no other label";
 }
 
-TEST_F(Evidence, RaysThroughAndIntoAVolume) {
-  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
-  memory_.add(frameOfDepth(0, 0, 6), Pose3::Identity());
-  ExistenceEvidence evidence = of({sofa});
-  EXPECT_NEAR(evidence.crossed, 1, 1e-12) << "the wall is 2.5 m behind it";
-  EXPECT_NEAR(evidence.filled + evidence.spread, 0, 1e-12);
-  memory_ = {};
-  memory_.add(frameOfDepth(0, 0, 2.6F), Pose3::Identity());
-  evidence = of({sofa});
-  EXPECT_NEAR(evidence.crossed, 0, 1e-12) << "its front is at 2.6 m";
-  EXPECT_GT(evidence.filled, 0.1);
-  EXPECT_LT(evidence.filled, 0.4) << "the first .15 of .66 m, within .1 m and 2 % of 2.6 m";
-  EXPECT_NEAR(evidence.spread, 0.4, 0.21) << "one to three of five slices from front to back";
-}
-
 // Seen from three places, with boxes at two of them, one .2 s after the image that is remembered.
 TEST_F(Evidence, DetectedFromTwoOfThreePlaces) {
   const Landmark chair = landmarkOf(1, "chair", 3, 0), behind_the_wall = landmarkOf(2, "chair", 4.3, 0);
@@ -265,116 +196,6 @@ TEST_F(Evidence, MissedFromWhereItWasSightedBefore) {
     memory_.add(frameOfDepth(4 + i, 400 + 20 * i, 3), poseFromYpr(1 + 0.2 * i, 0, 0, 0, 0, 0));
   }
   EXPECT_EQ(of({chair}).missed_since, 3) << "twenty seconds later it is the same visit, after forty another one";
-}
-
-// Half of the sofa's length is air.
-TEST_F(Evidence, SpreadIsTheShareOfTheLengthThatIsThere) {
-  const Landmark sofa = landmarkOf(1, "sofa", 3, 0);
-  Frame frame = frameOfDepth(0, 0, 6);
-  frame.depth.colRange(160, 320) = 2.9F;  // the right half, y < 0
-  memory_.add(frame, Pose3::Identity());
-  const ExistenceEvidence evidence = of({sofa});
-  EXPECT_NEAR(evidence.spread, 0.4, 0.21);
-  EXPECT_NEAR(evidence.crossed, std::sqrt(0.5), 0.07);
-}
-
-TEST_F(Evidence, ADoorIsInAWall) {
-  const Landmark door = landmarkOf(1, "door", 3, 0);
-  memory_.add(frameOfDepth(0, 0, 3), Pose3::Identity());
-  ExistenceEvidence evidence = of({door});
-  EXPECT_NEAR(evidence.beside_filled, 1, 1e-12);
-  EXPECT_NEAR(evidence.beside_crossed, 0, 1e-12);
-  memory_ = {};
-  memory_.add(frameOfDepth(0, 0, 3.4F), Pose3::Identity());
-  evidence = of({door});
-  EXPECT_NEAR(evidence.beside_crossed, 1, 1e-12) << "the front of a cupboard stands before the wall";
-  EXPECT_NEAR(evidence.beside_filled, 0, 1e-12);
-  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beside_crossed, 0, 1e-12) << "asked of doors only";
-}
-
-// Rows of the image that see the plane at `range_m` between two heights; the camera is at 1 m and level.
-cv::Range rowsBetween(double low_m, double high_m, double range_m) {
-  const auto row = [&](double z_m) {
-    return static_cast<int>(std::lround(119.5 + 260 * (1 - z_m) / range_m));
-  };
-  return {std::max(0, row(high_m)), std::min(240, row(low_m))};
-}
-
-// Its front below 1.3 m, and the wall .4 m behind it above that.
-TEST_F(Evidence, ACupboardIsNotAsHighAsADoor) {
-  const Landmark door = landmarkOf(1, "door", 4, 0);
-  Frame frame = frameOfDepth(0, 0, 4.4F);
-  frame.depth.rowRange(rowsBetween(0, 1.3, 4)) = 4.F;
-  see(frame);
-  EXPECT_NEAR(of({door}).uneven, 1, 1e-12);
-  for (const float depth_m : {4.F, 8.F}) {
-    see(frameOfDepth(0, 0, depth_m));
-    EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "closed, or open, all the way up";
-  }
-  frame = frameOfDepth(0, 0, 0);
-  frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
-  see(frame);
-  EXPECT_NEAR(of({door}).uneven, 0, 1e-12) << "nothing is known about its upper part";
-}
-
-// A coat stand 1.6 m high, of which a part was taken for a chair.
-TEST_F(Evidence, WhatGoesOnAboveIsHigher) {
-  const Landmark chair = landmarkOf(1, "chair", 4, 0);
-  Frame frame = frameOfDepth(0, 0, 8);
-  frame.depth.rowRange(rowsBetween(0, 0.9, 4)) = 4.F;
-  see(frame);
-  EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12);
-  frame.depth.rowRange(rowsBetween(0, 1.6, 4)) = 4.F;
-  see(frame);
-  EXPECT_GT(of({chair}).above_filled, 0.3) << "at the middle of the footprint, within .1 m";
-  frame.depth.colRange(120, 200) = 2.F;
-  see(frame);
-  EXPECT_NEAR(of({chair}).above_filled, 0, 1e-12) << "hidden";
-}
-
-// Half a turn of beams, all of one length, .3 m above the floor.
-Scan halfRound(float range_m) {
-  Scan scan;
-  scan.ranges_m.assign(181, range_m);
-  scan.valid.assign(181, 1);
-  scan.angle_min_rad = -M_PI / 2;
-  scan.angle_step_rad = M_PI / 180;
-  scan.max_range_m = 10;
-  scan.robot_from_lidar.translation().z() = 0.3;
-  return scan;
-}
-
-TEST_F(Evidence, BeamsThroughWhatIsSolid) {
-  Scan scan = halfRound(6);
-  memory_.add(scan, Pose3::Identity());
-  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 1, 1e-12);
-  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).crossed, 1, 1e-12) << "no image saw anything of it";
-  EXPECT_NEAR(of({landmarkOf(1, "chair", 3, 0)}).beams_crossed, 0, 1e-12) << "beams pass between its legs";
-  memory_ = {};
-  scan.robot_from_lidar.translation().z() = 0.5;
-  memory_.add(scan, Pose3::Identity());
-  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0, 1e-12)
-      << "over the solid part, which is .4 m high";
-}
-
-// A sofa, 1.8 x .8 m, ends beams at its sides, whichever of them the scan sees: one that a beam reaches the inside of is not there.
-TEST_F(Evidence, AWallThroughWhatIsSolid) {
-  memory_.add(halfRound(3), Pose3::Identity());
-  EXPECT_GT(of({landmarkOf(1, "sofa", 3, 0)}).beams_crossed, 0.7) << "through its middle";
-  Landmark slim = landmarkOf(1, "sofa", 3, 0);
-  slim.shape.depth = 0.75;
-  EXPECT_GT(of({slim}).beams_crossed, 0.7);
-  slim.shape.depth = 0.65;
-  slim.position.x() = 3.12;
-  EXPECT_NEAR(of({slim}).beams_crossed, 0, 1e-12) << "its front may be where they end";
-  EXPECT_NEAR(of({landmarkOf(1, "sofa", 3.4, 0)}).beams_crossed, 0, 1e-12) << "they end at its front";
-  Landmark along = landmarkOf(1, "sofa", 3.9, 0);
-  along.has_yaw = true;
-  along.yaw = M_PI / 2;  // its length runs from the robot on
-  EXPECT_NEAR(of({along}).beams_crossed, 0, 1e-12) << "they end at its narrow side";
-  along.position.x() = 3.4;
-  EXPECT_GT(of({along}).beams_crossed, 0.3);
-  EXPECT_NEAR(of({landmarkOf(1, "chair", 3, 0)}).beams_crossed, 0, 1e-12) << "what stands between its legs";
 }
 
 }  // namespace

@@ -53,7 +53,9 @@ TEST(ExistenceModel, EveryNameIsOfItsOwnField) {
                                                              {"above_filled", &E::above_filled},
                                                              {"uneven", &E::uneven},
                                                              {"confidence", &E::confidence},
-                                                             {"missed_since", &E::missed_since}};
+                                                             {"missed_since", &E::missed_since},
+                                                             {"emptied", &E::emptied},
+                                                             {"shorter", &E::shorter}};
   ASSERT_EQ(fields.size(), E::kNames.size());
   for (const auto& [name, field] : fields) {
     ExistenceOptions options;

@@ -55,6 +55,16 @@ TEST(LandmarkContinuation, EvidenceAddsUpAndIdsAreKept) {
   EXPECT_EQ(both.seen_again, 1);
 }
 
+TEST(LandmarkContinuation, WhatWasMovedInThisRunStandsWhereItWasSeenLast) {
+  WeighedLandmark now = stool(1, 0.2, 0.75);
+  now.landmark.stands_since = 7;
+  const auto both = continuedLandmarks({stool(1, 0, 0.8)}, {{}}, {now}, {LandmarkId{1}}, {});
+  ASSERT_EQ(both.landmarks.size(), 1u);
+  EXPECT_EQ(both.landmarks[0].landmark.position.x(), 0.2);
+  EXPECT_EQ(both.landmarks[0].landmark.stands_since, 7);
+  EXPECT_EQ(both.landmarks[0].landmark.observations, 20);
+}
+
 TEST(LandmarkContinuation, WhatIsSeenThroughFadesAndWhatIsNotSeenStays) {
   const PlaceLook gone{5, 1, 0, 0, 0};
   const auto both = continuedLandmarks({stool(1, 0, 0.99), stool(2, 3, 0.97), stool(3, 6, 0.9)},

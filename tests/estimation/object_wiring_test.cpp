@@ -79,7 +79,7 @@ TEST_F(SofaSeenFromFourPlaces, GivesEveryKindOfFactorItsNumber) {
   EXPECT_EQ(factors.sightings.size(), factors.views.size()) << "no direction twice";
   EXPECT_EQ(factors.shared_errors.size(), factors.views.size());
   ASSERT_EQ(factors.boxes.size(), 4u) << "one of each key pose";
-  ASSERT_EQ(factors.sizes.size(), factors.views.size() + 1) << "and the usual size, once";
+  ASSERT_EQ(factors.sizes.size(), factors.views.size() + 2) << "and the least and the usual size, once";
   const ObjectModel& usual = *shippedObjects().find("sofa");
   for (const auto& size : factors.sizes) EXPECT_EQ(size.landmark, sofa_.id);
   EXPECT_EQ(factors.sizes.back().sigma_m.x(), usual.width_sigma_m);
@@ -120,7 +120,7 @@ TEST_F(SofaSeenFromFourPlaces, LeavesNoErrorWhereEverythingIsTrue) {
   };
   add(factors.sightings), add(factors.shared_errors), add(factors.boxes), add(factors.sizes);
   add(factors.point_views), add(factors.insides);
-  EXPECT_EQ(graph.factors(), 3 * factors.views.size() + 1u + 4u + 8u + 2u);
+  EXPECT_EQ(graph.factors(), 3 * factors.views.size() + 2u + 4u + 8u + 2u);
   EXPECT_LT(graph.chiSquared(), 1e-12);
 }
 
@@ -128,7 +128,7 @@ TEST_F(SofaSeenFromFourPlaces, AllOfThemReachTheGraph) {
   const ObjectFactors factors = objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_);
   const FactorGraph without = buildGraph(poses_, motion_, {}, {}, options_);
   const FactorGraph with = buildGraph(poses_, motion_, {}, {{sofa_}, factors}, options_);
-  EXPECT_EQ(with.factors() - without.factors(), 3 * factors.views.size() + 1u + 4u + 8u + 2u + 1u)
+  EXPECT_EQ(with.factors() - without.factors(), 3 * factors.views.size() + 2u + 4u + 8u + 2u + 1u)
       << "and the one that stands it on the floor";
   EXPECT_EQ(with.landmarks(), 1 + factors.views.size());
 }

@@ -105,6 +105,18 @@ TEST_F(ScanSides, MoveASofaToItsSides) {
   EXPECT_NEAR(wrapAngle(found.yaw - truth.yaw), 0, 0.01);
 }
 
+TEST_F(ScanSides, BeforeItStoodThereShowSomethingElse) {
+  Landmark sofa = object("sofa", 3, 0.5, M_PI - 0.3);
+  addOutline(sofa);
+  look(0, 0, 0), look(0.2, 0, 0);
+  const auto both = sides(sofa);
+  sofa.stands_since = 0.5;
+  const auto later = sides(sofa);
+  EXPECT_LT(later.size(), both.size());
+  ASSERT_FALSE(later.empty());
+  for (const auto& side : later) EXPECT_EQ(side.node, poses_.nodes()[1].id);
+}
+
 TEST_F(ScanSides, MoveADoorIntoTheWallWhoseFaceIsSeen) {
   const Landmark truth = object("door", 2, 0.3, M_PI);
   const double face = 2 - truth.shape.depth / 2;

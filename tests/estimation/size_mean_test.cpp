@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "roomgraph/backend/factor_graph.h"
 #include "shipped_objects.h"
 
 namespace roomgraph::test {
@@ -91,6 +92,30 @@ TEST(SizeMean, ThePriorIsTheUsualSize) {
   EXPECT_TRUE(prior.size_m.isApprox(Eigen::Vector3d(sofa().width_m, sofa().depth_m, sofa().height_m)));
   EXPECT_TRUE(prior.sigma_m.isApprox(
       Eigen::Vector3d(sofa().width_sigma_m, sofa().depth_sigma_m, sofa().height_sigma_m)));
+}
+
+// The optimum where three directions measure this depth of a door, to 2 cm.
+double optimalDepth(double measured_m, bool bounded) {
+  const ObjectModel& door = *shippedObjects().find("door");
+  const LandmarkId id{7};
+  FactorGraph graph;
+  graph.addPose(NodeId{0}, Pose3::Identity(), true);
+  graph.addLandmark(id, {Eigen::Vector3d(2, 0, 0), 0, door.nominal()});
+  LandmarkFactor seen{NodeId{0}, id};
+  seen.position_in_robot = {2, 0, 0};
+  graph.add(seen);
+  for (int i = 0; i < 3; ++i) graph.add(LandmarkSizeFactor{id, {0.9, measured_m, 2.05}, {0.1, 0.02, 0.1}});
+  if (bounded) graph.add(leastOfClass(id, door));
+  graph.add(sizePrior(id, door));
+  EXPECT_TRUE(graph.optimize().usable);
+  return graph.landmark(id).shape.depth;
+}
+
+TEST(SizePrior, SidesWhosePlacesCrossLeaveSomethingBetweenThem) {
+  EXPECT_LT(optimalDepth(-0.18, false), -0.1);
+  EXPECT_GT(optimalDepth(-0.18, true), 0.02);
+  EXPECT_LT(optimalDepth(-0.18, true), 0.04);
+  EXPECT_EQ(optimalDepth(0.1, true), optimalDepth(0.1, false)) << "what is larger is as it was measured";
 }
 
 }  // namespace

@@ -49,6 +49,14 @@ TEST(LandmarksJson, HoldsEveryFieldOfALandmark) {
   }
 }
 
+TEST(LandmarksJson, SaysSinceWhenWhatWasMovedStandsThere) {
+  auto landmarks = test::sampleMap().landmarks;
+  landmarks[1].stands_since = 1700000042.5;
+  const auto json = saved(landmarks)["landmarks"];
+  EXPECT_FALSE(json[0].contains("stands_since"));
+  EXPECT_EQ(json[1]["stands_since"], 1700000042.5);
+}
+
 TEST(LandmarksJson, HeaderAndSightings) {
   const auto landmarks = test::sampleMap().landmarks;
   ASSERT_GE(landmarks.size(), 2u);

@@ -18,6 +18,8 @@ constexpr double kPrecise_m = 0.3;  // standard deviation on the ground up to wh
 constexpr double kClearMajority =
     3;  // ratio of label votes that changes the class: detectors often confuse classes
 
+constexpr double kMovedVariance_m2 = 0.01;  // of a place that the next sightings or the graph will tell
+
 bool opposite(double a, double b) {
   return std::abs(wrapAngle(a - b)) > M_PI / 2;
 }
@@ -185,6 +187,25 @@ void LandmarkMap::join(Landmark& kept, const Landmark& removed) {
   together_ = std::move(renamed);
 }
 
+void LandmarkMap::merge(std::size_t kept, std::size_t removed) {
+  identity_.merge(landmarks_[removed].id, landmarks_[kept].id);
+  join(landmarks_[kept], Landmark(landmarks_[removed]));
+  landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(removed));
+}
+
+void LandmarkMap::setMoved(LandmarkId id, std::optional<LandmarkId> same, const Eigen::Vector2d& place) {
+  const auto at = [this](LandmarkId sought) {
+    return static_cast<std::size_t>(std::find_if(landmarks_.begin(), landmarks_.end(), [&](const Landmark& l) { return l.id == sought; }) - landmarks_.begin());
+  };
+  if (same) merge(at(id), at(*same));
+  Landmark& landmark = landmarks_.at(at(id));
+  landmark.position.head<2>() = place;
+  landmark.covariance.topLeftCorner<2, 2>() += kMovedVariance_m2 * Eigen::Matrix2d::Identity();
+  LandmarkRecord& record = records_[id];  // all of what rays and misses said is of where it stood before
+  record.recent.clear(), record.existence_updates.clear();
+  record.ray_support = 0;
+}
+
 std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
   std::vector<std::pair<LandmarkId, LandmarkId>> merged;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -195,9 +216,7 @@ std::vector<std::pair<LandmarkId, LandmarkId>> LandmarkMap::mergeDuplicates() {
         continue;
       }
       merged.emplace_back(landmarks_[j].id, landmarks_[i].id);
-      identity_.merge(landmarks_[j].id, landmarks_[i].id);
-      join(landmarks_[i], Landmark(landmarks_[j]));
-      landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(j));
+      merge(i, j);
     }
   }
   return merged;

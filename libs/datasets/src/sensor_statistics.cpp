@@ -220,6 +220,7 @@ double ScanStatistics::change(double from, double to) const {
 std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) const {
   constexpr double kLeastTurn = 0.1, kLargestTurn = 0.5;  // rad
   constexpr double kLargestMove = 0.08;                   // m: more would change the ranges themselves
+  constexpr double kMovePerTurn = 0.3;                    // m/rad: walls beside an arc turn by other angles than the robot
   constexpr std::size_t kLeastPairs = 5, kMostPairs = 200;
   constexpr double kDiffers = 0.1, kAgrees = 0.08;
   if (odometry.size() < 2 || summary_.beams < 30 || !(summary_.aperture_rad > 0)) return std::nullopt;
@@ -233,7 +234,7 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
       i = j;
       continue;
     }
-    if (turn < kLeastTurn) continue;
+    if (turn < kLeastTurn || moved->translation().norm() > kMovePerTurn * turn) continue;
     // Twice the turn in both directions leaves room for an aperture that is wrong by a factor of two.
     const auto shift = beamShift(scans_[i].ranges_m, scans_[j].ranges_m,
                                  static_cast<int>(std::min(2.5 * turn / step, 1.0 * summary_.beams)));

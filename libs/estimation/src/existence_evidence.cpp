@@ -4,15 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "direction_bin.h"
+#include "moved_landmarks.h"
 #include "ray_evidence.h"
 #include "roomgraph/association/landmark_rules.h"
 #include "roomgraph/core/order_statistics.h"
 #include "roomgraph/geometry/projection.h"
+#include "roomgraph/geometry/shape_math.h"
 
 namespace roomgraph {
 namespace {
@@ -60,6 +63,13 @@ bool isTurned(double difference_rad) {
 // Index of the width or the depth.
 int longerSide(const ObjectShape& shape) {
   return shape.width >= shape.depth ? 0 : 1;
+}
+
+// A sofa for two still is one.
+double shorterBy(const ObjectShape& shape, const ObjectModel& model) {
+  constexpr double kUsual = 2;  // standard deviations
+  const int side = longerSide(model.nominal());
+  return std::max(0.0, (sizeOf(model.nominal()) - sizeOf(shape))[side] / model.sizeSigma()[side] - kUsual);
 }
 
 // Share of the information on the longer side that is the sightings'; those from one direction repeat their
@@ -261,7 +271,14 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
                                                  const ObjectDatabase& database,
                                                  const std::vector<SearchedImage>& searched) {
   GoodViews good_views;
-  for (const auto& landmark : landmarks) good_views[landmark.id] = lookedForIn(views.timesInGoodView(landmark), landmark, searched);
+  std::map<LandmarkId, PosedViews> of_moved;  // what was seen of where it stands before it stood there is of something else
+  for (const auto& landmark : landmarks)
+    if (landmark.stands_since) of_moved[landmark.id] = views.between(*landmark.stands_since, std::numeric_limits<double>::infinity());
+  const auto viewsOf = [&](const Landmark& landmark) -> const PosedViews& {
+    return landmark.stands_since ? of_moved.at(landmark.id) : views;
+  };
+  for (const auto& landmark : landmarks)
+    good_views[landmark.id] = lookedForIn(viewsOf(landmark).timesInGoodView(landmark), landmark, searched);
   auto sums = sumsBySightings(landmarks, frames, poses, good_views, searched);
   for (const auto& sighting : frames.former()) sums[sighting.landmark].times.insert(sighting.t);
   const double sure_score = sureScore(frames);
@@ -278,9 +295,12 @@ std::vector<ExistenceEvidence> existenceEvidence(const std::vector<Landmark>& la
     const ObjectModel* model = database.find(landmark.class_name);
     if (model) {
       evidence.size = std::sqrt(model->sizeDistance2(landmark.shape));
+      evidence.shorter = shorterBy(landmark.shape, *model);
       evidence.measured = measuredShare(sums[landmark.id], *model, landmark.shape);
     }
-    setRays(evidence, landmark, model ? model->solid_share : 0, views);
+    setRays(evidence, landmark, model ? model->solid_share : 0, viewsOf(landmark));
+    if (const auto& times = sums[landmark.id].times; landmark.shape.kind != ShapeKind::kPlanar && !times.empty())
+      evidence.emptied = emptiedSince(*times.rbegin(), landmark, viewsOf(landmark));
     out.push_back(evidence);
   }
   return out;

@@ -56,7 +56,9 @@ WeighedLandmark fusedOf(const WeighedLandmark& earlier, const WeighedLandmark& n
                                        now.landmark.class_posterior, now.weight);
   out.weight = earlier.weight + now.weight;
   if (earlier.landmark.class_name == now.landmark.class_name) {
-    out.landmark = fusedEstimates(earlier.landmark, now.landmark);
+    const bool moved = now.landmark.stands_since.has_value();  // the map's place is a former one
+    out.landmark = moved ? now.landmark : fusedEstimates(earlier.landmark, now.landmark);
+    out.landmark.observations = earlier.landmark.observations + now.landmark.observations;
   } else {
     Landmark either = earlier.landmark;
     either.class_posterior = classes;

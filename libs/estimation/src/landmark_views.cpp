@@ -250,7 +250,10 @@ bool addViews(const SightingsByNode& sightings, const Landmark& landmark, const 
   }
   if (directions.empty()) return false;
   out.yaws[landmark.id] = yaw;
-  if (options.object_sizes && usual) out.sizes.push_back(sizePrior(landmark.id, *usual));
+  if (options.object_sizes && usual) {
+    out.sizes.push_back(leastOfClass(landmark.id, *usual));
+    out.sizes.push_back(sizePrior(landmark.id, *usual));
+  }
   return true;
 }
 

@@ -158,7 +158,7 @@ void ObjectMapper::look(const Frame& frame, const Pose3& world_from_robot, const
 
 std::vector<Candidate> ObjectMapper::candidates(const ObjectDatabase& database,
                                                 const ExistenceModel* model) const {
-  const auto& landmarks = landmarks_.landmarks();
+  const auto landmarks = landmarksNow();
   const auto evidence = existenceEvidence(landmarks, frames_, poses_, space_->posed(poses_), database, searched_);
   std::vector<Candidate> out;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -307,7 +307,7 @@ ObjectsInGraph factorsOf(const std::vector<Landmark>& landmarks, const ObjectFra
 }  // namespace
 
 ObjectsInGraph ObjectMapper::inGraph(const ObjectDatabase& database, const BackendOptions& options) const {
-  return factorsOf(landmarks_.landmarks(), frames_, space_->scans(), associator_->model(), poses_, database, options);
+  return factorsOf(landmarksNow(), frames_, space_->scans(), associator_->model(), poses_, database, options);
 }
 
 ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const BackendOptions& options) const {
@@ -318,7 +318,7 @@ ObjectsAtPoses ObjectMapper::inGraphLater(const ObjectDatabase& database, const 
     KeptScans scans;
     std::optional<AssociationModel> model;
   };
-  auto copies = std::make_shared<Copies>(Copies{landmarks_.landmarks(), frames_, space_->scans(), {}});
+  auto copies = std::make_shared<Copies>(Copies{landmarksNow(), frames_, space_->scans(), {}});
   if (const AssociationModel* model = associator_->model()) copies->model = *model;
   return [copies, &database, &options](const KeyPoses& poses) {
     return factorsOf(copies->landmarks, copies->frames, copies->scans, copies->model ? &*copies->model : nullptr, poses,

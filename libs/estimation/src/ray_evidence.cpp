@@ -43,13 +43,6 @@ std::vector<Eigen::Vector2d> footprintPoints(const ObjectShape& shape) {
   return out;
 }
 
-std::vector<Eigen::Vector3d> insidePoints(const ObjectShape& shape) {
-  std::vector<Eigen::Vector3d> out;
-  for (const auto& p : footprintPoints(shape))
-    for (double z = kStep_m; z <= shape.height - kInset_m; z += kStep_m) out.emplace_back(p.x(), p.y(), z);
-  return out;
-}
-
 // Over the middle of the footprint, just above the object.
 std::vector<Eigen::Vector3d> pointsAbove(const ObjectShape& shape) {
   std::vector<Eigen::Vector3d> out;
@@ -79,6 +72,12 @@ bool mostlyCrossed(const RayCounts& c) {
 
 bool mostlyFilled(const RayCounts& c) {
   return c.filled > 0 && c.filled >= c.crossed;
+}
+
+// Far off, a beam that ends at the front may seem to end a little inside: not where most end before.
+bool endsThere(const RayCounts& c) {
+  constexpr int kMostBefore = 4;  // times as many as end there
+  return mostlyFilled(c) && c.ended_near <= kMostBefore * c.filled;
 }
 
 double share(const std::vector<RayCounts>& counts, bool (*is)(const RayCounts&)) {
@@ -139,7 +138,7 @@ void setDepthRays(ExistenceEvidence& evidence, const Landmark& landmark, double 
                   const PosedViews& views) {
   const ObjectShape& shape = landmark.shape;
   const Pose3 world_from_object = landmark.worldFromObject();
-  const auto inside = insidePoints(shape);
+  const auto inside = volumePoints(shape);
   const auto counts = views.byImages(inWorld(inside, world_from_object));
   evidence.filled = share(counts, mostlyFilled);
   evidence.spread =
@@ -184,7 +183,7 @@ double beamsAgainst(const Landmark& landmark, double solid_share, const PosedVie
       crossedRoot(countsOfBeams(landmark, footprintPoints(landmark.shape), solid_share, views));
   if (landmark.shape.kind != ShapeKind::kCuboid) return through;
   const auto deep = countsOfBeams(landmark, deepPoints(landmark.shape), solid_share, views);
-  return std::max(through, std::sqrt(share(deep, mostlyFilled)));
+  return std::max(through, std::sqrt(share(deep, endsThere)));
 }
 
 // Shares: of the points, those about which something is known; of these, those that are filled.
@@ -194,6 +193,13 @@ std::pair<double, double> knownAndFilled(const std::vector<RayCounts>& counts) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> volumePoints(const ObjectShape& shape) {
+  std::vector<Eigen::Vector3d> out;
+  for (const auto& p : footprintPoints(shape))
+    for (double z = kStep_m; z <= shape.height - kInset_m; z += kStep_m) out.emplace_back(p.x(), p.y(), z);
+  return out;
+}
 
 void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid_share,
              const PosedViews& views) {
@@ -208,7 +214,7 @@ void setRays(ExistenceEvidence& evidence, const Landmark& landmark, double solid
 void setRays(PlaceLook& look, const Landmark& landmark, double solid_share, const PosedViews& views) {
   const Pose3 world_from_object = landmark.worldFromObject();
   std::tie(look.known, look.filled) =
-      knownAndFilled(views.byImages(inWorld(insidePoints(landmark.shape), world_from_object)));
+      knownAndFilled(views.byImages(inWorld(volumePoints(landmark.shape), world_from_object)));
   if (solid_share == 0) return;
   std::tie(look.beams_known, look.beams_filled) = knownAndFilled(countsOfBeams(landmark, footprintPoints(landmark.shape), solid_share, views));
 }

@@ -107,6 +107,7 @@ class PosedScan {
         node_from_robot_(poses.offset(node_, scan.t)),
         world_from_lidar_(node_.world_from_robot * node_from_robot_ * scan.robot_from_lidar) {}
 
+  double t() const { return scan_.t; }
   NodeId node() const { return node_.id; }
   Eigen::Vector2d lidar() const { return world_from_lidar_.translation().head<2>(); }
   double height_m() const { return world_from_lidar_.translation().z(); }
@@ -147,6 +148,7 @@ class SideFinder {
         landmark_from_world_(planarPart(landmark.worldFromObject()).inverse()) {}
 
   void add(PosedScan& scan) {
+    if (landmark_.stands_since && scan.t() < *landmark_.stands_since) return;
     const Eigen::Vector2d lidar = landmark_from_world_ * scan.lidar();
     if (scan.height_m() < 0 || scan.height_m() > solid_m_ || lidar.norm() > kReach_m) return;
     const std::vector<Return> near = around(scan);

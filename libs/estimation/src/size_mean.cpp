@@ -69,4 +69,9 @@ LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model) {
   return {id, sizeOf(model.nominal()), model.sizeSigma()};
 }
 
+LandmarkSizeFactor leastOfClass(LandmarkId id, const ObjectModel& model) {
+  constexpr double kBound_m = 0.003;  // less than any sum of what is measured: it holds
+  return {id, sizeOf(model.nominal()) / 3, Eigen::Vector3d::Constant(kBound_m), true};
+}
+
 }  // namespace roomgraph

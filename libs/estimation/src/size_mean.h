@@ -52,5 +52,7 @@ class OffsetMean {
 
 /// The class's usual size and its variation.
 LandmarkSizeFactor sizePrior(LandmarkId id, const ObjectModel& model);
+/// A third of the usual size, whatever was measured: two sides whose places cross would leave less than nothing between them.
+LandmarkSizeFactor leastOfClass(LandmarkId id, const ObjectModel& model);
 
 }  // namespace roomgraph

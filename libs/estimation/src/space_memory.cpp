@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "visibility.h"
 
@@ -15,6 +16,7 @@ constexpr int kColumns = 80;                            // of a reduced depth im
 constexpr double kMoved_m = 0.15, kTurned_rad = 0.1;    // between two views
 constexpr double kNearest_m = 0.4, kFarthest_m = 4.5;   // depths that are compared
 constexpr double kMargin_m = 0.1, kMarginShare = 0.02;  // of range: noise of depth, pose and shape
+constexpr double kEndedNear_m = 1;                      // before a point
 constexpr double kMillimetre = 1e-3;
 constexpr std::uint16_t kNearestDepth_mm = 1;
 
@@ -47,6 +49,7 @@ void count(RayCounts& counts, double measured_m, double range_m) {
     ++counts.filled;
   } else {
     ++counts.hidden;
+    counts.ended_near += measured_m > range_m - kEndedNear_m;
   }
 }
 
@@ -90,6 +93,14 @@ PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
     const Pose3 world_from_lidar = poses.at(scan->t) * scan->robot_from_lidar;
     out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), scan.get()});
   }
+  return out;
+}
+
+PosedViews PosedViews::between(double first, double last) const {
+  const auto within = [=](double t) { return t >= first && t <= last; };
+  PosedViews out;
+  std::copy_if(images_.begin(), images_.end(), std::back_inserter(out.images_), [&](const Image& image) { return within(image.t); });
+  std::copy_if(scans_.begin(), scans_.end(), std::back_inserter(out.scans_), [&](const Beams& beams) { return within(beams.scan->t); });
   return out;
 }
 

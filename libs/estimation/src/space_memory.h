@@ -19,15 +19,17 @@ namespace roomgraph {
 /// Scans that never change: a copy of these for another thread costs little.
 using KeptScans = std::vector<std::shared_ptr<const Scan>>;
 
-/// Views of one point: rays that went on beyond it, ended at it, or ended before it.
+/// Views of one point: rays that went on beyond it, ended at it, or ended before it; of these those that ended within 1 m of it.
 struct RayCounts {
-  int crossed = 0, filled = 0, hidden = 0;
+  int crossed = 0, filled = 0, hidden = 0, ended_near = 0;
 };
 
 /// Depth images and scans of a whole run with the poses as they are now.
 class PosedViews {
  public:
   bool hasImages() const { return !images_.empty(); }
+  /// Those of times within [first, last], s.
+  PosedViews between(double first, double last) const;
   /// Of every point (world, m), by the depth images.
   std::vector<RayCounts> byImages(const std::vector<Eigen::Vector3d>& points) const;
   /// Times (s) of the images that have the landmark in good view.

@@ -61,6 +61,7 @@ void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesy
       json["first_seen"] = seen->second.first;
       json["last_seen"] = seen->second.last;
     }
+    if (landmarks[i].stands_since) json["stands_since"] = *landmarks[i].stands_since;
     if (const auto why = origin.evidence.find(landmarks[i].id); why != origin.evidence.end())
       json["evidence"] = why->second;
     text += (i ? ",\n  " : "\n  ") + json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -259,6 +259,10 @@ void SemanticSlam::takeOver() {
     if (const auto solution = estimator_.takeOver()) {
       objects_.move(solution->later);
       objects_.apply(sound(solution->landmarks));
+      if (estimator_.settled()) {
+        objects_.followMoved(estimator_.drift(), followed_t_);
+        followed_t_ = estimator_.poses().nodes().back().t;
+      }
       giveUpRepeated();
     }
     giveBackFreedMemory();
@@ -357,6 +361,7 @@ void SemanticSlam::refine() {
   front_ends_.releaseScans();
   // Coordinate descent (sec. 4): who is who with the poses as they are, poses and places with who is who, until that
   // comes again: single sightings between two objects go to and fro.
+  objects_.followMoved(estimator_.drift(), -std::numeric_limits<double>::infinity());
   std::set<Partition> known{objects_.whoIsWho()};
   for (int round = 0; round < kMaxDescents && objects_.reassociate(); ++round) {
     if (!known.insert(objects_.whoIsWho()).second) break;

@@ -50,6 +50,10 @@ class LandmarkMap {
   /// Transforms a landmark, with the positions in its record, into another frame.
   void move(LandmarkId id, const Pose3& new_from_old);
 
+  /// It was moved to this place (ground, world, m): what rays and misses said of it is forgotten. `same`: a landmark that becomes
+  /// part of it.
+  void setMoved(LandmarkId id, std::optional<LandmarkId> same, const Eigen::Vector2d& place);
+
   /// Merges landmarks of one class that are one object; returns (removed, kept) pairs.
   std::vector<std::pair<LandmarkId, LandmarkId>> mergeDuplicates();
 
@@ -85,6 +89,7 @@ class LandmarkMap {
   void countFormerUntil(FrameId frame, std::vector<FormerSighting>::const_iterator& next,
                         const std::vector<FormerSighting>& former);
   void countTogether(FrameId frame, LandmarkId id);
+  void merge(std::size_t kept, std::size_t removed);
   void join(Landmark& kept, const Landmark& removed);
   int together(LandmarkId a, LandmarkId b) const;
 

@@ -46,18 +46,20 @@ struct ExistenceEvidence {
   double uneven =
       0;  ///< of doors: by how much the shares that depth rays crossed differ below and at the top
   double missed_since = 0;  ///< visits after its last sighting to where it was sighted before, 5 at most: it may be gone
+  double emptied = 0;  ///< of all but doors: share of where depth rays ended in it that they cross half a minute after its last sighting
+  double shorter = 0;  ///< standard deviations by which its longer side is shorter than its class's, beyond two
 
-  static constexpr std::array<std::string_view, 23> kNames = {
+  static constexpr std::array<std::string_view, 25> kNames = {
       "filter",        "sightings",    "directions", "score",     "label",          "scatter",
       "turned",        "size",         "measured",   "detected",  "contested",      "outdone",
       "mislabelled",   "crossed",      "filled",     "spread",    "beside_crossed", "beside_filled",
-      "beams_crossed", "above_filled", "uneven",     "confidence", "missed_since"};
+      "beams_crossed", "above_filled", "uneven",     "confidence", "missed_since", "emptied", "shorter"};
   /// In the order of kNames.
   std::array<double, kNames.size()> values() const {
     return {filter,        sightings,    directions, score,     label,          scatter,
             turned,        size,         measured,   detected,  contested,      outdone,
             mislabelled,   crossed,      filled,     spread,    beside_crossed, beside_filled,
-            beams_crossed, above_filled, uneven,     confidence, missed_since};
+            beams_crossed, above_filled, uneven,     confidence, missed_since, emptied, shorter};
   }
 };
 

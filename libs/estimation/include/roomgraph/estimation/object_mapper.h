@@ -65,6 +65,14 @@ class ObjectMapper {
   /// Merges landmarks that are one object, also in the stored measurements; splits those that are two.
   void tidy();
 
+  /// Landmarks that sightings and depth images say were moved stand where they were seen last; what was seen of them before is
+  /// forgotten. Asked are those that were sighted at `since_t` or later. Not those that may only seem so, by the drift of the pose
+  /// since, and not those that were carried farther than two of a kind can stand apart: these are two landmarks. No loop closure
+  /// waits for an optimisation: drift is little then, and poses are not where they should be.
+  void followMoved(const Drift& drift, double since_t);
+  /// Since when it stands where it stands, if it was moved, s.
+  std::optional<double> standsSince(LandmarkId id) const;
+
   /// E-step over everything measured so far, with the current poses (method.md sec. 4), and tidy(). An associator
   /// without a model decides every frame again by its own rule. Whether it was done: not without LandmarkOptions::hindsight.
   bool reassociate();
@@ -107,6 +115,8 @@ class ObjectMapper {
   void respan();
   void span(const ObjectFrame& frame);
   void span(LandmarkId landmark, double t);
+  void forgetBefore(double t, LandmarkId landmark);
+  std::vector<Landmark> landmarksNow() const;
   FormerSighting former(const ObjectFrame& frame, const ObjectDecision& decision) const;
   void findHomes(const Reassociation& result);
 
@@ -118,6 +128,7 @@ class ObjectMapper {
   ObjectFrames frames_;
   GrowthWatch frames_watch_;
   SeenSpans spans_;
+  std::vector<std::pair<LandmarkId, double>> moved_;  ///< since when, s; by the ids of then
   std::optional<Pose3> last_rays_from_;
   std::optional<Scan> latest_scan_;  ///< without returns on people
   std::unique_ptr<SpaceMemory> space_;

@@ -95,6 +95,8 @@ class PoseEstimator {
   /// Waits for what beginLive() began, and sets the key poses to that; later ones move with the last of them. Nothing
   /// when nothing was begun, the solver found no usable solution, or the poses were moved meanwhile.
   std::optional<GraphSolution> takeOver();
+  /// Whether the poses are where all closures that disagreed with them say: none waits for an optimisation.
+  bool settled() const { return surprises_.empty() && !again_; }
   /// What the thread of the last solution took, once; nothing when there was none.
   std::optional<Work> takeWork() { return std::exchange(work_, std::nullopt); }
   /// Near the optimum will do where what is sought changes yet, and key poses may move in bodies (`free_nodes`) where these

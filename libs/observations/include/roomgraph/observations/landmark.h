@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "roomgraph/core/ids.h"
@@ -22,6 +23,7 @@ struct Landmark {
   double existence = 0;                                      ///< probability in [0, 1]
   std::map<std::string, double> class_posterior;             ///< sums to 1
   int observations = 0;
+  std::optional<double> stands_since;  ///< s; of one that was moved during the run: when it was first seen where it stands now
 
   Pose3 worldFromObject() const { return poseFromYpr(position.x(), position.y(), position.z(), yaw, 0, 0); }
 };

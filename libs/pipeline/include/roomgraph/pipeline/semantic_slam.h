@@ -160,6 +160,7 @@ class SemanticSlam {
   std::unique_ptr<DetectionClock> foreseen_detections_;  ///< of foresee(); nothing else uses it
   double last_foreseen_t_;
   PoseEstimator estimator_;  ///< key poses, measurements between them, the factor graph
+  double followed_t_ = 0;    ///< landmarks sighted before were asked whether they were moved
   FloorConsensus floors_;    ///< planes that may be the floor of a handheld camera
   CameraTilt tilt_;          ///< of a camera on a robot
   ObjectMapper objects_;     ///< what was seen of objects
