@@ -291,12 +291,14 @@ def main(argv=None):
     parser.add_argument("recordings", nargs="*", type=Path, help="WORLD.json or X.rawlog")
     parser.add_argument("--flats", default="", help="numbers of random flats, e.g. 4,5,6")
     parser.add_argument("--rooms", type=int, help="of each flat")
-    parser.add_argument("--sensors", nargs="+", default=SETS, metavar="SET", help=f"default: {' '.join(SETS)}")
+    parser.add_argument("--sensors", nargs="+", default=SETS, choices=SETS, metavar="SET", help=f"default: {' '.join(SETS)}")
     parser.add_argument("--faults", nargs="+", default=[], metavar="FAULT", help="those whose names begin so (default: all)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--program", type=Path, default=PROGRAM)
     parser.add_argument("--out", type=Path, default=Path("out/fault_table"))
     arguments = parser.parse_args(argv)
+    if not arguments.recordings and not arguments.flats:
+        parser.error("name recordings, or --flats")
     arguments.out.mkdir(parents=True, exist_ok=True)
     table, lines, rows = Table(arguments), [], []
     for recording in recordings_of(arguments):

@@ -144,6 +144,18 @@ TEST_F(Pushed, StandsWhereItWasSeenLastAndWhatWasSeenBeforeIsForgotten) {
   EXPECT_EQ(mapper_->standsSince(landmarks()[0].id), 30);
 }
 
+// What a detector saw beside it before turns out to be the same: rays from then are of it, too.
+TEST_F(Pushed, WhatWasSeenThereBeforeItWasPushedThereStoodThere) {
+  see(0, 1.5), see(0, 0), see(0.3, 0.3);
+  ASSERT_EQ(landmarks().size(), 2u);
+  const LandmarkId pushed = landmarks()[1].id;
+  follow();
+  EXPECT_EQ(mapper_->standsSince(pushed), 60);
+  mapper_->tidy();
+  ASSERT_EQ(landmarks().size(), 1u);
+  EXPECT_FALSE(mapper_->standsSince(landmarks()[0].id));
+}
+
 TEST_F(Pushed, RaysBeforeItStoodThereSayNothingOfIt) {
   const auto crossed = [&] { return mapper_->candidates(shippedObjects(), nullptr).at(0).evidence.crossed; };
   see(0, 0), see(0, 0), see(0.8, 0.8);

@@ -77,6 +77,27 @@ TEST(TrackerSegments, ASegmentGoesOnWhereAKeyframeOfTheSamePlaceFindsTheView) {
   EXPECT_TRUE(tracker.takeLoopClosures().empty());
 }
 
+// Walls of one paper look alike: where a camera may have been carried anywhere, a few features do not say that it stands where it stood.
+TEST(TrackerSegments, AfterAPauseOfWhichNobodyTellsAPlaceMustBeRecognised) {
+  constexpr int kColumns = 320, kStep = 2;
+  const auto seen = [](double pause_s, int columns, const TrackingPrior& prior) {
+    Tracker tracker(byFeatures());
+    for (int t = 0; t <= 4; ++t) EXPECT_TRUE(tracker.track(cell().render(t, turnedBy(4 * t)), {}).tracked) << t;
+    Frame frame = cell().render(4 + pause_s, turnedBy(17));
+    if (columns < frame.gray.cols) frame.gray.colRange(columns, frame.gray.cols).setTo(128);
+    return tracker.track(frame, prior);
+  };
+  const TrackingPrior by_wheels{.previous_from_current = turnedBy(1)};
+  int columns = kStep;
+  while (columns < kColumns && !(seen(1, columns, {}).tracked && seen(10, columns, by_wheels).tracked)) columns += kStep;
+  ASSERT_LT(seen(1, columns, {}).inliers, TrackingParameters{}.relocalisation_min_inliers) << "these few";
+  EXPECT_FALSE(seen(10, columns, {}).tracked);
+  EXPECT_TRUE(seen(10, columns, by_wheels).tracked);
+  const auto recognised = seen(10, 10000, {});
+  EXPECT_TRUE(recognised.tracked);
+  EXPECT_EQ(recognised.segment, 0);
+}
+
 // Along the corner of a room, 1 cm and half a degree a frame: three planes hold a frame without features.
 Frame cornerOf(const test::TexturedRoom& walls, int i, bool features) {
   Frame frame = walls.render(i, poseFromYpr(0.6 + 0.01 * i, 0.1, 0.2, 0, 0.5 + 0.009 * i, -0.5));

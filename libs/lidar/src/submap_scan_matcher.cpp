@@ -17,7 +17,7 @@ namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
-constexpr double kPause_s = 2, kSamePlace = 0.5;  // after which it is asked whether this is the same place, by the share that is explained
+constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
 constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
 }  // namespace
 

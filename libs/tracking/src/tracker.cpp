@@ -21,6 +21,7 @@ namespace roomgraph::tracking {
 namespace {
 
 constexpr int kCoastFrames = 3;         // lost frames over which the velocity is extrapolated
+constexpr double kUntoldPause_s = 2;    // without a frame, in which a camera may be carried away
 constexpr int kLoopPause = 3;           // keyframes between two loop closures
 constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
 constexpr int kVerifyKeyframes = 2;
@@ -61,6 +62,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others
   robot_from_camera_ = isMounted(frame) ? std::optional(frame.robot_from_camera) : std::nullopt;
   const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
   const Pose3 guess = goes_on ? velocity_.value_or(Pose3::Identity()) : Pose3::Identity();
+  carried_ |= !records_.empty() && frame.t - last_t_ > kUntoldPause_s && !prior.previous_from_current;
   dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(expected(guess)));
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
@@ -182,6 +184,7 @@ TrackingResult Tracker::start(View view) {
   habit_from_.reset();
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
+  carried_ = false;
   last_covariance_.setZero();
   result.keyframe = true;
   result.inliers = result.matches = static_cast<int>(last_points_.size());
@@ -222,6 +225,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   }
   dead_reckoned_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
+  carried_ = false;
   result.inliers = view.solution.inliers;
   result.matches = view.matches;
   result.moving = view.moving;

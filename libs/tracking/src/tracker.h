@@ -160,6 +160,7 @@ class Tracker {
   int segment_ = 0;  ///< that of the last record
   int lost_frames_ = 0;   ///< since features placed one
   int blind_frames_ = 0;  ///< since anything placed one
+  bool carried_ = false;  ///< there was a pause of which nobody tells how the camera moved, and nothing placed it since
   int reference_ = -1;         ///< keyframe that holds the frames tracked now
   int reference_inliers_ = 0;  ///< of the first frame after it, 0: not seen yet
   int last_loop_ = -1000;

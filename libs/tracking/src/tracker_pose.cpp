@@ -119,14 +119,14 @@ bool Tracker::trackNear(View& view) {
 }
 
 bool Tracker::findPose(View& view, const Pose3& previous) {
-  if (trackNear(view)) return true;
-  if (alignDensely(*view.frame, *view.prior)) {
+  if (!carried_ && trackNear(view)) return true;
+  if (!carried_ && alignDensely(*view.frame, *view.prior)) {
     view.odom_from_camera = previous * dead_reckoned_;
     if (trackNear(view)) return true;
   }
   if (!relocalise(view)) return false;
   const bool where_others_say =
-      view.prior->previous_from_current && !isFar((previous * dead_reckoned_).inverse() * view.odom_from_camera);
+      !carried_ && view.prior->previous_from_current && !isFar((previous * dead_reckoned_).inverse() * view.odom_from_camera);
   view.jumped = !where_others_say && !seesLastPoints(reference_);
   return true;
 }
