@@ -98,6 +98,20 @@ TEST(TrackerSegments, AfterAPauseOfWhichNobodyTellsAPlaceMustBeRecognised) {
   EXPECT_EQ(recognised.segment, 0);
 }
 
+TEST(TrackerSegments, WhatCameOfAPauseIsNoVelocity) {
+  Tracker tracker(byFeatures());
+  for (int t = 0; t <= 4; ++t) ASSERT_TRUE(tracker.track(cell().render(t, turnedBy(4 * t)), {}).tracked) << t;
+  const auto recognised = tracker.track(cell().render(14, turnedBy(28)), {});
+  ASSERT_TRUE(recognised.tracked);
+  ASSERT_EQ(recognised.segment, 0);
+  Frame blind = cell().render(15, turnedBy(28));
+  blind.gray = cv::Mat();
+  blind.color = cv::Mat();
+  const auto after = tracker.track(blind, {});
+  EXPECT_FALSE(after.tracked);
+  EXPECT_LT(rotationAngle(recognised.odom_from_camera.inverse() * after.odom_from_camera), 0.01);
+}
+
 // Along the corner of a room, 1 cm and half a degree a frame: three planes hold a frame without features.
 Frame cornerOf(const test::TexturedRoom& walls, int i, bool features) {
   Frame frame = walls.render(i, poseFromYpr(0.6 + 0.01 * i, 0.1, 0.2, 0, 0.5 + 0.009 * i, -0.5));

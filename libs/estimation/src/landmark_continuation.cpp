@@ -58,13 +58,12 @@ WeighedLandmark fusedOf(const WeighedLandmark& earlier, const WeighedLandmark& n
   if (earlier.landmark.class_name == now.landmark.class_name) {
     const bool moved = now.landmark.stands_since.has_value();  // the map's place is a former one
     out.landmark = moved ? now.landmark : fusedEstimates(earlier.landmark, now.landmark);
-    out.landmark.observations = earlier.landmark.observations + now.landmark.observations;
   } else {
     Landmark either = earlier.landmark;
     either.class_posterior = classes;
     if (likeliestClass(either) == now.landmark.class_name) out.landmark = now.landmark;
-    out.landmark.observations = earlier.landmark.observations + now.landmark.observations;
   }
+  out.landmark.observations = earlier.landmark.observations + now.landmark.observations;
   out.landmark.id = earlier.landmark.id;
   out.landmark.class_posterior = classes;
   return out;

@@ -2,8 +2,8 @@
 // The change of place in a series of sightings, and what rays say of it.
 #include "moved_landmarks.h"
 
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -17,7 +17,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kMovedPause_s = 3;           // an object not seen for so long begins a new visit
+constexpr double kMovedPause_s = 3;      // an object not seen for so long begins a new visit
 constexpr std::size_t kLeastBoth = 3;    // sightings before and after
 constexpr double kLeastVisit_s = 1;      // from the first of them to the last: more than a moment's error
 constexpr int kLatest = 20;              // pauses: what was moved before was followed then
@@ -58,9 +58,9 @@ Eigen::Vector2d placeAtSize(const Pose3& world_from_object, const Proposal& prop
   return world_from_object.translation().head<2>() + Eigen::Rotation2Dd(yaw) * (proposal.place_by_size * longer);
 }
 
-// Without boxes that were carried from the detection before. Of those that were given up enough are kept.
 using SeenByLandmark = std::map<LandmarkId, Seen>;
 
+// Without boxes that were carried from the detection before. Of those that were given up enough are kept.
 SeenByLandmark seenPlaces(const std::vector<Landmark>& landmarks, const ObjectFrames& frames, const KeyPoses& poses) {
   std::map<LandmarkId, const Landmark*> known;
   for (const auto& landmark : landmarks) known[landmark.id] = &landmark;

@@ -218,8 +218,8 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
     result.reason = "found again in another place";
     result.step_covariance = Matrix6d::Identity();  // no step leads there
   }
-  // A step over several frames, or between segments, says nothing about the next one.
-  if (blind_frames_ > 0 || elsewhere) {
+  // A step over several frames, a pause, or between segments says nothing about the next one.
+  if (blind_frames_ > 0 || carried_ || elsewhere) {
     velocity_.reset();
     habit_from_.reset();
   }

@@ -120,7 +120,7 @@ bool Tracker::trackNear(View& view) {
 
 bool Tracker::findPose(View& view, const Pose3& previous) {
   if (!carried_ && trackNear(view)) return true;
-  if (!carried_ && alignDensely(*view.frame, *view.prior)) {
+  if (alignDensely(*view.frame, *view.prior)) {  // never over a pause
     view.odom_from_camera = previous * dead_reckoned_;
     if (trackNear(view)) return true;
   }
