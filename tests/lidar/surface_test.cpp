@@ -138,6 +138,32 @@ TEST_F(Refinement, FinishedSurfacesAreTheSameToTheLastBit) {
   EXPECT_THROW(surfaces.insert(facing({{1, 1}}, 0)), std::logic_error);
 }
 
+TEST_F(Refinement, LinesOfReturnsThatMoveAreThoseOfTheirPlaces) {
+  map(test::asymmetricRoom(), 0.02);
+  FacedScan scan = faced(seenFrom(test::asymmetricRoom(), {}, random, 0.02));
+  scan.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0});
+  scan.facing_rad.push_back(0);
+  LinesOfReturns lines(surfaces, scan.points.size());
+  std::normal_distribution<double> step(0, 0.02);
+  Pose2 pose;
+  int found = 0;
+  for (int i = 0; i < 40; ++i) {
+    const int levels = 1 + static_cast<int>(random() % LocalSurfaces::kAll);
+    const FacedScan placed = transformed(pose, scan);
+    for (std::size_t j = 0; j < placed.points.size(); ++j) {
+      const auto expected = surfaces.around(placed.points[j], placed.facing_rad[j], levels);
+      const SurfaceLine* line = lines.around(j, placed.points[j], placed.facing_rad[j], levels);
+      ASSERT_EQ(line != nullptr, expected.has_value()) << i << " " << j;
+      if (!line) continue;
+      ++found;
+      ASSERT_EQ(line->mean, expected->mean);
+      ASSERT_EQ(line->normal, expected->normal);
+    }
+    pose = {pose.x + step(random), pose.y + step(random), pose.yaw + step(random)};
+  }
+  EXPECT_GT(found, 1000);
+}
+
 TEST_F(Refinement, ErrorsAreAsLargeAsTheirCovarianceSaysAndSmallerThanThoseOfTheGrid) {
   const double sigma_m = 0.02;
   map(test::asymmetricRoom(), sigma_m);

@@ -3,14 +3,14 @@
 #include "correlative_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace roomgraph {
 namespace {
 
-struct Cell {
-  int x, y;
-};
+using Cell = ScorePyramid::Cell;
 
 /// A square of 2^level shifts, in cells, at one angle.
 struct Candidate {
@@ -26,10 +26,12 @@ class BranchAndBound {
         start_(start),
         window_(window),
         excluded_(excluded),
-        best_score_(window.min_score) {
+        best_score_(window.min_score),
+        count_(points.size()) {
     reach_ = static_cast<int>(std::ceil(window.linear_m / pyramid.cellSize() - 1e-9));
     chooseAngles(points);
-    for (int a = -angles_; a <= angles_; ++a) rotated_.push_back(cellsAt(points, a * angle_step_));
+    rotated_.reserve(static_cast<std::size_t>(2 * angles_ + 1) * count_);
+    for (int a = -angles_; a <= angles_; ++a) addCellsAt(points, a * angle_step_);
   }
 
   std::optional<SearchResult> run() {
@@ -38,7 +40,9 @@ class BranchAndBound {
     std::vector<Candidate> roots;
     for (int a = -angles_; a <= angles_; ++a)
       for (int x = -reach_; x <= reach_; x += 1 << level)
-        for (int y = -reach_; y <= reach_; y += 1 << level) roots.push_back(bounded(level, {a, x, y, 0}));
+        for (int y = -reach_; y <= reach_; y += 1 << level)
+          roots.push_back(bounded(level, {a, x, y, 0}, pyramid_.sum(level, cellsAt(a), {x, y})));
+    std::stable_sort(roots.begin(), roots.end(), isBetter);
     visit(roots, level);
     if (!found_) return std::nullopt;
     return SearchResult{poseOf(best_), best_score_};
@@ -53,14 +57,16 @@ class BranchAndBound {
     if (angles_ > 0) angle_step_ = window_.angular_rad / angles_;
   }
 
-  std::vector<Cell> cellsAt(const Points2& points, double turn) const {
-    const Pose2 pose{start_.x - pyramid_.corner().x(), start_.y - pyramid_.corner().y(), start_.yaw + turn};
-    std::vector<Cell> cells;
-    cells.reserve(points.size());
-    for (const Eigen::Vector2d& p : transformed(pose, points))
-      cells.push_back({static_cast<int>(std::floor(p.x() / pyramid_.cellSize())),
-                       static_cast<int>(std::floor(p.y() / pyramid_.cellSize()))});
-    return cells;
+  void addCellsAt(const Points2& points, double turn) {
+    const PointsMovement from_corner({start_.x - pyramid_.corner().x(), start_.y - pyramid_.corner().y(), start_.yaw + turn});
+    for (const Eigen::Vector2d& point : points) {
+      const Eigen::Vector2d p = from_corner * point;
+      rotated_.push_back({static_cast<int>(std::floor(p.x() / pyramid_.cellSize())),
+                          static_cast<int>(std::floor(p.y() / pyramid_.cellSize()))});
+    }
+  }
+  std::span<const Cell> cellsAt(int angle) const {
+    return std::span(rotated_).subspan(static_cast<std::size_t>(angle + angles_) * count_, count_);
   }
 
   Pose2 poseOf(const Candidate& c) const {
@@ -75,23 +81,43 @@ class BranchAndBound {
            std::abs(wrapAngle(p.yaw - excluded_->pose.yaw)) < excluded_->radius_rad;
   }
 
-  Candidate bounded(int level, Candidate c) const {
-    const std::vector<Cell>& cells = rotated_[static_cast<std::size_t>(c.angle + angles_)];
-    int sum = 0;
-    for (const Cell& cell : cells) sum += pyramid_.at(level, cell.x + c.x, cell.y + c.y);
+  // `sum`: of the level at its cells.
+  Candidate bounded(int level, Candidate c, int sum) const {
     // Smallest shift inside the square: the penalty, too, must be a bound.
     const int last = (1 << level) - 1;
     const double dx = pyramid_.cellSize() * std::max({0, c.x, -(c.x + last)});
     const double dy = pyramid_.cellSize() * std::max({0, c.y, -(c.y + last)});
     const double turn = c.angle * angle_step_;
-    c.bound = sum / (255.0 * static_cast<double>(cells.size())) -
-              window_.penalty_per_m2 * (dx * dx + dy * dy) - window_.penalty_per_rad2 * turn * turn;
+    c.bound = sum / (255.0 * static_cast<double>(count_)) - window_.penalty_per_m2 * (dx * dx + dy * dy) -
+              window_.penalty_per_rad2 * turn * turn;
     return c;
   }
 
-  void visit(std::vector<Candidate>& candidates, int level) {
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
+  static bool isBetter(const Candidate& a, const Candidate& b) { return a.bound > b.bound; }
+
+  struct Quarters {
+    std::array<Candidate, 4> candidates;
+    std::size_t count = 0;
+  };
+
+  // Of a candidate's square, the best first; they are few and made often, so that they are sorted as they come.
+  Quarters quartersOf(const Candidate& c, int level) const {
+    Quarters out;
+    const int half = 1 << (level - 1);
+    const auto sums = pyramid_.sumsAtCorners(level - 1, cellsAt(c.angle), {c.x, c.y}, half);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const Candidate corner{c.angle, c.x + (i < 2 ? 0 : half), c.y + (i % 2 == 0 ? 0 : half), 0};
+      if (corner.x > reach_ || corner.y > reach_) continue;
+      const Candidate quarter = bounded(level - 1, corner, sums[i]);
+      std::size_t at = out.count++;
+      for (; at > 0 && isBetter(quarter, out.candidates[at - 1]); --at) out.candidates[at] = out.candidates[at - 1];
+      out.candidates[at] = quarter;
+    }
+    return out;
+  }
+
+  // The best comes first.
+  void visit(std::span<const Candidate> candidates, int level) {
     for (const Candidate& c : candidates) {
       if (c.bound <= best_score_) return;
       if (level == 0) {
@@ -101,12 +127,8 @@ class BranchAndBound {
         found_ = true;
         return;
       }
-      const int half = 1 << (level - 1);
-      std::vector<Candidate> children;
-      for (int x : {c.x, c.x + half})
-        for (int y : {c.y, c.y + half})
-          if (x <= reach_ && y <= reach_) children.push_back(bounded(level - 1, {c.angle, x, y, 0}));
-      visit(children, level - 1);
+      const Quarters quarters = quartersOf(c, level);
+      visit({quarters.candidates.data(), quarters.count}, level - 1);
     }
   }
 
@@ -118,7 +140,8 @@ class BranchAndBound {
   int reach_ = 0, angles_ = 0;
   bool found_ = false;
   Candidate best_{};
-  std::vector<std::vector<Cell>> rotated_;
+  std::size_t count_;          // of the points
+  std::vector<Cell> rotated_;  // at one angle after another
 };
 
 }  // namespace

@@ -40,11 +40,10 @@ Points2 thinnedTo(const Points2& points, double cell_m, int max_points) {
 }
 
 Points2 transformed(const Pose2& a_from_b, const Points2& points_in_b) {
-  const double c = std::cos(a_from_b.yaw), s = std::sin(a_from_b.yaw);
+  const PointsMovement movement(a_from_b);
   Points2 out;
   out.reserve(points_in_b.size());
-  for (const Eigen::Vector2d& p : points_in_b)
-    out.emplace_back(a_from_b.x + c * p.x() - s * p.y(), a_from_b.y + s * p.x() + c * p.y());
+  for (const Eigen::Vector2d& p : points_in_b) out.push_back(movement * p);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/StdVector>
+#include <cmath>
 #include <vector>
 
 #include "roomgraph/observations/scan.h"
@@ -27,6 +28,18 @@ Points2 thinned(const Points2& points, double cell_m);
 /// `max_points`.
 Points2 thinnedTo(const Points2& points, double cell_m, int max_points);
 
+/// A pose that many points are moved by: as Pose2, but sine and cosine are taken once.
+class PointsMovement {
+ public:
+  explicit PointsMovement(const Pose2& a_from_b)
+      : x_(a_from_b.x), y_(a_from_b.y), cos_(std::cos(a_from_b.yaw)), sin_(std::sin(a_from_b.yaw)) {}
+  Eigen::Vector2d operator*(const Eigen::Vector2d& in_b) const {
+    return {x_ + cos_ * in_b.x() - sin_ * in_b.y(), y_ + sin_ * in_b.x() + cos_ * in_b.y()};
+  }
+
+ private:
+  double x_, y_, cos_, sin_;
+};
 Points2 transformed(const Pose2& a_from_b, const Points2& points_in_b);
 
 }  // namespace roomgraph

@@ -147,6 +147,17 @@ void ProbabilityGrid::encode() {
   std::vector<float>().swap(cells_);
 }
 
+std::vector<std::uint8_t> ProbabilityGrid::bytes() const {
+  const auto byteOf = [](float cell) { return static_cast<std::uint8_t>(std::max(kMin, cell) * 255.f); };
+  std::vector<std::uint8_t> of_cells(cells_.size());
+  std::transform(cells_.begin(), cells_.end(), of_cells.begin(), byteOf);
+  if (values_.empty()) return of_cells;
+  std::vector<std::uint8_t> of_values(values_.size()), of_codes(codes_.size());
+  std::transform(values_.begin(), values_.end(), of_values.begin(), byteOf);
+  std::transform(codes_.begin(), codes_.end(), of_codes.begin(), [&](std::uint16_t code) { return of_values[code]; });
+  return of_codes;
+}
+
 double ProbabilityGrid::interpolate(const Eigen::Vector2d& point, Eigen::Vector2d* gradient) const {
   const double gx = (point.x() - corner_.x()) / cell_m_ - 0.5, gy = (point.y() - corner_.y()) / cell_m_ - 0.5;
   if (!(std::abs(gx) < kFarthestCell) || !(std::abs(gy) < kFarthestCell)) {

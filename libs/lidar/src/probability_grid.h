@@ -55,6 +55,8 @@ class ProbabilityGrid {
   const Block& storedBlock() const { return stored_; }
   /// kMin outside and where nothing was seen.
   float at(int ix, int iy) const { return stored_.holds(ix, iy) ? std::max(kMin, stored(ix, iy)) : kMin; }
+  /// at() of the stored cells times 255, row by row.
+  std::vector<std::uint8_t> bytes() const;
   /// Whether a scan ever touched the cell.
   bool known(int ix, int iy) const { return stored_.holds(ix, iy) && stored(ix, iy) > 0; }
   /// A point that is not finite or too far away gets a cell far outside.

@@ -2,8 +2,10 @@
 // Pyramid of cell maxima: upper bounds on match scores for branch and bound.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,13 +24,14 @@ class ScorePyramid {
   double cellSize() const { return cell_m_; }
   const Eigen::Vector2d& corner() const { return corner_; }
   /// Probability times 255.
-  std::uint8_t at(int level, int ix, int iy) const {
-    const Level& l = levels_[static_cast<std::size_t>(level)];
-    const int x = ix + l.offset_x, y = iy + l.offset_y;
-    if (x < 0 || y < 0 || x >= l.width || y >= l.height) return kOutside;
-    return l
-        .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(l.width) + static_cast<std::size_t>(x)];
-  }
+  std::uint8_t at(int level, int ix, int iy) const { return levels_[static_cast<std::size_t>(level)].at(ix, iy); }
+  struct Cell {
+    int x, y;
+  };
+  /// Of these cells, all shifted by as many.
+  int sum(int level, std::span<const Cell> cells, const Cell& shift) const;
+  /// The same at the corners of a square: at `shift`, `side` above it, `side` to the right, and both.
+  std::array<int, 4> sumsAtCorners(int level, std::span<const Cell> cells, const Cell& shift, int side) const;
 
  private:
   static constexpr std::uint8_t kOutside = static_cast<std::uint8_t>(ProbabilityGrid::kMin * 255.f);
@@ -36,6 +39,15 @@ class ScorePyramid {
     int width = 0, height = 0;
     int offset_x = 0, offset_y = 0;  ///< stored cell (0, 0) is cell (-offset_x, -offset_y) of the grid
     std::vector<std::uint8_t> cells;
+
+    bool holds(int ix, int iy) const {
+      const int x = ix + offset_x, y = iy + offset_y;
+      return x >= 0 && y >= 0 && x < width && y < height;
+    }
+    std::size_t index(int ix, int iy) const {
+      return static_cast<std::size_t>(iy + offset_y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(ix + offset_x);
+    }
+    std::uint8_t at(int ix, int iy) const { return holds(ix, iy) ? cells[index(ix, iy)] : kOutside; }
   };
   static Level coarser(const Level& fine, int half);
 

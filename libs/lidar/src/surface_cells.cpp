@@ -99,18 +99,25 @@ void SurfaceCells::insert(const FacedScan& scan) {
   }
 }
 
-std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
+std::optional<SurfaceCells::Place> SurfaceCells::placeOf(const Eigen::Vector2d& point, int sector) const {
   if (!isReachable(point)) return std::nullopt;
-  const auto cx = static_cast<std::int32_t>(std::floor(point.x() / cell_m_));
-  const auto cy = static_cast<std::int32_t>(std::floor(point.y() / cell_m_));
-  const int sector = sectorOf(facing_rad);
+  return Place{static_cast<std::int32_t>(std::floor(point.x() / cell_m_)), static_cast<std::int32_t>(std::floor(point.y() / cell_m_)),
+               sector};
+}
+
+std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
+  const auto place = placeOf(point, sectorOf(facing_rad));
+  return place ? lineAt(*place) : std::nullopt;
+}
+
+std::optional<SurfaceLine> SurfaceCells::lineAt(const Place& place) const {
   Scatter sum;  // from the corner of the cell in the middle
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
       const Eigen::Vector2d shift = cell_m_ * Eigen::Vector2d(dx, dy);
-      for (std::int32_t i = firstOf(key(cx + dx, cy + dy)); i != kNone; i = facings_[static_cast<std::size_t>(i)].next) {
+      for (std::int32_t i = firstOf(key(place.x + dx, place.y + dy)); i != kNone; i = facings_[static_cast<std::size_t>(i)].next) {
         const Facing& facing = facings_[static_cast<std::size_t>(i)];
-        const int apart = std::abs(facing.sector - sector);
+        const int apart = std::abs(facing.sector - place.sector);
         if (std::min(apart, kSectors - apart) > 1) continue;
         const Eigen::Vector2d first = facing.sums.first.cast<double>();
         const double n = static_cast<double>(facing.sums.count);
@@ -123,7 +130,7 @@ std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, do
       }
     }
   auto line = lineThrough(sum, kFewestReturns);
-  if (line) line->mean += cell_m_ * Eigen::Vector2d(cx, cy);
+  if (line) line->mean += cell_m_ * Eigen::Vector2d(place.x, place.y);
   return line;
 }
 
@@ -139,6 +146,19 @@ std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, d
   for (int i = 0; i < levels; ++i)
     if (const auto line = levels_[static_cast<std::size_t>(i)].around(point, facing_rad)) return line;
   return std::nullopt;
+}
+
+const SurfaceLine* LinesOfReturns::around(std::size_t number, const Eigen::Vector2d& point, double facing_rad, int levels) {
+  const int sector = SurfaceCells::sectorOf(facing_rad);
+  for (int i = 0; i < levels; ++i) {
+    const SurfaceCells& level = surfaces_.level(i);
+    const auto place = level.placeOf(point, sector);
+    if (!place) return nullptr;
+    Found& found = found_[number][static_cast<std::size_t>(i)];
+    if (found.place != place) found = {place, level.lineAt(*place)};
+    if (found.line) return &*found.line;
+  }
+  return nullptr;
 }
 
 FacedScan faced(const PlanarScan& scan) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "planar_scan.h"
 
@@ -40,8 +41,19 @@ class SurfaceCells {
   /// where they are few or form no line.
   std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad) const;
 
- private:
+  /// The cell of a point and about which way the surface there faces: all that a line depends on.
+  struct Place {
+    std::int32_t x = 0, y = 0;
+    int sector = 0;
+    bool operator==(const Place&) const = default;
+  };
   static constexpr int kSectors = 8;
+  static int sectorOf(double facing_rad);
+  /// Nothing for a point that is not finite or too far away.
+  std::optional<Place> placeOf(const Eigen::Vector2d& point, int sector) const;
+  std::optional<SurfaceLine> lineAt(const Place& place) const;
+
+ private:
   struct Sums {
     float count = 0;
     Eigen::Vector2f first = Eigen::Vector2f::Zero();   // of the points, from the cell's corner
@@ -55,7 +67,6 @@ class SurfaceCells {
     std::int32_t sector = 0, next = kNone;  // of the same cell
   };
   static constexpr std::int32_t kNone = -1;
-  static int sectorOf(double facing_rad);
   Sums& sumsOf(std::uint64_t cell, int sector);
   std::int32_t firstOf(std::uint64_t cell) const;
 
@@ -76,9 +87,27 @@ class LocalSurfaces {
   void insert(const FacedScan& scan);
   void finish();
   std::optional<SurfaceLine> around(const Eigen::Vector2d& point, double facing_rad, int levels = kUsual) const;
+  const SurfaceCells& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
 
  private:
   std::array<SurfaceCells, kAll> levels_;
+};
+
+/// Lines around the returns of a scan that is moved step by step: those of a return that stays in its cell are not sought again.
+/// The surfaces must outlive it, and must not change.
+class LinesOfReturns {
+ public:
+  LinesOfReturns(const LocalSurfaces& surfaces, std::size_t returns) : surfaces_(surfaces), found_(returns) {}
+  /// That of LocalSurfaces::around() for the return of this number; null where there is none. Valid until the next call for it.
+  const SurfaceLine* around(std::size_t number, const Eigen::Vector2d& point, double facing_rad, int levels);
+
+ private:
+  struct Found {
+    std::optional<SurfaceCells::Place> place;
+    std::optional<SurfaceLine> line;
+  };
+  const LocalSurfaces& surfaces_;
+  std::vector<std::array<Found, LocalSurfaces::kAll>> found_;
 };
 
 }  // namespace roomgraph

@@ -29,14 +29,14 @@ struct NormalEquations {
   std::size_t used = 0;
 };
 
-NormalEquations linearise(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& pose, int levels) {
+NormalEquations linearise(LinesOfReturns& lines, const FacedScan& scan, const Pose2& pose, int levels) {
   NormalEquations out;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
     const Eigen::Vector2d turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
     const Eigen::Vector2d at = turned + Eigen::Vector2d(pose.x, pose.y);
-    const auto line = surfaces.around(at, scan.facing_rad[i] + pose.yaw, levels);
+    const SurfaceLine* line = lines.around(i, at, scan.facing_rad[i] + pose.yaw, levels);
     if (!line) continue;
     const double distance = line->normal.dot(at - line->mean);
     const double variance = varianceOf(*line);
@@ -64,13 +64,13 @@ Eigen::Matrix3d matrixOf(const PosePrior& prior) {
   return out;
 }
 
-std::optional<SurfaceFit> refineOn(const LocalSurfaces& surfaces, int levels, const FacedScan& scan, const GridRefinement& grid,
+std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const FacedScan& scan, const GridRefinement& grid,
                                    const PosePrior& prior) {
   const Eigen::Matrix3d unscaled = matrixOf(prior);
   SurfaceFit fit{.map_from_scan = grid.grid_from_scan};
   Pose2& pose = fit.map_from_scan;
   for (int i = 0; i < kIterations; ++i) {
-    const NormalEquations scan_only = linearise(surfaces, scan, pose, levels);
+    const NormalEquations scan_only = linearise(lines, scan, pose, levels);
     if (static_cast<double>(scan_only.used) < kLeastShare * static_cast<double>(scan.points.size())) return std::nullopt;
     fit.information = scan_only.information;
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
@@ -88,8 +88,9 @@ std::optional<SurfaceFit> refineOn(const LocalSurfaces& surfaces, int levels, co
 
 std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
                                            const PosePrior& prior) {
-  const auto fit = refineOn(surfaces, LocalSurfaces::kUsual, scan, grid, prior);
-  return fit ? fit : refineOn(surfaces, LocalSurfaces::kAll, scan, grid, prior);
+  LinesOfReturns lines(surfaces, scan.points.size());
+  const auto fit = refineOn(lines, LocalSurfaces::kUsual, scan, grid, prior);
+  return fit ? fit : refineOn(lines, LocalSurfaces::kAll, scan, grid, prior);
 }
 
 double shareOnWrongSide(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& map_from_scan) {
