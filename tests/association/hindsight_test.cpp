@@ -2,6 +2,7 @@
 // What only a whole run tells: the future of a track, that new objects are rare, and the front of an object.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "random_poses.h"
@@ -41,6 +42,29 @@ TEST(Hindsight, TheFutureOfATrackDecidesItsBeginning) {
   for (const auto& decision : result.decisions[1]) {
     const bool right = decision.association.measurement == 1;
     EXPECT_EQ(result.decisions[0][0].landmark == decision.landmark, right);
+  }
+}
+
+// The last sighting lies nearer to the left chair, and shows the points of the right one.
+TEST(Hindsight, PointsTellOnWhichObjectTheyAre) {
+  std::vector<std::int64_t> of_left, of_right;
+  for (int i = 0; i < 20; ++i) of_left.push_back(i), of_right.push_back(100 + i);
+  for (const bool shows_points : {true, false}) {
+    std::vector<std::vector<WorldMeasurement>> frames;
+    for (int frame = 0; frame < 6; ++frame) {
+      frames.push_back({inFrame(frame, 0), inFrame(frame, 1)});
+      frames.back()[0].measurement.features = of_left;
+      frames.back()[1].measurement.features = of_right;
+    }
+    frames.push_back({inFrame(6, 0.45)});
+    if (shows_points) frames.back()[0].measurement.features = of_right;
+    const auto result = reassociate(frames, {wellKnown(0, 0), wellKnown(1, 1)}, {}, AssociationModel{}, LandmarkRules{});
+    ASSERT_EQ(result.landmarks.size(), 2u);
+    const auto& before = result.decisions[5];
+    const LandmarkId expected = std::find_if(before.begin(), before.end(), [&](const BatchDecision& decision) {
+                                  return (decision.association.measurement == 1) == shows_points;
+                                })->landmark;
+    EXPECT_EQ(result.decisions[6][0].landmark, expected) << shows_points;
   }
 }
 

@@ -24,16 +24,24 @@ Eigen::Matrix2d jointCovariance(const WorldMeasurement& seen, const Landmark& la
          shared * shared * Eigen::Matrix2d::Identity();
 }
 
-// Density of a place anywhere on the viewing ray that passes the landmark, 1/m^2; 0 off the ray.
-double rayDensity(const WorldMeasurement& seen, const Landmark& landmark, double shared, double gate) {
+// From the camera to the place that was measured, on the ground.
+struct ViewingRay {
+  Eigen::Vector2d camera, to_place;  // m, world
+};
+
+ViewingRay viewingRay(const WorldMeasurement& seen) {
   const Pose3 world_from_camera =
       seen.world_from_object * seen.measurement.proposal.camera_from_object.inverse();
   const Eigen::Vector2d camera = world_from_camera.translation().head<2>();
-  const Eigen::Vector2d ray = seen.world_from_object.translation().head<2>() - camera;
-  const double range = ray.norm();
+  return {camera, seen.world_from_object.translation().head<2>() - camera};
+}
+
+// Density of a place anywhere on the viewing ray that passes the landmark, 1/m^2; 0 off the ray.
+double rayDensity(const WorldMeasurement& seen, const ViewingRay& ray, const Landmark& landmark, double shared, double gate) {
+  const double range = ray.to_place.norm();
   if (range < kLeastRange_m) return 0;
-  const Eigen::Vector2d along = ray / range, across(-along.y(), along.x());
-  const Eigen::Vector2d gap = landmark.position.head<2>() - camera;
+  const Eigen::Vector2d along = ray.to_place / range, across(-along.y(), along.x());
+  const Eigen::Vector2d gap = landmark.position.head<2>() - ray.camera;
   const double landmark_range = along.dot(gap);
   if (landmark_range < kLeastRange_m || landmark_range > kRayLength_m) return 0;
   const double variance = across.dot(jointCovariance(seen, landmark, shared) * across) *
@@ -99,7 +107,7 @@ double MeasurementModel::squaredDistance(const WorldMeasurement& seen, const Lan
 bool MeasurementModel::inGate(const WorldMeasurement& seen, const Landmark& landmark) const {
   if (landmark.class_name != seen.measurement.proposal.class_name) return false;
   return squaredDistance(seen, landmark) <= gate_sigma * gate_sigma ||
-         (wrong_depth > 0 && rayDensity(seen, landmark, shared_error_m, gate_sigma) > 0);
+         (wrong_depth > 0 && rayDensity(seen, viewingRay(seen), landmark, shared_error_m, gate_sigma) > 0);
 }
 
 double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landmark& landmark) const {
@@ -111,19 +119,27 @@ double MeasurementModel::placeDensity(const WorldMeasurement& seen, const Landma
          (2 * std::numbers::pi * scale * std::sqrt(determinant));
 }
 
-double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark, const OwnBox& own) const {
-  const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
-  const double ray = rayDensity(seen, landmark, shared_error_m, gate_sigma);
+namespace {
+
+// `on_ray`: the landmark's rayDensity().
+double densityWith(const MeasurementModel& model, const WorldMeasurement& seen, const Landmark& landmark, double on_ray, const OwnBox& own) {
+  const double failed = model.wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
   // The proposal's position already contains the information of box and depth; the box adds some only where the depth
   // is an outlier.
-  return (1 - failed) * placeDensity(seen, landmark) +
-         (ray > 0 ? failed * ray * boxRatio(seen, landmark, own) : 0);
+  return (1 - failed) * model.placeDensity(seen, landmark) +
+         (on_ray > 0 ? failed * on_ray * model.boxRatio(seen, landmark, own) : 0);
+}
+
+}  // namespace
+
+double MeasurementModel::density(const WorldMeasurement& seen, const Landmark& landmark, const OwnBox& own) const {
+  return densityWith(*this, seen, landmark, rayDensity(seen, viewingRay(seen), landmark, shared_error_m, gate_sigma), own);
 }
 
 double MeasurementModel::depthTrust(const WorldMeasurement& seen, const Landmark& landmark) const {
   const double failed = wrong_depth * (1 - std::clamp(seen.measurement.proposal.score, 0.0, 1.0));
   const double own = (1 - failed) * placeDensity(seen, landmark);
-  const double whole = own + failed * rayDensity(seen, landmark, shared_error_m, gate_sigma);
+  const double whole = own + failed * rayDensity(seen, viewingRay(seen), landmark, shared_error_m, gate_sigma);
   return whole > 0 ? own / whole : 1 - failed;
 }
 
@@ -132,9 +148,12 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
   const auto& proposal = seen.measurement.proposal;
   Alternatives out;
   out.fresh = new_density_per_m2;
+  const ViewingRay ray = viewingRay(seen);
   for (const auto& landmark : landmarks) {
     if (landmark.class_name == proposal.class_name) {
-      if (inGate(seen, landmark)) out.same_class.emplace_back(landmark.id, density(seen, landmark, own));
+      const double on_ray = rayDensity(seen, ray, landmark, shared_error_m, gate_sigma);
+      const bool in_gate = squaredDistance(seen, landmark) <= gate_sigma * gate_sigma || (wrong_depth > 0 && on_ray > 0);
+      if (in_gate) out.same_class.emplace_back(landmark.id, densityWith(*this, seen, landmark, on_ray, own));
       continue;
     }
     const double size = proposal.shape.horizontalExtent() + landmark.shape.horizontalExtent();

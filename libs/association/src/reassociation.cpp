@@ -10,6 +10,7 @@
 #include <set>
 
 #include "alternative_weights.h"
+#include "feature_votes.h"
 #include "roomgraph/association/landmark_fusion.h"
 #include "track_memory.h"
 
@@ -29,64 +30,32 @@ struct Evidence {
   Priors shares;  // p0
 };
 
-// Sightings of every feature point, by landmark.
-using FeatureVotes = std::map<std::int64_t, std::map<LandmarkId, int>>;
-
-FeatureVotes voteFeatures(const Frames& frames, const Decisions& decisions) {
-  FeatureVotes votes;
-  for (std::size_t f = 0; f < decisions.size(); ++f)
-    for (std::size_t k = 0; k < decisions[f].size(); ++k)
-      for (const auto feature : frames[f][k].measurement.features) ++votes[feature][decisions[f][k].landmark];
-  return votes;
-}
-
-// p0 from the other sightings of the points, without those of the measurement itself.
-std::vector<double> featureShares(const ObjectMeasurement& measurement, LandmarkId own,
-                                  const std::vector<LandmarkId>& ids, const FeatureVotes& votes,
-                                  double neutral) {
-  std::map<LandmarkId, double> owned;
-  double total = neutral;
-  for (const auto feature : measurement.features) {
-    const auto found = votes.find(feature);
-    if (found == votes.end()) continue;
-    double sum = 0;
-    for (const auto& [id, count] : found->second) sum += count - (id == own);
-    if (sum <= 0) continue;
-    total += 1;
-    for (const auto& [id, count] : found->second) owned[id] += (count - (id == own)) / sum;
-  }
-  std::vector<double> out;
-  for (const auto id : ids) out.push_back((owned[id] + neutral / static_cast<double>(ids.size())) / total);
-  return out;
-}
-
 using OwnBoxes = std::vector<std::vector<OwnBox>>;  // by frame, measurement
 
-void forEachFrame(const Frames& frames, const std::function<void(std::size_t)>& work) {
-  cv::parallel_for_(cv::Range(0, static_cast<int>(frames.size())), [&](const cv::Range& range) {
-    for (int f = range.start; f < range.end; ++f) work(static_cast<std::size_t>(f));
+void inParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
+  cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) work(static_cast<std::size_t>(i));
   });
 }
 
 OwnBoxes ownBoxes(const Frames& frames, const MeasurementModel& model) {
   OwnBoxes out(frames.size());
-  forEachFrame(frames, [&](std::size_t f) {
+  inParallel(frames.size(), [&](std::size_t f) {
     for (const auto& seen : frames[f]) out[f].push_back(model.ownBox(seen));
   });
   return out;
 }
 
-Evidence gather(const Frames& frames, const OwnBoxes& boxes, const Decisions& last, const std::vector<Landmark>& landmarks,
-                const AssociationModel& model) {
-  const FeatureVotes votes = voteFeatures(frames, last);
+// `votes`: those of the decisions in `last`.
+Evidence gather(const Frames& frames, const OwnBoxes& boxes, const FeatureVotes& votes, const Decisions& last,
+                const std::vector<Landmark>& landmarks, const AssociationModel& model) {
   Evidence out{std::vector<std::vector<Alternatives>>(frames.size()), Priors(frames.size())};
-  forEachFrame(frames, [&](std::size_t f) {
+  inParallel(frames.size(), [&](std::size_t f) {
     for (std::size_t k = 0; k < frames[f].size(); ++k) {
       out.alternatives[f].push_back(model.measurement.alternatives(frames[f][k], landmarks, boxes[f][k]));
       out.alternatives[f].back().fresh *= kNewObjectPriorInBatch;
       const LandmarkId own = last.empty() ? LandmarkId{} : last[f][k].landmark;
-      out.shares[f].push_back(featureShares(frames[f][k].measurement, own, idsOf(out.alternatives[f][k]),
-                                            votes, model.neutral_features));
+      out.shares[f].push_back(votes.shares(f, k, own, idsOf(out.alternatives[f][k]), model.neutral_features));
     }
   });
   return out;
@@ -117,14 +86,14 @@ Priors filter(const Frames& frames, const Evidence& evidence, const AssociationM
 
 std::vector<std::vector<Association>> smooth(const Frames& frames, const Evidence& evidence,
                                              const AssociationModel& model) {
-  Priors both = filter(frames, evidence, model, false);
-  const Priors later = filter(frames, evidence, model, true);
-  std::vector<std::vector<Association>> out;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
+  Priors both, later;
+  inParallel(2, [&](std::size_t way) { (way == 0 ? both : later) = filter(frames, evidence, model, way == 1); });
+  std::vector<std::vector<Association>> out(frames.size());
+  inParallel(frames.size(), [&](std::size_t f) {
     for (std::size_t k = 0; k < both[f].size(); ++k)
       for (std::size_t i = 0; i < both[f][k].size(); ++i) both[f][k][i] *= later[f][k][i];
-    out.push_back(decide(evidence, f, model, both[f]));
-  }
+    out[f] = decide(evidence, f, model, both[f]);
+  });
   return out;
 }
 
@@ -302,8 +271,10 @@ void nameFirstSightings(Reassociation& result) {
 Reassociation reassociate(const Frames& by_frame, std::vector<Landmark> initial, LandmarkIdentity identity,
                           const AssociationModel& model, const LandmarkRules& rules, int max_rounds) {
   const OwnBoxes boxes = ownBoxes(by_frame, model.measurement);
+  FeatureVotes votes(by_frame);
   const auto smoothed = [&](const std::vector<Landmark>& landmarks, const Decisions& last) {
-    return smooth(by_frame, gather(by_frame, boxes, last, landmarks, model), model);
+    votes.count(last);
+    return smooth(by_frame, gather(by_frame, boxes, votes, last, landmarks, model), model);
   };
   return reassociate(by_frame, std::move(initial), std::move(identity), smoothed, model.measurement, rules,
                      max_rounds);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "ray_evidence.h"
 #include "roomgraph/core/order_statistics.h"
@@ -60,19 +61,39 @@ Eigen::Vector2d placeAtSize(const Pose3& world_from_object, const Proposal& prop
 
 using SeenByLandmark = std::map<LandmarkId, Seen>;
 
+bool standInEachOther(const Landmark& a, const Landmark& b) {
+  return a.class_name == b.class_name && (a.position - b.position).head<2>().norm() < a.shape.horizontalExtent();
+}
+
+using ById = std::map<LandmarkId, const Landmark*>;
+
+// Those that were sighted at that time or later, and what stands where one of these cannot stand beside it.
+ById concerned(const std::vector<Landmark>& landmarks, const ObjectFrames& frames, double since_t) {
+  std::set<LandmarkId> sighted;
+  for (std::size_t i = frames.size(); i-- > 0 && frames[i].t >= since_t;)
+    for (const auto& decision : frames[i].decisions) sighted.insert(decision.landmark);
+  ById out;
+  for (const Landmark& landmark : landmarks) {
+    if (!sighted.contains(landmark.id)) continue;
+    out[landmark.id] = &landmark;
+    for (const Landmark& other : landmarks)
+      if (standInEachOther(landmark, other)) out[other.id] = &other;
+  }
+  return out;
+}
+
 // Without boxes that were carried from the detection before. Of those that were given up enough are kept.
-SeenByLandmark seenPlaces(const std::vector<Landmark>& landmarks, const ObjectFrames& frames, const KeyPoses& poses) {
-  std::map<LandmarkId, const Landmark*> known;
-  for (const auto& landmark : landmarks) known[landmark.id] = &landmark;
+SeenByLandmark seenPlaces(const ById& landmarks, const ObjectFrames& frames, const KeyPoses& poses) {
   SeenByLandmark out;
   for (const auto& frame : frames) {
-    const Pose3 world_from_camera = poses.at(frame.t) * frame.robot_from_camera;
+    std::optional<Pose3> world_from_camera;  // blended from key poses: only where it is needed
     for (const auto& decision : frame.decisions) {
-      const auto landmark = known.find(decision.landmark);
+      const auto landmark = landmarks.find(decision.landmark);
       const Proposal& proposal = decision.seen.measurement.proposal;
-      if (landmark == known.end() || proposal.class_name != landmark->second->class_name) continue;
+      if (landmark == landmarks.end() || proposal.class_name != landmark->second->class_name) continue;
       if (decision.seen.measurement.detection.carried) continue;
-      const Pose3 world_from_object = world_from_camera * proposal.camera_from_object;
+      if (!world_from_camera) world_from_camera = poses.at(frame.t) * frame.robot_from_camera;
+      const Pose3 world_from_object = *world_from_camera * proposal.camera_from_object;
       out[decision.landmark].push_back({frame.t, placeAtSize(world_from_object, proposal, *landmark->second)});
     }
   }
@@ -86,10 +107,6 @@ Seen ofOneObject(const Seen& a, const Seen& b) {
   const auto at_once = [](const auto& x, const auto& y) { return x.t == y.t; };
   if (std::adjacent_find(out.begin(), out.end(), at_once) != out.end()) out.clear();
   return out;
-}
-
-bool standInEachOther(const Landmark& a, const Landmark& b) {
-  return a.class_name == b.class_name && (a.position - b.position).head<2>().norm() < a.shape.horizontalExtent();
 }
 
 // Points of the volume at `here` that are not in the one at `there`, world.
@@ -138,7 +155,7 @@ std::optional<ChangeOfPlace> changeOfPlace(const std::vector<PlaceInTime>& seen)
 
 std::vector<MovedLandmark> movedLandmarks(const std::vector<Landmark>& landmarks, const ObjectFrames& frames, const KeyPoses& poses,
                                           double since_t) {
-  const SeenByLandmark seen = seenPlaces(landmarks, frames, poses);
+  const SeenByLandmark seen = seenPlaces(concerned(landmarks, frames, since_t), frames, poses);
   std::vector<MovedLandmark> alone, pairs;
   for (const Landmark& landmark : landmarks) {
     const auto own = seen.find(landmark.id);

@@ -27,6 +27,14 @@ void rename(ObjectDecision& decision, const std::function<LandmarkId(LandmarkId)
   decision.association.posterior = renamed(decision.association.posterior, id_today);
 }
 
+// Whether it names a landmark that has another id today.
+bool isOutdated(const ObjectDecision& decision, const LandmarkIdentity& identity) {
+  const auto has_other = [&](LandmarkId id) { return identity.today(id) != id; };
+  const auto& posterior = decision.association.posterior;
+  return has_other(decision.landmark) || has_other(decision.association.landmark) ||
+         std::any_of(posterior.begin(), posterior.end(), [&](const auto& weighted) { return has_other(weighted.first); });
+}
+
 // Features with depth; of the others only their object is stored.
 std::vector<FeatureTrack> featuresOnObjects(const std::vector<ObjectDecision>& decisions,
                                             const std::vector<FeatureTrack>& features) {
@@ -198,9 +206,12 @@ void ObjectMapper::tidy() {
 // After merges and splits.
 void ObjectMapper::renameSightings() {
   const LandmarkIdentity& identity = landmarks_.identity();
-  for (std::size_t i = 0; i < frames_.size(); ++i)
+  const auto is_outdated = [&](const ObjectDecision& decision) { return isOutdated(decision, identity); };
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    if (std::none_of(frames_[i].decisions.begin(), frames_[i].decisions.end(), is_outdated)) continue;  // a change may be a copy
     for (auto& decision : frames_.change(i).decisions)
       rename(decision, [&identity](LandmarkId id) { return identity.today(id); });
+  }
   for (auto& sighting : frames_.changeFormer()) sighting.landmark = identity.today(sighting.landmark);
   associator_->identitiesChanged(identity);
   respan();
