@@ -24,28 +24,37 @@ Eigen::Matrix2d jointCovariance(const WorldMeasurement& seen, const Landmark& la
          shared * shared * Eigen::Matrix2d::Identity();
 }
 
-// From the camera to the place that was measured, on the ground.
+// Out of any gate: farther than in the direction of the largest variance, which is less than the sum of both.
+bool isFar(const WorldMeasurement& seen, const Landmark& landmark, double shared, double gate) {
+  constexpr double kRounding = 1.01;
+  return apart(seen, landmark).squaredNorm() > kRounding * gate * gate * jointCovariance(seen, landmark, shared).trace();
+}
+
+// From the camera through the place that was measured, on the ground.
 struct ViewingRay {
-  Eigen::Vector2d camera, to_place;  // m, world
+  Eigen::Vector2d camera = Eigen::Vector2d::Zero(), along = Eigen::Vector2d::Zero();  // m, world; a unit vector
+  double range = 0;                                                                   // of the place, m
 };
 
 ViewingRay viewingRay(const WorldMeasurement& seen) {
   const Pose3 world_from_camera =
       seen.world_from_object * seen.measurement.proposal.camera_from_object.inverse();
-  const Eigen::Vector2d camera = world_from_camera.translation().head<2>();
-  return {camera, seen.world_from_object.translation().head<2>() - camera};
+  ViewingRay out{.camera = world_from_camera.translation().head<2>()};
+  const Eigen::Vector2d ray = seen.world_from_object.translation().head<2>() - out.camera;
+  out.range = ray.norm();
+  if (out.range >= kLeastRange_m) out.along = ray / out.range;
+  return out;
 }
 
 // Density of a place anywhere on the viewing ray that passes the landmark, 1/m^2; 0 off the ray.
 double rayDensity(const WorldMeasurement& seen, const ViewingRay& ray, const Landmark& landmark, double shared, double gate) {
-  const double range = ray.to_place.norm();
-  if (range < kLeastRange_m) return 0;
-  const Eigen::Vector2d along = ray.to_place / range, across(-along.y(), along.x());
+  if (ray.range < kLeastRange_m) return 0;
+  const Eigen::Vector2d across(-ray.along.y(), ray.along.x());
   const Eigen::Vector2d gap = landmark.position.head<2>() - ray.camera;
-  const double landmark_range = along.dot(gap);
+  const double landmark_range = ray.along.dot(gap);
   if (landmark_range < kLeastRange_m || landmark_range > kRayLength_m) return 0;
   const double variance = across.dot(jointCovariance(seen, landmark, shared) * across) *
-                          std::max(1.0, std::pow(landmark_range / range, 2));
+                          std::max(1.0, std::pow(landmark_range / ray.range, 2));
   const double squared = std::pow(across.dot(gap), 2) / variance;
   if (squared > gate * gate) return 0;
   return std::exp(-squared / 2) / std::sqrt(2 * std::numbers::pi * variance) / kRayLength_m;
@@ -148,16 +157,17 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
   const auto& proposal = seen.measurement.proposal;
   Alternatives out;
   out.fresh = new_density_per_m2;
+  const double extent = proposal.shape.horizontalExtent();
   const ViewingRay ray = viewingRay(seen);
   for (const auto& landmark : landmarks) {
     if (landmark.class_name == proposal.class_name) {
       const double on_ray = rayDensity(seen, ray, landmark, shared_error_m, gate_sigma);
-      const bool in_gate = squaredDistance(seen, landmark) <= gate_sigma * gate_sigma || (wrong_depth > 0 && on_ray > 0);
+      const bool in_gate = (wrong_depth > 0 && on_ray > 0) ||
+                           (!isFar(seen, landmark, shared_error_m, gate_sigma) && squaredDistance(seen, landmark) <= gate_sigma * gate_sigma);
       if (in_gate) out.same_class.emplace_back(landmark.id, densityWith(*this, seen, landmark, on_ray, own));
       continue;
     }
-    const double size = proposal.shape.horizontalExtent() + landmark.shape.horizontalExtent();
-    if (apart(seen, landmark).norm() > size) continue;
+    if (apart(seen, landmark).norm() > extent + landmark.shape.horizontalExtent()) continue;
     const double overlap =
         footprintOverlap(proposal.shape, seen.world_from_object, landmark.shape, landmark.worldFromObject());
     if (overlap < kSamePlace) continue;
