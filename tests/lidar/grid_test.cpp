@@ -167,6 +167,25 @@ TEST(ScorePyramid, LevelsAreMaximaOverSquares) {
   expectMaxima(before, grid);
 }
 
+TEST(ScorePyramid, SumsAtCornersAreThoseOfTheCells) {
+  const ProbabilityGrid grid = mapOf(asymmetricRoom(), {{0, 0, 0}});
+  const ScorePyramid pyramid(grid, 4);
+  std::mt19937 random(2);
+  std::uniform_int_distribution<int> x(-12, grid.width() + 12), y(-12, grid.height() + 12), shift(-9, 9);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<ScorePyramid::Cell> cells;
+    for (int j = 0; j < 20; ++j) cells.push_back({x(random), y(random)});
+    const int level = i % 4, side = 1 << level;
+    const ScorePyramid::Cell by{shift(random), shift(random)};
+    std::array<int, 4> expected{};
+    for (const auto& cell : cells)
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        expected[corner] += pyramid.at(level, cell.x + by.x + (corner < 2 ? 0 : side), cell.y + by.y + (corner % 2 == 0 ? 0 : side));
+    EXPECT_EQ(pyramid.sumsAtCorners(level, cells, by, side), expected) << i;
+    EXPECT_EQ(pyramid.sum(level, cells, by), expected[0]) << i;
+  }
+}
+
 TEST(RecentPyramids, AreThoseAskedForLast) {
   std::vector<ProbabilityGrid> grids;
   for (int i = 0; i < 5; ++i) grids.push_back(mapOf(asymmetricRoom(), {{0.3 * i, 0, 0}}));

@@ -142,7 +142,7 @@ TEST_F(Refinement, LinesOfReturnsThatMoveAreThoseOfTheirPlaces) {
   map(test::asymmetricRoom(), 0.02);
   FacedScan scan = faced(seenFrom(test::asymmetricRoom(), {}, random, 0.02));
   scan.points.push_back({std::numeric_limits<double>::quiet_NaN(), 0});
-  scan.facing_rad.push_back(0);
+  scan.facing_rad.push_back(std::numeric_limits<double>::quiet_NaN());
   LinesOfReturns lines(surfaces, scan.points.size());
   std::normal_distribution<double> step(0, 0.02);
   Pose2 pose;
@@ -158,6 +158,7 @@ TEST_F(Refinement, LinesOfReturnsThatMoveAreThoseOfTheirPlaces) {
       ++found;
       ASSERT_EQ(line->mean, expected->mean);
       ASSERT_EQ(line->normal, expected->normal);
+      ASSERT_EQ(line->variance_m2, expected->variance_m2);
     }
     pose = {pose.x + step(random), pose.y + step(random), pose.yaw + step(random)};
   }

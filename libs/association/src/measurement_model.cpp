@@ -24,7 +24,7 @@ Eigen::Matrix2d jointCovariance(const WorldMeasurement& seen, const Landmark& la
          shared * shared * Eigen::Matrix2d::Identity();
 }
 
-// Out of any gate: farther than in the direction of the largest variance, which is less than the sum of both.
+// Surely out of the gate: even along the largest variance, which is at most the sum of both.
 bool isFar(const WorldMeasurement& seen, const Landmark& landmark, double shared, double gate) {
   constexpr double kRounding = 1.01;
   return apart(seen, landmark).squaredNorm() > kRounding * gate * gate * jointCovariance(seen, landmark, shared).trace();
@@ -42,7 +42,7 @@ ViewingRay viewingRay(const WorldMeasurement& seen) {
   ViewingRay out{.camera = world_from_camera.translation().head<2>()};
   const Eigen::Vector2d ray = seen.world_from_object.translation().head<2>() - out.camera;
   out.range = ray.norm();
-  if (out.range >= kLeastRange_m) out.along = ray / out.range;
+  if (!(out.range < kLeastRange_m)) out.along = ray / out.range;
   return out;
 }
 
@@ -161,8 +161,8 @@ Alternatives MeasurementModel::alternatives(const WorldMeasurement& seen,
   const ViewingRay ray = viewingRay(seen);
   for (const auto& landmark : landmarks) {
     if (landmark.class_name == proposal.class_name) {
-      const double on_ray = rayDensity(seen, ray, landmark, shared_error_m, gate_sigma);
-      const bool in_gate = (wrong_depth > 0 && on_ray > 0) ||
+      const double on_ray = wrong_depth > 0 ? rayDensity(seen, ray, landmark, shared_error_m, gate_sigma) : 0;
+      const bool in_gate = on_ray > 0 ||
                            (!isFar(seen, landmark, shared_error_m, gate_sigma) && squaredDistance(seen, landmark) <= gate_sigma * gate_sigma);
       if (in_gate) out.same_class.emplace_back(landmark.id, densityWith(*this, seen, landmark, on_ray, own));
       continue;

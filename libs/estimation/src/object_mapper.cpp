@@ -208,7 +208,7 @@ void ObjectMapper::renameSightings() {
   const LandmarkIdentity& identity = landmarks_.identity();
   const auto is_outdated = [&](const ObjectDecision& decision) { return isOutdated(decision, identity); };
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (std::none_of(frames_[i].decisions.begin(), frames_[i].decisions.end(), is_outdated)) continue;  // a change may be a copy
+    if (std::none_of(frames_[i].decisions.begin(), frames_[i].decisions.end(), is_outdated)) continue;  // change() may copy the frame
     for (auto& decision : frames_.change(i).decisions)
       rename(decision, [&identity](LandmarkId id) { return identity.today(id); });
   }

@@ -96,7 +96,7 @@ class BranchAndBound {
   static bool isBetter(const Candidate& a, const Candidate& b) { return a.bound > b.bound; }
 
   struct Quarters {
-    std::array<Candidate, 4> candidates;
+    std::array<Candidate, 4> candidates{};
     std::size_t count = 0;
   };
 

@@ -149,12 +149,12 @@ void ProbabilityGrid::encode() {
 
 std::vector<std::uint8_t> ProbabilityGrid::bytes() const {
   const auto byteOf = [](float cell) { return static_cast<std::uint8_t>(std::max(kMin, cell) * 255.f); };
-  std::vector<std::uint8_t> of_cells(cells_.size());
-  std::transform(cells_.begin(), cells_.end(), of_cells.begin(), byteOf);
-  if (values_.empty()) return of_cells;
-  std::vector<std::uint8_t> of_values(values_.size()), of_codes(codes_.size());
-  std::transform(values_.begin(), values_.end(), of_values.begin(), byteOf);
-  std::transform(codes_.begin(), codes_.end(), of_codes.begin(), [&](std::uint16_t code) { return of_values[code]; });
+  const std::vector<float>& numbers = values_.empty() ? cells_ : values_;
+  std::vector<std::uint8_t> of_numbers(numbers.size());
+  std::transform(numbers.begin(), numbers.end(), of_numbers.begin(), byteOf);
+  if (values_.empty()) return of_numbers;
+  std::vector<std::uint8_t> of_codes(codes_.size());
+  std::transform(codes_.begin(), codes_.end(), of_codes.begin(), [&](std::uint16_t code) { return of_numbers[code]; });
   return of_codes;
 }
 

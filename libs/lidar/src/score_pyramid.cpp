@@ -36,7 +36,7 @@ std::vector<std::uint8_t> joined(const std::vector<std::uint8_t>& from, std::siz
 ScorePyramid::Level ScorePyramid::coarser(const Level& fine, int half) {
   Level out{fine.width + half, fine.height + half, fine.offset_x + half, fine.offset_y + half, {}};
   if (fine.cells.empty()) {
-    out.cells.assign(static_cast<std::size_t>(half) * static_cast<std::size_t>(half), kOutside);
+    out.cells.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), kOutside);
     return out;
   }
   const auto shift = static_cast<std::size_t>(half);

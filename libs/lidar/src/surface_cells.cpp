@@ -18,12 +18,6 @@ constexpr double kLongestAcross = 0.15;  // variance across over variance along:
 constexpr int kReach = 6;                // neighbours on either side of a return, in the order of the beams
 constexpr double kNear_m = 0.15, kNearPerRange = 0.06;  // farther returns are no neighbours
 
-// Numbers of cells must fit 32 bits.
-bool isReachable(const Eigen::Vector2d& point) {
-  constexpr double kFarthest_m = 1e6;
-  return std::abs(point.x()) < kFarthest_m && std::abs(point.y()) < kFarthest_m;  // false for what is not finite
-}
-
 /// Sums over points, from some origin.
 struct Scatter {
   double count = 0;
@@ -49,6 +43,12 @@ std::optional<SurfaceLine> lineThrough(const Scatter& sums, double fewest) {
 }
 
 }  // namespace
+
+// Numbers of cells must fit 32 bits.
+bool SurfaceCells::isReachable(const Eigen::Vector2d& point) {
+  constexpr double kFarthest_m = 1e6;
+  return std::abs(point.x()) < kFarthest_m && std::abs(point.y()) < kFarthest_m;  // false for what is not finite
+}
 
 int SurfaceCells::sectorOf(double facing_rad) {
   const double turns = wrapAngle(facing_rad) / (2 * std::numbers::pi) + 0.5;
@@ -99,15 +99,13 @@ void SurfaceCells::insert(const FacedScan& scan) {
   }
 }
 
-std::optional<SurfaceCells::Place> SurfaceCells::placeOf(const Eigen::Vector2d& point, int sector) const {
-  if (!isReachable(point)) return std::nullopt;
-  return Place{static_cast<std::int32_t>(std::floor(point.x() / cell_m_)), static_cast<std::int32_t>(std::floor(point.y() / cell_m_)),
-               sector};
+SurfaceCells::Place SurfaceCells::placeOf(const Eigen::Vector2d& point, int sector) const {
+  return {static_cast<std::int32_t>(std::floor(point.x() / cell_m_)), static_cast<std::int32_t>(std::floor(point.y() / cell_m_)), sector};
 }
 
 std::optional<SurfaceLine> SurfaceCells::around(const Eigen::Vector2d& point, double facing_rad) const {
-  const auto place = placeOf(point, sectorOf(facing_rad));
-  return place ? lineAt(*place) : std::nullopt;
+  if (!isReachable(point)) return std::nullopt;
+  return lineAt(placeOf(point, sectorOf(facing_rad)));
 }
 
 std::optional<SurfaceLine> SurfaceCells::lineAt(const Place& place) const {
@@ -149,13 +147,13 @@ std::optional<SurfaceLine> LocalSurfaces::around(const Eigen::Vector2d& point, d
 }
 
 const SurfaceLine* LinesOfReturns::around(std::size_t number, const Eigen::Vector2d& point, double facing_rad, int levels) {
+  if (!SurfaceCells::isReachable(point)) return nullptr;
   const int sector = SurfaceCells::sectorOf(facing_rad);
   for (int i = 0; i < levels; ++i) {
     const SurfaceCells& level = surfaces_.level(i);
-    const auto place = level.placeOf(point, sector);
-    if (!place) return nullptr;
+    const SurfaceCells::Place place = level.placeOf(point, sector);
     Found& found = found_[number][static_cast<std::size_t>(i)];
-    if (found.place != place) found = {place, level.lineAt(*place)};
+    if (found.place != place) found = {place, level.lineAt(place)};
     if (found.line) return &*found.line;
   }
   return nullptr;

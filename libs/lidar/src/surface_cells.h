@@ -48,9 +48,10 @@ class SurfaceCells {
     bool operator==(const Place&) const = default;
   };
   static constexpr int kSectors = 8;
+  /// Not where it is not finite or too far away: such a point has no place.
+  static bool isReachable(const Eigen::Vector2d& point);
   static int sectorOf(double facing_rad);
-  /// Nothing for a point that is not finite or too far away.
-  std::optional<Place> placeOf(const Eigen::Vector2d& point, int sector) const;
+  Place placeOf(const Eigen::Vector2d& point, int sector) const;
   std::optional<SurfaceLine> lineAt(const Place& place) const;
 
  private:
