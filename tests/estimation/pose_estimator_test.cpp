@@ -296,6 +296,40 @@ TEST_P(OverAGap, AClosureMovesWhatCameAfterIt) {
   EXPECT_EQ(nodes[1].world_from_robot.translation().x(), 1) << "what lies before the gap stays";
 }
 
+// Wheels are lifted, and images were lost: those that begin anew see how the robot goes on, and nothing else does.
+TEST(PoseEstimator, ASourceThatBeginsAnewCountsFromAKeyPoseOfItsOwn) {
+  const BackendOptions options;
+  Motion motion{MotionSource{kWheelNoise, true}, MotionSource{kScanNoise, false}, MotionSource{MotionNoise{}, true}};
+  PoseEstimator estimator(options, motion);
+  estimator.setPlanar();
+  const Matrix6d step = 1e-5 * Matrix6d::Identity();
+  constexpr int kLost = 20, kAgain = 23, kLast = 60;
+  constexpr double kStep_m = 0.05;
+  for (int i = 0; i <= kLast; ++i) {
+    const double t = 0.1 * i;
+    motion.odometry.add(t, Pose3::Identity(), 0);
+    if (i <= kLost) motion.visual.add(t, Pose3::Identity(), 0, step);
+    if (i >= kAgain) motion.visual.add(t, poseFromYpr(7 + kStep_m * (i - kAgain), 0, 0, 0, 0, 0), 1, step);
+    if (estimator.advance(t)) estimator.optimizeWindow();
+  }
+  EXPECT_NEAR(estimator.poses().at(0.1 * kAgain).translation().x(), 0, 0.01);
+  EXPECT_NEAR(estimator.poses().at(0.1 * kLast).translation().x(), kStep_m * (kLast - kAgain), 0.05);
+}
+
+// Where scans saw all, images that are lost again and again cost nothing.
+TEST(PoseEstimator, ScansNeedNoKeyPoseWhereImagesBeginAnew) {
+  const BackendOptions options;
+  Motion motion{MotionSource{kWheelNoise, true}, MotionSource{kScanNoise, false}, MotionSource{kScanNoise, true}};
+  PoseEstimator estimator(options, motion);
+  const Matrix6d step = 1e-5 * Matrix6d::Identity();
+  for (int i = 0; i <= 40; ++i) {
+    motion.lidar.add(0.1 * i, Pose3::Identity(), 0, step);
+    motion.visual.add(0.1 * i, Pose3::Identity(), i / 3, step);
+    estimator.advance(0.1 * i);
+  }
+  EXPECT_EQ(estimator.poses().nodes().size(), 1u);
+}
+
 // A camera held in the hand 1.3 m above the floor, pitched and rolled: the floor puts z up.
 TEST(PoseEstimator, TheFloorLevelsAHandheldWorld) {
   const BackendOptions options;

@@ -68,6 +68,59 @@ TEST(PoseSolver, RansacSaysWhenThereIsNoPose) {
   EXPECT_LT(ransacPose(scene.problem, 40).inliers, 40);
 }
 
+// Of a linear problem the optimum is the mean of both by their information.
+TEST(PoseSolver, APriorIsOneMoreMeasurement) {
+  Scene scene(5, 0, false);
+  scene.problem.prior = PosePrior{scene.camera_from_world, 0.02, 0.01};
+  PoseProblem unseen = scene.problem;
+  unseen.points.clear();
+  unseen.observations.clear();
+  const Pose3 start = poseFromYpr(0.03, -0.02, 0.01, 0.02, 0.01, 0) * scene.camera_from_world;
+  EXPECT_TRUE(refinePose(unseen, start).camera_from_world.isApprox(scene.camera_from_world, 1e-6)) << "by the prior alone";
+  const auto by_both = refinePose(scene.problem, scene.camera_from_world);
+
+  Vector6d off;
+  off << 4e-4, -3e-4, 2e-4, 1e-4, -2e-4, 1e-4;
+  scene.problem.prior->camera_from_world = leftPerturbation(off) * scene.camera_from_world;
+  const Matrix6d both = by_both.covariance.inverse();
+  Matrix6d prior = Matrix6d::Zero();
+  prior.diagonal() << Eigen::Vector3d::Constant(1 / (0.02 * 0.02)), Eigen::Vector3d::Constant(1 / (0.01 * 0.01));
+  const Vector6d expected = both.ldlt().solve(Vector6d(prior * off));
+  const Pose3 moved = refinePose(scene.problem, scene.camera_from_world).camera_from_world * scene.camera_from_world.inverse();
+  Vector6d found;
+  found << moved.translation(), logSO3(moved.linear());
+  EXPECT_LT((found - expected).norm(), 0.02 * expected.norm()) << found.transpose() << "; " << expected.transpose();
+}
+
+TEST(PoseSolver, DeviationsAreThoseOfBoth) {
+  const PosePrior prior{poseFromYpr(1, 2, 3, 0.4, 0.5, 0.6), 0.01, 0.02};
+  PoseSolution solution;
+  Vector6d off;
+  off << 0.03, 0, 0, 0, 0.08, 0;
+  solution.camera_from_world = leftPerturbation(off) * prior.camera_from_world;
+  solution.covariance.setZero();
+  EXPECT_NEAR(prior.deviation(solution.camera_from_world)[0], 3, 1e-9);
+  EXPECT_NEAR(prior.deviation(solution.camera_from_world)[4], 4, 1e-9);
+  EXPECT_NEAR(deviationFrom(prior, solution), 5, 1e-9);
+  solution.covariance.diagonal() << Eigen::Vector3d::Constant(3e-4), Eigen::Vector3d::Constant(12e-4);
+  EXPECT_NEAR(deviationFrom(prior, solution), 2.5, 1e-9) << "four times the variance";
+}
+
+TEST(PoseSolver, PixelErrorsAreInStandardDeviations) {
+  PoseProblem problem{{640, 480, 500, 500, 320, 240, {}}, {}, {}};
+  const TrackingParameters parameters;
+  for (const auto& [aside, depth, behind] : {std::tuple(3.0, 2.0, false), {0.0, 4.0, false}, {0.0, 2.0, true}}) {
+    problem.points.emplace_back(0, 0, behind ? -2 : 2);
+    problem.observations.push_back(makeObservation({320 + aside, 240}, 0, depth, parameters));
+  }
+  const auto errors = pixelErrors(problem, Pose3::Identity());
+  EXPECT_NEAR(errors[0], 9 / (parameters.pixel_sigma_px * parameters.pixel_sigma_px), 1e-9);
+  EXPECT_TRUE(std::isinf(errors[1])) << "another surface";
+  EXPECT_TRUE(std::isinf(errors[2])) << "behind the camera";
+  EXPECT_TRUE(agrees(5.9));
+  EXPECT_FALSE(agrees(6.1));
+}
+
 TEST(PoseSolver, CovarianceFitsTheErrorsThatOccur) {
   double normalized_error = 0;
   const int rounds = 40;

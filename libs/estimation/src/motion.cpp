@@ -18,6 +18,16 @@ namespace {
 // become ill-conditioned.
 constexpr double kUnmeasuredSigma = 0.5;
 
+constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
+
+// How far a robot may be from where it would be without accelerating, after that time squared.
+Matrix6d changeSquared(double seconds_squared) {
+  Vector6d change;
+  change << Eigen::Vector3d::Constant(kAcceleration_m_s2), Eigen::Vector3d::Constant(kAcceleration_rad_s2);
+  change *= 0.5 * seconds_squared;
+  return change.cwiseAbs2().asDiagonal();
+}
+
 Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool planar) {
   const double distance = movement.translation().norm(), angle = rotationAngle(movement);
   const double sigma_m = noise.floor_m + noise.per_m * distance;
@@ -29,7 +39,7 @@ Matrix6d modelCovariance(const MotionNoise& noise, const Pose3& movement, bool p
 }
 
 constexpr double kCarriedPause_s = 2, kStands_m = 0.1, kStands_rad = 0.1;  // of a source, in which the robot may be carried
-constexpr double kAcceleration_m_s2 = 0.5, kAcceleration_rad_s2 = 1;  // of indoor robots, one standard deviation
+constexpr double kSilent_s = 0.25;  // a longer time between two poses is not seen
 constexpr double kSourceWidth = 3;  // in standard deviations: wheels slip, images mislead
 constexpr std::array kOffFloor = {2, 3, 4};  // z, roll, pitch of a movement
 
@@ -125,18 +135,25 @@ Matrix6d MotionSource::stepSum(double t_a, double t_b) const {
   return until(std::max(t_a, t_b)) - until(std::min(t_a, t_b));
 }
 
+// Between two poses the movement may have changed and changed back.
+Matrix6d MotionSource::interpolation(double t) const {
+  const auto& poses = poses_.poses();
+  const auto after = std::lower_bound(poses.begin(), poses.end(), t, [](const StampedPose& pose, double time) { return pose.t < time; });
+  if (after == poses.begin() || after == poses.end()) return Matrix6d::Zero();
+  const double before_t = std::prev(after)->t;
+  if (after->t - before_t < kSilent_s) return Matrix6d::Zero();
+  return changeSquared((t - before_t) * (after->t - t));
+}
+
 // A pose beyond the last two, a and b, is b + r (b - a), r the share of their interval: both errors are in it, and how the movement has
 // changed since.
 Matrix6d MotionSource::extrapolation(double t) const {
   const auto& poses = poses_.poses();
-  if (poses.empty() || t <= poses.back().t) return Matrix6d::Zero();
+  if (poses.empty() || t <= poses.back().t) return interpolation(t);
   const double beyond_s = t - poses.back().t;
   if (beginnings_.contains(poses.back().t)) return unknownMovement(beyond_s).covariance;  // no step told of its velocity
   const double r = beyond_s / (poses.back().t - poses[poses.size() - 2].t);
-  Vector6d change;
-  change << Eigen::Vector3d::Constant(kAcceleration_m_s2), Eigen::Vector3d::Constant(kAcceleration_rad_s2);
-  change *= 0.5 * beyond_s * beyond_s;
-  return 2 * r * (1 + r) * stepAt(poses.back().t) + Matrix6d(change.cwiseAbs2().asDiagonal());
+  return 2 * r * (1 + r) * stepAt(poses.back().t) + changeSquared(beyond_s * beyond_s);
 }
 
 std::optional<Movement> MotionSource::between(double t_a, double t_b, double horizon_s) const {
@@ -144,7 +161,7 @@ std::optional<Movement> MotionSource::between(double t_a, double t_b, double hor
   const auto movement = poses_.between(t_a, t_b, horizon_s);
   if (!movement) return std::nullopt;
   return Movement{*movement, modelCovariance(noise_, *movement, planar_) + stepSum(t_a, t_b) + pausesWithin(t_a, t_b) +
-                                 extrapolation(std::max(t_a, t_b))};
+                                 interpolation(std::min(t_a, t_b)) + extrapolation(std::max(t_a, t_b))};
 }
 
 Matrix6d MotionSource::pausesWithin(double t_a, double t_b) const {

@@ -3,10 +3,12 @@
 #include "roomgraph/estimation/pose_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
 #include "live_solve.h"
+#include "local_maps.h"
 #include "roomgraph/core/result_store.h"
 
 namespace roomgraph {
@@ -18,6 +20,15 @@ constexpr std::size_t kLongGraph = 6000;  // key poses: more of them are in few 
 constexpr double kStillNearing = 0.9;  // of the former disagreement: less is on its way to none
 constexpr int kMostWeighings = 20;
 constexpr double kSettled_m = 1e-3;
+
+// A source that sees a time but not the movement since the last key pose has begun anew since: what it measures counts from a key pose on.
+// Where scans saw the movement that can wait.
+bool beginsAnew(const Motion& motion, double last_t, double t) {
+  if (motion.lidar.between(last_t, t, kSourceGap_s)) return false;
+  const auto begins = [&](const MotionSource* source) { return source->between(t, t, kSourceGap_s) && !source->between(last_t, t, kSourceGap_s); };
+  const std::array sources = {&motion.odometry, &motion.visual, &motion.lidar};
+  return std::any_of(sources.begin(), sources.end(), begins);
+}
 
 // The largest distance of a key pose from where it was.
 double movedBetween(const std::vector<KeyPose>& before, const std::vector<KeyPose>& after) {
@@ -49,7 +60,7 @@ bool PoseEstimator::advance(double t) {
   // After a gap that no source of motion covers, the pose is unknown: it becomes a key pose of its own.
   const KeyPose here{.t = t};
   const bool resumed = connected(motion_, here, here) && !connected(motion_, last, here);
-  const bool far = resumed || moved.translation().norm() > options_.node_distance_m ||
+  const bool far = resumed || beginsAnew(motion_, last.t, t) || moved.translation().norm() > options_.node_distance_m ||
                    rotationAngle(moved) > options_.node_angle_rad || t - last.t > options_.node_interval_s;
   if (!far) return false;
   addNode(t, last.world_from_robot * moved);

@@ -3,13 +3,16 @@
 #include "pose_solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 
 namespace roomgraph::tracking {
 namespace {
 
 constexpr double kChi2Pixel = 5.991;  // 95 %, 2 degrees of freedom
+constexpr double kOtherSurface = 10;  // sigma of depth
 constexpr double kMinDepth = 0.05;    // m, nearer points have no usable projection
 constexpr double kHuber = 1.5;        // sigma
 constexpr double kCauchy = 2.0;       // sigma
@@ -20,10 +23,19 @@ struct NormalEquations {
   double cost = 0;
 };
 
+// The derivative of the deviation by a perturbation is nearly the identity over the standard deviations.
+void addPrior(const PosePrior& prior, const Pose3& pose, NormalEquations& out) {
+  const Vector6d deviation = prior.deviation(pose), weights = prior.sigmas().cwiseInverse();
+  out.cost += deviation.squaredNorm();
+  out.hessian.diagonal() += weights.cwiseAbs2();
+  out.gradient += weights.cwiseProduct(deviation);
+}
+
 /// Huber on the pixel, Cauchy on the depth: depth at an edge may be off by any amount while the pixel is
 /// right.
 NormalEquations linearize(const PoseProblem& problem, const std::vector<char>& use, const Pose3& pose) {
   NormalEquations out;
+  if (problem.prior) addPrior(*problem.prior, pose, out);
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
     if (!use[i]) continue;
     const Eigen::Vector3d p = pose * problem.points[i];
@@ -68,18 +80,46 @@ Pose3 minimize(const PoseProblem& problem, const std::vector<char>& use, Pose3 p
 }
 
 void classify(const PoseProblem& problem, PoseSolution& solution) {
-  solution.inliers = 0;
-  for (std::size_t i = 0; i < problem.points.size(); ++i) {
-    const Eigen::Vector3d p = solution.camera_from_world * problem.points[i];
-    Eigen::Vector3d r = Eigen::Vector3d::Constant(1e9);
-    if (p.z() > kMinDepth) reprojectionResidual(problem.camera, problem.observations[i], p.data(), r.data());
-    // The pixel decides; a depth 10 sigma off still means another surface.
-    solution.inlier[i] = r.head<2>().squaredNorm() < kChi2Pixel && std::abs(r.z()) < 10;
-    solution.inliers += solution.inlier[i];
-  }
+  const std::vector<double> errors = pixelErrors(problem, solution.camera_from_world);
+  std::transform(errors.begin(), errors.end(), solution.inlier.begin(), agrees);
+  solution.inliers = static_cast<int>(std::count(solution.inlier.begin(), solution.inlier.end(), 1));
 }
 
 }  // namespace
+
+Vector6d PosePrior::sigmas() const {
+  Vector6d out;
+  out << Eigen::Vector3d::Constant(sigma_m), Eigen::Vector3d::Constant(sigma_rad);
+  return out;
+}
+
+Vector6d PosePrior::deviation(const Pose3& other_from_world) const {
+  const Pose3 difference = other_from_world * camera_from_world.inverse();
+  Vector6d out;
+  out << difference.translation(), logSO3(difference.linear());
+  return out.cwiseQuotient(sigmas());
+}
+
+double deviationFrom(const PosePrior& prior, const PoseSolution& solution) {
+  const Vector6d sigma = prior.sigmas(), deviation = prior.deviation(solution.camera_from_world);
+  const Matrix6d covariance = Matrix6d::Identity() + Matrix6d(sigma.cwiseInverse().asDiagonal() * solution.covariance * sigma.cwiseInverse().asDiagonal());
+  return std::sqrt(deviation.dot(covariance.llt().solve(deviation)));
+}
+
+std::vector<double> pixelErrors(const PoseProblem& problem, const Pose3& camera_from_world) {
+  std::vector<double> out(problem.points.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    const Eigen::Vector3d p = camera_from_world * problem.points[i];
+    if (p.z() <= kMinDepth) continue;
+    Eigen::Vector3d r;
+    reprojectionResidual(problem.camera, problem.observations[i], p.data(), r.data());
+    // The pixel decides; a depth 10 sigma off still means another surface.
+    if (std::abs(r.z()) < kOtherSurface) out[i] = r.head<2>().squaredNorm();
+  }
+  return out;
+}
+
+bool agrees(double squared_error) { return squared_error < kChi2Pixel; }
 
 PoseSolution refinePose(const PoseProblem& problem, const Pose3& camera_from_world, bool start_is_good) {
   PoseSolution solution;

@@ -65,6 +65,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others
   carried_ |= !records_.empty() && frame.t - last_t_ > kUntoldPause_s && !prior.previous_from_current;
   dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(expected(guess)));
+  measured_ = measured_ && prior.previous_from_current ? std::optional(normalized(*measured_ * *prior.previous_from_current)) : std::nullopt;
   if (const auto reason = unusable(frame, last_t_); !reason.empty()) return lost(reason, nullptr);
   last_t_ = frame.t;
   const auto known = results_ ? results_->recall("view", frame.t) : std::nullopt;
@@ -183,6 +184,7 @@ TrackingResult Tracker::start(View view) {
   if (!densely_placed_) velocity_.reset();
   habit_from_.reset();
   dead_reckoned_ = Pose3::Identity();
+  measured_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   carried_ = false;
   last_covariance_.setZero();
@@ -194,7 +196,7 @@ TrackingResult Tracker::start(View view) {
 
 TrackingResult Tracker::lost(const std::string& reason, View* view) {
   ++blind_frames_;
-  if (++lost_frames_ > parameters_.relocalisation_frames && view && view->moving == 0 && reference_ >= 0)
+  if (++lost_frames_ > parameters_.relocalisation_frames && view && view->moving == 0 && !ledPastMover(view->frame->t) && reference_ >= 0)
     return start(std::move(*view));
   TrackingResult result;
   result.reason = reason;
@@ -224,6 +226,7 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
     habit_from_.reset();
   }
   dead_reckoned_ = Pose3::Identity();
+  measured_ = Pose3::Identity();
   lost_frames_ = blind_frames_ = 0;
   carried_ = false;
   result.inliers = view.solution.inliers;

@@ -9,6 +9,7 @@
 #include "dense_chain.h"
 #include "feature_extractor.h"
 #include "local_map.h"
+#include "matcher.h"
 #include "movement_habits.h"
 #include "pose_solver.h"
 #include "roomgraph/core/read_ahead.h"
@@ -81,6 +82,14 @@ class Tracker {
   bool solve(View& view, int min_inliers, bool start_is_good) const;
   /// The same, where something may move before the camera: that gives up its points.
   bool solveWithMovers(View& view, const Pose3& predicted);
+  /// Where the last view and what other sensors measured since lead; nothing when they missed a part of that.
+  std::optional<PosePrior> measuredPose() const;
+  /// Whether the view may be placed by what moved a moment ago: that is far from where it was measured to be.
+  bool followsMover(const View& view) const;
+  /// Whether other sensors lead on because a view may show nothing but what moved a moment ago.
+  bool ledPastMover(double t) const;
+  /// Where something moves in this view nothing is matched, and nothing should be seen.
+  void leaveOutMover(View& view, std::vector<PointMatch>& matches) const;
   void giveUpMoving(View& view, const std::vector<std::size_t>& features);
   /// With what moved lately.
   TrackingPrior withMovers(const TrackingPrior& prior, double t) const;
@@ -151,6 +160,7 @@ class Tracker {
   std::optional<Pose3> velocity_;            ///< previous_from_current of the last step
   /// Movement since the last frame that features placed, as far as is known: now, and one frame before.
   Pose3 dead_reckoned_ = Pose3::Identity(), dead_reckoned_before_ = Pose3::Identity();
+  std::optional<Pose3> measured_ = Pose3::Identity();  ///< the same as other sensors saw it; nothing when they missed a part
   DenseChain dense_;                         ///< since that frame
   bool densely_placed_ = false;              ///< the frame being tracked
   MovementHabits habits_;

@@ -161,9 +161,10 @@ bool Tracker::trackLocalMap(View& view) {
                [](std::int64_t id) { return id >= 0; });
   const Pose3 camera_from_odom = view.odom_from_camera.inverse();
   const ProjectionSearch search{map_, view.frame->camera, camera_from_odom, parameters_.local_map_radius_px};
-  assign(view.points,
-         search.match(localPoints(view), view.features, view.points, parameters_, &view.in_view));
-  if (!solve(view, parameters_.min_inliers, true)) return false;
+  auto matches = search.match(localPoints(view), view.features, view.points, parameters_, &view.in_view);
+  leaveOutMover(view, matches);
+  assign(view.points, matches);
+  if (!solve(view, parameters_.min_inliers, true) || followsMover(view)) return false;
   count(view);
   const auto neighbours = map_.covisible(view.points);
   const bool reference_seen = std::any_of(neighbours.begin(), neighbours.end(),

@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A second solution from the prediction, and how far both are from it in the image.
+// A solution that the prediction holds, and one of what the camera's leaves out.
 #include "two_movements.h"
 
 #include <algorithm>
-
-#include "roomgraph/core/order_statistics.h"
+#include <limits>
 
 namespace roomgraph::tracking {
 namespace {
 
-constexpr int kLeastTogether = 10;      // observations of a second movement
-constexpr int kLeastWithout = 30;       // where no other sensor measured the first one: a velocity does not tell much
-constexpr double kShareTogether = 0.6;  // of what the first one leaves out,
+constexpr double kFar_sigma = 2;        // from the prediction: the movement may be that of something else
+constexpr int kLeastHeld = 20;          // observations that agree with the prediction,
+constexpr int kLeastWithout = 30;       // where no other sensor measured it: a velocity does not tell much
+constexpr double kMuchWorse = 1.5;      // times the cost these have in the far movement; without movers at most 1.2 was seen
+constexpr double kMostCost = 9;         // of an observation: it may be wrong
+constexpr double kLeastShare = 0.1;     // and such a share of the far movement's: a few may go along with the camera
+constexpr double kCoarse = 2;           // times the finest feature's standard deviation in the image
+constexpr double kSlips_sigma = 4;      // from the prediction, without any that agrees with it: what predicted has erred
+constexpr int kLeastTogether = 10;      // observations of something that moves:
+constexpr double kShareTogether = 0.6;  // of what the camera's movement leaves out,
 constexpr int kSurelyTogether = 20;     // or so many: of wrong matches no more than 13 were seen to agree
-constexpr double kEnough = 0.5;         // of the observations of the first one, if the prediction has so many
-constexpr double kLeastMover = 0.2;     // of them, where the first movement is the camera's
-constexpr double kMoves_px = 3;         // from where it was predicted, by the first movement,
-constexpr double kNearer = 0.5;         // and by the second one, as a share of that
-
-// How far the points lie apart in the image by two poses: the median.
-double pixelsApart(const PoseProblem& problem, const PoseSolution& solution, const Pose3& camera_from_world) {
-  std::vector<double> pixels;
-  for (std::size_t i = 0; i < problem.points.size(); ++i) {
-    const Eigen::Vector3d a = solution.camera_from_world * problem.points[i], b = camera_from_world * problem.points[i];
-    if (solution.inlier[i] && a.z() > 0 && b.z() > 0) pixels.push_back((problem.camera.project(a) - problem.camera.project(b)).norm());
-  }
-  return pixels.empty() ? 0 : median(std::move(pixels));
-}
+constexpr double kLeastMover = 0.2;     // of those of the camera's movement, if nothing moved lately
 
 PoseProblem part(const PoseProblem& problem, const std::vector<char>& kept) {
   PoseProblem out{problem.camera, {}, {}};
@@ -53,37 +46,65 @@ std::vector<char> without(const std::vector<char>& some) {
   return out;
 }
 
-std::vector<char> onlyIn(const PoseSolution& one, const PoseSolution& other) {
+// Coarse features go along with any movement.
+std::vector<char> fineOf(const PoseProblem& problem) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const Observation& one : problem.observations) finest = std::min(finest, one.pixel_sigma);
   std::vector<char> out;
-  for (std::size_t i = 0; i < one.inlier.size(); ++i) out.push_back(one.inlier[i] && !other.inlier[i]);
+  for (const Observation& one : problem.observations) out.push_back(one.pixel_sigma < kCoarse * finest);
   return out;
+}
+
+int countOf(const std::vector<char>& some) { return static_cast<int>(std::count(some.begin(), some.end(), 1)); }
+
+double costOf(const std::vector<double>& errors, const std::vector<char>& of) {
+  double sum = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) sum += of[i] ? std::min(errors[i], kMostCost) : 0;
+  return sum;
+}
+
+// What agrees with the prediction, which counts as a measurement.
+PoseSolution heldBy(const PosePrior& prediction, const PoseProblem& problem) {
+  const std::vector<char> fine = fineOf(problem);
+  PoseProblem held = part(problem, fine);
+  held.prior = prediction;
+  return inWhole(refinePose(held, prediction.camera_from_world, true), fine);
+}
+
+// The movement that the prediction holds is the camera's if what agrees with it fits the first one much worse. Where the camera alone
+// moves, the movement of most fits any part of them as well as one that is held elsewhere.
+std::optional<TwoMovements> heldApart(const PoseProblem& problem, const PoseSolution& first, const PriorOfMovements& prior) {
+  TwoMovements out{heldBy(prior.predicted, problem), {}};
+  PoseSolution& held = out.camera;
+  const std::vector<double> errors = pixelErrors(problem, held.camera_from_world), by_first = pixelErrors(problem, first.camera_from_world);
+  if (costOf(by_first, held.inlier) < kMuchWorse * costOf(errors, held.inlier)) return std::nullopt;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    out.moving.push_back(first.inlier[i] && !agrees(errors[i]));
+    held.inlier[i] = agrees(errors[i]) && (errors[i] < 1 || errors[i] < by_first[i]);
+  }
+  held.inliers = countOf(held.inlier);
+  const double least = std::max(1. * (prior.measured ? kLeastHeld : kLeastWithout), kLeastShare * first.inliers);
+  return held.inliers < least || countOf(out.moving) < kLeastTogether ? std::nullopt : std::optional(out);
+}
+
+// What the camera's movement leaves out may agree with another one.
+std::optional<TwoMovements> movesElsewhere(const PoseProblem& problem, const PoseSolution& camera, const PriorOfMovements& prior) {
+  const std::vector<char> rest = without(camera.inlier);
+  const int left = countOf(rest);
+  if (left < kLeastTogether) return std::nullopt;
+  const PoseSolution second = inWhole(refinePose(part(problem, rest), prior.predicted.camera_from_world), rest);
+  const bool together = second.inliers >= std::max(1. * kLeastTogether, std::min(1. * kSurelyTogether, kShareTogether * left));
+  const bool enough = prior.seen_lately || second.inliers >= kLeastMover * camera.inliers;
+  return together && enough ? std::optional(TwoMovements{camera, second.inlier}) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolution& solution, const Pose3& predicted_camera_from_world,
-                                      const PriorOfMovements& prior) {
-  const auto leftBy = [&](const PoseSolution& one) { return static_cast<int>(problem.points.size()) - one.inliers; };
-  const auto apartOf = [&](const PoseSolution& one) { return pixelsApart(problem, one, predicted_camera_from_world); };
-  if (apartOf(solution) < kMoves_px && leftBy(solution) < kLeastTogether) return std::nullopt;
-  const PoseSolution near = refinePose(problem, predicted_camera_from_world, true);
-  // With all of two movements one may come to rest between them.
-  const PoseSolution& first = near.inliers > solution.inliers ? near : solution;
-  const int left = leftBy(first);
-  const std::vector<char> rest = without(first.inlier);
-  const PoseSolution second = inWhole(refinePose(part(problem, rest), predicted_camera_from_world), rest);
-  const bool together = second.inliers >= std::max(1. * kLeastTogether, std::min(1. * kSurelyTogether, kShareTogether * left));
-  const double apart_px = apartOf(first);
-  if (apart_px < kMoves_px)
-    return together && (prior.seen_lately || second.inliers >= kLeastMover * first.inliers) ? std::optional(TwoMovements{first, second.inlier}) : std::nullopt;
-  const int least = prior.measured ? kLeastTogether : kLeastWithout;
-  if (together && second.inliers >= least && apartOf(second) < kNearer * apart_px) {
-    const PoseSolution camera = refinePose(problem, second.camera_from_world, true);  // some went with the first one as well
-    return TwoMovements{camera, onlyIn(first, camera)};
-  }
-  if (near.inliers >= std::max(1. * least, kEnough * first.inliers) && apartOf(near) < kNearer * apart_px)
-    return TwoMovements{near, onlyIn(first, near)};
-  return std::nullopt;
+std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolution& solution, const PriorOfMovements& prior) {
+  const double deviation = deviationFrom(prior.predicted, solution);
+  if (deviation > kFar_sigma)
+    if (auto apart = heldApart(problem, solution, prior)) return apart;
+  return deviation < kSlips_sigma ? movesElsewhere(problem, solution, prior) : std::nullopt;
 }
 
 }  // namespace roomgraph::tracking

@@ -10,6 +10,7 @@ namespace roomgraph::tracking {
 
 /// What is known beforehand.
 struct PriorOfMovements {
+  PosePrior predicted;
   bool measured = true;      ///< the prediction, by another sensor; else it is that the velocity goes on
   bool seen_lately = false;  ///< something moved; else now and then a few wrong matches agree
 };
@@ -19,10 +20,9 @@ struct TwoMovements {
   std::vector<char> moving;  ///< per observation: it goes with the other movement
 };
 
-/// `solution` solves the problem, with the most observations; what it leaves out may move together as well. The movement nearer to the
-/// predicted one is the camera's: most of an image may show a person who walks by. Nothing when there is one movement only, or when the
-/// second one is that of something small.
-std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolution& solution, const Pose3& predicted_camera_from_world,
-                                      const PriorOfMovements& prior = {});
+/// `solution` solves the problem, with the most observations. Most of an image may show a person who walks by: where it is far from the
+/// predicted one, the camera's movement is the one that agrees with that; else what it leaves out may move together. Nothing when there
+/// is one movement only, or when the second one is that of something small.
+std::optional<TwoMovements> tellApart(const PoseProblem& problem, const PoseSolution& solution, const PriorOfMovements& prior);
 
 }  // namespace roomgraph::tracking

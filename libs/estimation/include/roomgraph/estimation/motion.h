@@ -52,7 +52,9 @@ class MotionSource {
   Matrix6d stepSum(double t_a, double t_b) const;
   Matrix6d pausesWithin(double t_a, double t_b) const;
   Matrix6d stepAt(double t) const;
-  /// What a pose after the last one is more unsure than that.
+  /// How unsure a pose is within a time in which nothing was seen.
+  Matrix6d interpolation(double t) const;
+  /// The same, or what a pose after the last one is more unsure than that.
   Matrix6d extrapolation(double t) const;
 
   MotionNoise noise_;
