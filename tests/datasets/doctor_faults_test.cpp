@@ -10,7 +10,7 @@
 #include "roomgraph/core/random.h"
 #include "roomgraph/datasets/rawlog_reader.h"
 #include "roomgraph/datasets/rawlog_report.h"
-#include "roughness.h"
+#include "roomgraph/observations/roughness.h"
 
 namespace roomgraph {
 namespace {

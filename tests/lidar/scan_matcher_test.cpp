@@ -82,6 +82,33 @@ TEST(SubmapScanMatcher, ASlipOfTheWheelsDoesNotMoveTheScan) {
   }
 }
 
+// For a second, or for good, in which case wheels cannot lead on for ever.
+TEST(SubmapScanMatcher, WheelsLeadOverABurstOfNoise) {
+  const auto poses = bow();
+  std::mt19937 random(23);
+  std::normal_distribution<float> noise(0, 0.3F);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  int lasting = 0;
+  for (std::size_t i = 0; i < poses.size() + 300; ++i) {
+    const Pose2& here = poses[std::min(i, poses.size() - 1)];
+    std::optional<Pose2> step;
+    if (i > 0) step = poses[std::min(i, poses.size()) - 1].inverse() * here;
+    Scan scan = test::castScan(test::asymmetricRoom(), here, 0.1 * static_cast<double>(i), random);
+    const bool noisy = (i >= 15 && i < 25) || i >= poses.size();
+    for (std::size_t k = 0; noisy && k < scan.ranges_m.size(); ++k) scan.ranges_m[k] = std::max(0.05F, scan.ranges_m[k] + noise(random));
+    const ScanMatch match = matcher.match(scan, step);
+    if (i < poses.size()) {
+      EXPECT_EQ(match.matched, !noisy) << i << ' ' << match.reason;
+      expectNear(match.odom_from_robot, poses.front().inverse() * here, 0.04, 0.02);
+    }
+    lasting += i >= poses.size() && !match.matched;
+  }
+  EXPECT_GT(lasting, 50);
+  EXPECT_LT(lasting, 299);
+  EXPECT_EQ(matcher.match(test::castScan(test::asymmetricRoom(), poses.back(), 100, random), Pose2{}).segment, 0);
+}
+
 TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   std::vector<Pose2> poses{{0, 0, 0}};
   for (int i = 0; i < 30; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});

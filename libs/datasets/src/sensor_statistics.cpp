@@ -11,6 +11,7 @@
 #include "frame_conversion.h"
 #include "image_memory.h"
 #include "roomgraph/core/order_statistics.h"
+#include "roomgraph/observations/roughness.h"
 
 namespace roomgraph {
 namespace {

@@ -16,7 +16,7 @@
 #include "repetition.h"
 #include "roomgraph/datasets/rawlog_report.h"
 #include "roomgraph/observations/trajectory.h"
-#include "roughness.h"
+#include "roughness_watch.h"
 #include "scan_agreement.h"
 
 namespace roomgraph {

@@ -18,6 +18,7 @@ constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
+constexpr double kLeastOfNoisy = 0.65;  // share of the returns that the map must explain of a scan much noisier than those before
 constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
 }  // namespace
 
@@ -98,6 +99,7 @@ void SubmapScanMatcher::prepare() {
   submaps_ = submap_settings_.emptySubmaps();
   pyramid_stale_ = true;
   free_space_ = FreeSpaceMemory(free_space_options_);
+  roughness_ = {};
   trajectory_ = Trajectory();
   segment_ = lost_scans_ = 0;
   last_t_.reset();
@@ -117,6 +119,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     repeated.segment = segment_;
     return repeated;
   }
+  const bool noisy = roughness_.standsOut(scan);
   if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
@@ -126,6 +129,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), false);
     if (steady.explained > found.explained + kClearlyBetter) found = steady;
   }
+  if (noisy && has_prior && found.explained < kLeastOfNoisy) return ledOver(scan.t, predicted, "much noisier than the scans before");
   // Recording may have paused while the robot was carried off.
   const bool elsewhere = last_t_ && scan.t - *last_t_ > kPause_s && !has_prior && found.explained < kSamePlace;
   if (found.explained < min_score_ || elsewhere) {
@@ -239,6 +243,10 @@ ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, c
 ScanMatch SubmapScanMatcher::lose(double t, const Pose2& predicted, bool has_prior, std::string reason) {
   ++lost_scans_;
   if (!has_prior) velocity_ = {};
+  return ledOver(t, predicted, std::move(reason));
+}
+
+ScanMatch SubmapScanMatcher::ledOver(double t, const Pose2& predicted, std::string reason) {
   if (last_t_) {
     last_t_ = t;
     last_pose_ = predicted;

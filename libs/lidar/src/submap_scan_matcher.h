@@ -9,6 +9,7 @@
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
 #include "submap_settings.h"
+#include "usual_roughness.h"
 
 namespace roomgraph {
 
@@ -35,6 +36,8 @@ class SubmapScanMatcher : public ScanMatcher {
                          bool has_prior);
   /// Takes the scan over; returns the beams on what moves.
   std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  /// A scan that is not used: what others measured leads on.
+  ScanMatch ledOver(double t, const Pose2& predicted, std::string reason);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
   ScanMatch start(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   Eigen::Matrix3d stepCovariance(const GridRefinement& refinement) const;
@@ -55,6 +58,7 @@ class SubmapScanMatcher : public ScanMatcher {
   ScorePyramid pyramid_;  ///< of the submap matched against
   bool pyramid_stale_ = true;
   FreeSpaceMemory free_space_;
+  UsualRoughness roughness_;
   Trajectory trajectory_;
   int segment_ = 0, lost_scans_ = 0;
   std::optional<double> last_t_;  ///< of the last scan, matched or predicted

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Second differences of neighbouring ranges, and outliers among their medians.
-#include "roughness.h"
+// Second differences of neighbouring ranges.
+#include "roomgraph/observations/roughness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,9 @@ double roughnessOf(const std::vector<float>& ranges_m) {
   return bends.size() < kLeast ? 0 : median(std::move(bends));
 }
 
-PoorRecords RoughnessWatch::noisy() const {
+double roughnessLimit(double usual_m) {
   constexpr double kTimes = 4, kLeast_m = 0.08;
-  std::vector<double> all;
-  for (const auto& record : records_) all.push_back(record.roughness_m);
-  const double limit = std::max(kTimes * median(all), kLeast_m);
-  PoorRecords out;
-  for (const auto& record : records_)
-    if (record.roughness_m > limit && out.count++ == 0) out.first_time = record.t;
-  return out;
+  return std::max(kTimes * usual_m, kLeast_m);
 }
 
 }  // namespace roomgraph

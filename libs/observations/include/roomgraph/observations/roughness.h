@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How rough a line of ranges is, and from where on that is noise.
+#pragma once
+
+#include <vector>
+
+namespace roomgraph {
+
+/// Roughness of a line of ranges (m; 0: no return): median of |a - 2 b + c| over neighbours a, b, c. Walls
+/// and furniture are straight lines or smooth curves for most of them, noise is not. 0 when there are too
+/// few.
+double roughnessOf(const std::vector<float>& ranges_m);
+
+/// What is rougher, m, stands out where `usual_m` is usual: several times that, and more than sensors differ from wall to wall.
+double roughnessLimit(double usual_m);
+
+}  // namespace roomgraph
