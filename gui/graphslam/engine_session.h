@@ -52,6 +52,7 @@ class EngineSession {
       front_end_ = std::make_unique<EngineFrontEnd>(request.make_setup(), request.rawlog);
     if (ini.parts.has("CObjectClosuresERD")) front_end_->mapObjects(request.make_setup());
     if (request.window) window_ = std::make_unique<EngineWindow>("roomgraph graphslam: " + request.rawlog.filename().string());
+    const SceneLock lock(display());
     try {
       parts_ = PartMaker<GRAPH>(front_end_.get()).make(ini.parts);
       setConsole();
@@ -72,12 +73,15 @@ class EngineSession {
     while (goes_on && !(outcome_.interrupted = request_.interrupted())) {
       const auto object = recording_.next();
       if (!object) break;
-      goes_on = take(object);
+      goes_on = waitWhilePaused() && take(object);
       request_.progress(outcome_.share = recording_.progress());
     }
     if (!goes_on) outcome_.interrupted = true;  // Ctrl-C in the window
     if (!outcome_.interrupted) outcome_.share = 1;
-    engine_->finish(front_end_.get());
+    {
+      const SceneLock lock(display());
+      engine_->finish(front_end_.get());
+    }
     conclude();
     return outcome_;
   }
@@ -120,7 +124,21 @@ class EngineSession {
     return step(action, observations, observation);
   }
 
+  mrpt::gui::CDisplayWindow3D* display() { return window_ ? window_->display() : nullptr; }
+
+  // False when the end is asked for meanwhile.
+  bool waitWhilePaused() {
+    bool goes_on = true;
+    if (window_)
+      window_->waitWhilePaused([&] {
+        const SceneLock lock(display());
+        return goes_on = engine_->answerKeys() && !request_.interrupted();
+      });
+    return goes_on;
+  }
+
   bool step(ActionPtr& action, SensoryFramePtr& observations, ObservationPtr& observation) {
+    const SceneLock lock(display());
     bool goes_on = true;
     std::size_t entry = static_cast<std::size_t>(outcome_.records);
     try {

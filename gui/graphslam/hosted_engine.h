@@ -46,6 +46,12 @@ class HostedEngine : public mrpt::graphslam::CGraphSlamEngine<GRAPH> {
     return goes_on;
   }
 
+  /// Does what the keys pressed in the window ask for; false when they ask for the end.
+  bool answerKeys() {
+    this->queryObserverForEvents();
+    return !this->m_request_to_exit;
+  }
+
   /// No more steps will come: our optimizer solves to the end, and what our front end (null: there is none) saw last
   /// becomes annotations.
   void finish(EngineFrontEnd* front_end) {

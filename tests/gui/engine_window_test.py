@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The window of MRPT's engine on a virtual display: map, path and objects are drawn; it closes by itself and on a signal.
+"""The window of MRPT's engine on a virtual display: map, path and objects are drawn; it pauses, and closes by itself and on a signal.
 
 Usage: engine_window_test.py PROGRAM [--pictures FOLDER]
 """
@@ -68,6 +68,47 @@ class EngineWindow(unittest.TestCase):
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=PATIENCE_S)
         self.assertIn(process.returncode, (0, 4))
+        self.assertTrue((self.out / "summary.json").exists())
+
+    def share(self):
+        try:
+            return float((self.folder / "progress").read_text())
+        except (FileNotFoundError, ValueError):
+            return 0
+
+    def until_share(self, process, condition, why):
+        begun = time.monotonic()
+        while not condition(self.share()) and process.poll() is None and time.monotonic() - begun < PATIENCE_S:
+            time.sleep(0.05)
+        self.assertTrue(condition(self.share()), why)
+
+    def pause(self, process):
+        """The share that was done when the key had been pressed early in the recording."""
+        self.until_share(process, lambda share: share > 0.05, "nothing was replayed")
+        self.display.xdotool("mousemove", 300, 300)
+        self.display.key("p")
+        time.sleep(2)  # a step takes less
+        return self.share()
+
+    def test_pauses_and_goes_on_by_its_key(self):
+        process = self.start("--exit-after", "0", "--progress-file", self.folder / "progress", "--quiet")
+        paused_at = self.pause(process)
+        drawn = self.display.picture()
+        time.sleep(2)
+        self.assertLess(paused_at, 0.9)
+        self.assertEqual(self.share(), paused_at)
+        self.display.key("p")
+        out, err = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 0, err)
+        self.assertIn("16 nodes", out)
+        self.assertGreater(count(drawn, is_scan), 30, "what was there before the pause")
+
+    def test_ends_on_a_signal_while_it_is_paused(self):
+        process = self.start("--progress-file", self.folder / "progress", "--quiet")
+        self.assertLess(self.pause(process), 0.9)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 4)
         self.assertTrue((self.out / "summary.json").exists())
 
     def test_closes_by_itself_and_saves_the_scene(self):
