@@ -99,6 +99,22 @@ TEST(Constellation, TooLittleInCommonIsNoMatch) {
   EXPECT_FALSE(matchConstellation(others, map));
 }
 
+// Of more than fifteen objects those propose transforms whose classes are rarest; all of them vote.
+TEST(Constellation, AHallOfChairsIsFoundByItsDoors) {
+  Random random(5);
+  std::vector<Landmark> map;
+  for (int i = 0; i < 60; ++i) map.push_back(object("chair", random.uniform(0, 20), random.uniform(0, 20)));
+  for (const auto& [x, y] : {std::pair{0.0, 3.0}, {20.0, 11.0}, {7.0, 20.0}}) map.push_back(object("door", x, y));
+  const Pose2 map_from_query{3, -2, 2.5};
+  std::vector<Landmark> query;
+  for (std::size_t i = 30; i < map.size(); ++i) query.push_back(moved(map[i], map_from_query.inverse()));
+  const auto match = matchConstellation(query, map);
+  ASSERT_TRUE(match);
+  EXPECT_EQ(match->pairs.size(), query.size());
+  EXPECT_LT(match->rms_m, 1e-6);
+  EXPECT_NEAR(match->map_from_query.yaw, 2.5, 1e-6);
+}
+
 TEST(Constellation, FrontsMustAgreeUpToHalfATurn) {
   auto map = office();
   auto query = map;

@@ -152,6 +152,20 @@ TEST(TrackMemory, ForgetsATrackThatWasNotSeenForFiveSeconds) {
   }
 }
 
+// How far to forget between two frames is told by the later one's likeness to the one before it, whichever is asked first.
+TEST(TrackMemory, ForgetsByTheLikenessOfBothFramesInEitherDirection) {
+  const std::vector<LandmarkId> ids{LandmarkId{3}, LandmarkId{}};
+  WorldMeasurement early = inFrame(0, 0, 1), late = inFrame(1, 0, 1);
+  early.measurement.beta = 0.9;
+  late.measurement.beta = 0.25;
+  for (const bool backwards : {false, true}) {
+    TrackMemory tracks(backwards);
+    tracks.remember((backwards ? late : early).measurement, {{LandmarkId{3}, 0.9}, {LandmarkId{}, 0.1}});
+    const auto prior = tracks.prior((backwards ? early : late).measurement, ids, 0.2);
+    EXPECT_NEAR(prior[0], 0.8 * 0.25 * 0.9 + (1 - 0.8 * 0.25) / 2, 1e-12) << backwards;
+  }
+}
+
 // Bayes' rule between two explanations of one place: the depth is right (Student t), or anywhere on eight
 // metres of the viewing ray. The camera stands at the origin and measures 3 m; the landmark is 4.5 m away,
 // nearly behind.

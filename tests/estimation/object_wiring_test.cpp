@@ -5,8 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include <cmath>
-
+#include "measurement_in_world.h"
 #include "roomgraph/association/measurement_model.h"
 #include "roomgraph/estimation/graph_builder.h"
 #include "roomgraph/estimation/object_factors.h"
@@ -190,12 +189,11 @@ TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   auto& seen = frames_[0].decisions[0].seen;
   seen.measurement.proposal.score = 0.1;
   seen.measurement.proposal.camera_from_object.translation() *= 1.5;
-  seen.world_from_object =
-      poses_.nodes()[0].world_from_robot * robot_from_camera_ * seen.measurement.proposal.camera_from_object;
   const auto weightOf = [&](const MeasurementModel* trusted) {
     return objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_, trusted).sightings[0].weight;
   };
-  const double trust = model.depthTrust(seen, sofa_);
+  const Pose3 world_from_camera = poses_.nodes()[0].world_from_robot * robot_from_camera_;
+  const double trust = model.depthTrust(measurementInWorld(seen.measurement, seen.camera, world_from_camera, options_.pose_sigma_m), sofa_);
   EXPECT_LT(trust, 0.5);
   EXPECT_GT(trust, 0);
   EXPECT_NEAR(weightOf(&model), trust * weightOf(nullptr), 1e-12);

@@ -113,6 +113,27 @@ TEST_F(RoundRoom, PointsAreComparedWithTheBeamTowardsThem) {
   EXPECT_EQ(onGround(-2, 0), unseen) << "where the scanner has no beam";
 }
 
+// A post to the left, seen by a lidar that hangs upside down: its beams turn the other way round.
+TEST_F(RoundRoom, ALidarUpsideDownSeesNothingMirrored) {
+  Scan scan = roundScan(4);
+  scan.robot_from_lidar = poseFromYpr(0, 0, 0.25, 0, 0, M_PI);
+  for (std::size_t i = 0; i < 10; ++i) scan.ranges_m[135 - 60 + i] = 2;  // 51 to 60 degrees to the left in the room
+  memory_.add(scan, Pose3::Identity());
+  const double angle = 55 * M_PI / 180;
+  EXPECT_EQ(onGround(2 * std::cos(angle), 2 * std::sin(angle)), "0 crossed, 1 filled, 0 hidden");
+  EXPECT_EQ(onGround(2 * std::cos(angle), -2 * std::sin(angle)), "1 crossed, 0 filled, 0 hidden");
+}
+
+TEST_F(RoundRoom, ALidarWhoseRangeIsNotKnownSeesToItsReturns) {
+  for (const double range_m : {0.0, 10.0, 1.5}) {
+    memory_ = {};
+    Scan scan = roundScan(4);
+    scan.max_range_m = range_m;
+    memory_.add(scan, Pose3::Identity());
+    EXPECT_EQ(onGround(2, 0), range_m == 1.5 ? "0 crossed, 0 filled, 0 hidden" : "1 crossed, 0 filled, 0 hidden") << range_m;
+  }
+}
+
 TEST_F(RoundRoom, BeamsBeyondHalfATurnAndBackwardsAreFound) {
   Scan scan = roundScan(4);
   scan.angle_min_rad = 0;  // from 0 to 270 degrees

@@ -36,6 +36,14 @@ RayEvidence raysAt(const Landmark& landmark, const Scan& scan, const Pose3& worl
   return rayEvidence(landmark.shape, landmark.worldFromObject(), scan, world_from_robot, solid_share);
 }
 
+TEST(RayEvidence, ALidarWhoseRangeIsNotKnownCountsAsOneThatReachesFar) {
+  for (const double range_m : {0.0, 30.0, 1.0}) {
+    Scan scan = beams(3.0);
+    scan.max_range_m = range_m;
+    EXPECT_EQ(raysAt(objectAhead(), scan, Pose3::Identity(), kSofa).inside, range_m == 1 ? 0 : 15) << range_m;
+  }
+}
+
 TEST(RayEvidence, CountsBeamsThatEndInsideOrGoThroughTheMiddle) {
   const Landmark sofa = objectAhead();
   const RayEvidence inside = raysAt(sofa, beams(3.0), Pose3::Identity(), kSofa);

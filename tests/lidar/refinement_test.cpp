@@ -35,6 +35,21 @@ TEST(SurfaceCurvature, OneWallHoldsItsNormalAndItsTurnOnly) {
   EXPECT_NEAR(turned(1, 1), 0, 1e-6);
 }
 
+// Of several thousand points some are asked for their direction: all say the same.
+TEST(SurfaceCurvature, ManyPointsSayWhatSomeOfThemSay) {
+  Points2 few, many;
+  for (int i = 0; i < 6000; ++i) {
+    const double s = i / 6000.0;
+    const Eigen::Vector2d p = i % 3 == 0 ? Eigen::Vector2d(2, 6 * s - 3) : Eigen::Vector2d(4 * s - 2, 3);
+    many.push_back(p);
+    if (i % 10 == 0 || i % 10 == 3) few.push_back(p);
+  }
+  const Eigen::Matrix3d grid = Eigen::Vector3d(3, 5, 20).asDiagonal();
+  const Eigen::Matrix3d all = surfaceCurvature(many, {0.1, 0.2, 0.3}, grid), some = surfaceCurvature(few, {0.1, 0.2, 0.3}, grid);
+  EXPECT_LT((all - some).norm(), 0.02 * all.norm());
+  EXPECT_GT(all(0, 1) * all(0, 1), 1e-6) << "directions that say nothing prove nothing";
+}
+
 TEST(SurfaceCurvature, LonelyPointsSayNothing) {
   const Eigen::Matrix3d grid = Eigen::Vector3d(3, 5, 7).asDiagonal();
   EXPECT_EQ(surfaceCurvature({{1, 0}, {5, 5}, {-4, 2}}, {}, grid), grid);

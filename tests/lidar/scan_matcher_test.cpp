@@ -184,6 +184,24 @@ TEST(SubmapScanMatcher, WithoutAnyMovementANewSegmentMayBeAnywhere) {
   EXPECT_TRUE(match.anywhere);
 }
 
+// Covered while it is put down: the first scan after a pause has no return.
+TEST(SubmapScanMatcher, AScanWithoutReturnsAfterAPauseDoesNotHideThatItWasCarried) {
+  for (const bool wheels_go_on : {false, true}) {
+    std::mt19937 random(3);
+    SubmapScanMatcher matcher;
+    for (int i = 0; i < 5; ++i) matcher.match(test::castScan(test::asymmetricRoom(), {}, 0.1 * i, random), Pose2{});
+    Scan covered = test::castScan(test::asymmetricRoom(), {}, 3, random);
+    covered.valid.assign(covered.valid.size(), 0);
+    EXPECT_FALSE(matcher.match(covered, std::nullopt).matched);
+    const auto prior = wheels_go_on ? std::optional(Pose2{}) : std::nullopt;
+    const ScanMatch elsewhere = matcher.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, 3.1, random), prior);
+    EXPECT_EQ(elsewhere.segment, 1);
+    EXPECT_EQ(elsewhere.score, 1) << "its map begins there";
+    EXPECT_TRUE(elsewhere.anywhere) << "what moved it before wheels told of it again";
+    EXPECT_FALSE(matcher.match(test::castScan(test::asymmetricRoom(), {1.2, 0.8, 2}, 3.2, random), Pose2{}).anywhere);
+  }
+}
+
 // After a pause, in which it may have been carried off.
 TEST(SubmapScanMatcher, AfterAPauseItIsInTheSamePlaceOrBeginsANewSegment) {
   for (const double pause_s : {1.0, 3.0}) {

@@ -171,6 +171,19 @@ TEST(MapFile, ImpossibleSizesAreErrors) {
               HasSubstr("bad.rgmap"));
 }
 
+// 580 m to either side at 5 cm, as a run over a large hall writes it.
+TEST(MapFile, ALargeGridIsReadAgain) {
+  const TemporaryFolder folder;
+  CSemanticMap map;
+  map.occupancy = mrpt::maps::COccupancyGridMap2D::Create(-290.f, 290.f, -290.f, 290.f, 0.05f);
+  map.occupancy->setCell(7, 9, 0.f);
+  saveMap(map, folder.file("large.rgmap"));
+  map.occupancy.reset();
+  const CSemanticMap read = loadMap(folder.file("large.rgmap"));
+  EXPECT_EQ(read.occupancy->getSizeX(), 11600u);
+  EXPECT_LT(read.occupancy->getCell(7, 9), 0.01f);
+}
+
 TEST(MapFile, UnwritablePlaceIsARunError) {
   const TemporaryFolder folder;
   EXPECT_THROW(saveMap(test::sampleMap(), folder.file("missing/map.rgmap")), RunError);

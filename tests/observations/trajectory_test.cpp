@@ -6,6 +6,8 @@
 
 #include <stdexcept>
 
+#include "roomgraph/observations/trajectory_velocity.h"
+
 namespace roomgraph {
 namespace {
 
@@ -47,6 +49,28 @@ TEST(Trajectory, HorizonAtBothEnds) {
     EXPECT_TRUE(trajectory.at(t, 0.2)->isApprox(flat(t, 0, 0.2 * t), 1e-9))
         << "goes on with the last velocity";
   }
+}
+
+// Two stamps of a burst, half a millisecond apart, at both ends: the velocity is that of the poses around them.
+TEST(Trajectory, GoesOnWithAVelocityOverMoreThanABurst) {
+  Trajectory trajectory;
+  trajectory.add(0, flat(0));
+  for (int i = 1; i <= 10; ++i) {
+    trajectory.add(0.05 * i, flat(0.025 * i));
+    if (i == 1) trajectory.add(0.0505, flat(0.027));
+  }
+  trajectory.add(0.5005, flat(0.253));  // .5 m/s until then, 6 m/s in the burst
+  EXPECT_NEAR(trajectory.at(0.65, 0.2)->translation().x(), 0.253 + 0.1495 * (0.253 - 0.225) / 0.0505, 1e-9);
+  EXPECT_EQ(velocityBase(trajectory, true), trajectory.size() - 3);
+  EXPECT_NEAR(trajectory.at(-0.1, 0.2)->translation().x(), -0.05, 1e-9);
+  Trajectory burst;
+  burst.add(1, flat(0));
+  burst.add(1.0005, flat(0.01));
+  EXPECT_NEAR(burst.at(1.1, 0.2)->translation().x(), 0.01, 1e-12) << "alone it tells no velocity";
+  EXPECT_NEAR(burst.at(0.9, 0.2)->translation().x(), 0, 1e-12);
+  EXPECT_FALSE(velocityBase(burst, true));
+  burst.add(2, flat(5), 1);
+  EXPECT_FALSE(velocityBase(burst, true)) << "of another segment";
 }
 
 TEST(Trajectory, EmptyAndSinglePose) {

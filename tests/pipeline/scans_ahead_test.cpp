@@ -74,6 +74,30 @@ TEST_F(ScansAheadTest, GiveTheSameBitsAsInTheirTurn) {
   }
 }
 
+// A pause in which it was carried to another place while the wheels stood: they predict nothing, ahead neither.
+TEST_F(ScansAheadTest, WheelsThatStoodInAPausePredictNothing) {
+  Drive drive;
+  std::vector<Record> records;
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.1 * i, later = i < 20 ? 0 : 10;
+    OdometryReading reading = drive.odometry(i < 20 ? t : t - 0.1);
+    reading.t = t + later;
+    Scan scan = castScan(i < 20 ? asymmetricRoom() : boxAt(-9, -9, 19, 17), Drive::truth(t), t + later + 0.02, drive.random, 0.01, 720);
+    records.emplace_back(reading);
+    records.emplace_back(std::move(scan));
+  }
+  const auto slam = newRun(), turn = newRun();
+  run(*slam, records, records.size());
+  for (const Record& record : records) turn->process(record);
+  const auto segments = [](const SemanticSlam& of) {
+    const Trajectory path = of.setup().stages.scan_matcher->trajectory();
+    return path.segment(path.size() - 1) - path.segment(0);
+  };
+  EXPECT_EQ(segments(*turn), 1) << "it begins anew";
+  EXPECT_EQ(segments(*slam), 1);
+  EXPECT_EQ(outcome(*slam), outcome(*turn));
+}
+
 TEST_F(ScansAheadTest, AreMatchedUntilAnImageComes) {
   const auto records = lap(1.95);
   const auto slam = newRun();

@@ -53,17 +53,14 @@ Errors errorsOf(const std::vector<StampedPose>& poses) {
 TEST(SemanticSlam, PosesTooFarApartForAGridCostTheGridOnly) {
   SemanticSlam slam(setupWith(kLidarOnly + "[mapping]\nresolution_m = 0.005\n"));
   Drive world;
-  // Too few returns to match anything: the wheels alone say where it went, and they are wrong by 300 m.
-  for (int i = 0; i < 30; ++i) {
-    const double far = i < 15 ? 0 : 300;
-    slam.process(OdometryReading{0.1 * i, {far + 0.1 * i, far, 0}});
-    Scan scan = world.scan(0.1 * i);
-    scan.ranges_m.resize(5);
-    scan.valid.resize(5);
-    slam.process(scan);
+  // Another room all at once: the wheels alone say how it got there, and they are wrong by 300 m.
+  for (int i = 0; i < 40; ++i) {
+    const double t = 0.1 * i, far = i < 15 ? 0 : 300;
+    slam.process(OdometryReading{t, {far, far, 0}});
+    slam.process(castScan(i < 15 ? asymmetricRoom() : boxAt(-9, -9, 19, 17), {}, t, world.random, 0.01, 720));
   }
   const SlamResult result = slam.finish();
-  EXPECT_EQ(result.world_from_robot.size(), 30u);
+  EXPECT_EQ(result.world_from_robot.size(), 40u);
   EXPECT_FALSE(result.map.occupancy);
   int named = 0;
   for (const auto& [reason, count] : result.counts.reasons)
@@ -109,6 +106,35 @@ TEST(SemanticSlam, MapHasTheWallsAndTheFreeSpace) {
   EXPECT_TRUE(occupiedNear(5, 1));
   EXPECT_TRUE(occupiedNear(1, -2));
   EXPECT_TRUE(occupiedNear(-3, 0));
+}
+
+// What the matcher does not use is not drawn either.
+TEST(SemanticSlam, NoiseIsNotDrawnIntoTheMap) {
+  int occupied[2] = {}, unmatched[2] = {};
+  for (const bool noisy : {false, true}) {
+    SemanticSlam slam(setupWith(kLidarOnly));
+    Drive world;
+    std::normal_distribution<float> noise(0, 0.3f);
+    for (int i = 0; i <= 160; ++i) {
+      const double t = std::min(0.1 * i, Drive::kLap_s);  // it stands in the end
+      OdometryReading reading = world.odometry(t);
+      Scan scan = castScan(asymmetricRoom(), Drive::truth(t), 0.1 * i, world.random, 0.01, 720);
+      reading.t = scan.t;
+      if (noisy && i > 121)
+        for (auto& range : scan.ranges_m) range += noise(world.random);
+      slam.process(reading);
+      if (noisy || i <= 121) slam.process(scan);
+    }
+    const SlamResult result = slam.finish();
+    unmatched[noisy] = result.counts.scans_unmatched;
+    for (unsigned y = 0; y < result.map.occupancy->getSizeY(); ++y)
+      for (unsigned x = 0; x < result.map.occupancy->getSizeX(); ++x)
+        occupied[noisy] += result.map.occupancy->getCell(static_cast<int>(x), static_cast<int>(y)) < 0.4f;
+  }
+  EXPECT_EQ(unmatched[0], 0);
+  EXPECT_GT(unmatched[1], 30);
+  EXPECT_GT(occupied[0], 300);
+  EXPECT_EQ(occupied[1], occupied[0]);
 }
 
 TEST(SemanticSlam, WheelsAloneAreAsGoodAsTheWheels) {

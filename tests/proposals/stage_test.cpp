@@ -89,6 +89,23 @@ TEST_F(StageTest, TheObjectBehindAnOccluderIsFound) {
   EXPECT_LT((chair.translation().head<2>() - Eigen::Vector2d(3, 0)).norm(), 0.25);
 }
 
+// The post hides its left side as well: the place across the view is as unsure as behind the border of the image.
+TEST_F(StageTest, AHiddenSideBehindAnOccluderMakesThePlaceUnsure) {
+  Scene scene;
+  scene.lookAhead(0.8, 0.2);
+  scene.addCylinder(3, 0, 0.31, 0.95, 1);
+  cv::Mat labels;
+  const Frame in_the_open = scene.render(&labels);
+  const Detection whole = test::detectionOf(1, labels, "swivel_chair");
+  scene.addBox(1.6, 0.15, 0, 0.24, 0.1, 0, 1.2, 2);
+  const FrameProposals open = proposalsOf(in_the_open, {whole}, expected_), behind = proposalsOf(scene.render(), {whole}, expected_);
+  ASSERT_FALSE(open.proposals.empty() || behind.proposals.empty());
+  const auto across = [](const FrameProposals& out) { return out.proposals.front().covariance(1, 1); };
+  const Pose3 chair = scene.world_from_camera * behind.proposals.front().camera_from_object;
+  EXPECT_LT((chair.translation().head<2>() - Eigen::Vector2d(3, 0)).norm(), 0.25);
+  EXPECT_GT(across(behind), 2.5 * across(open));
+}
+
 TEST_F(StageTest, SameInputSameOutput) {
   const FrameProposals a = proposalsOf(frame_, detections_, expected_);
   const FrameProposals b = proposalsOf(frame_, detections_, expected_);

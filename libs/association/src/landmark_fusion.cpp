@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "roomgraph/association/landmark_rules.h"
 
@@ -143,13 +144,31 @@ void remember(LandmarkRecord& record, const WorldMeasurement& seen) {
   if (record.recent.size() > kMaxRecent) record.recent.pop_front();
 }
 
+namespace {
+
+// One object casts one shadow: rays after a frame are taken from the first record that has some there.
+void joinUpdates(LandmarkRecord& record, const LandmarkRecord& other) {
+  std::set<FrameId> known;
+  for (const auto& update : record.existence_updates)
+    if (!update.missed_in.valid()) known.insert(update.after);
+  auto& all = record.existence_updates;
+  for (const auto& update : other.existence_updates)
+    if (update.missed_in.valid() || !known.contains(update.after)) all.push_back(update);
+  std::stable_sort(all.begin(), all.end(), [](const ExistenceUpdate& a, const ExistenceUpdate& b) { return a.after < b.after; });
+  record.ray_support = 0;
+  std::erase_if(all, [&](ExistenceUpdate& update) {
+    if (update.missed_in.valid() || update.log_ratio < 0) return false;
+    update.log_ratio = std::min(update.log_ratio, kMaxRaySupport - record.ray_support);
+    record.ray_support += update.log_ratio;
+    return update.log_ratio <= 0;
+  });
+}
+
+}  // namespace
+
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned) {
   record.evidence += other.evidence;
-  record.existence_updates.insert(record.existence_updates.end(), other.existence_updates.begin(),
-                                  other.existence_updates.end());
-  std::stable_sort(record.existence_updates.begin(), record.existence_updates.end(),
-                   [](const ExistenceUpdate& a, const ExistenceUpdate& b) { return a.after < b.after; });
-  record.ray_support = std::max(record.ray_support, other.ray_support);
+  joinUpdates(record, other);
   record.front += turned ? other.back : other.front;
   record.back += turned ? other.front : other.back;
   for (const auto& [label, votes] : other.labels) record.labels[label] += votes;

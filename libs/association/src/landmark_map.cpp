@@ -13,7 +13,6 @@ namespace roomgraph {
 namespace {
 
 constexpr int kMaxRays = 20;
-constexpr double kMaxRaySupport = 1;
 constexpr double kPrecise_m = 0.3;  // standard deviation on the ground up to which a sighting counts fully
 constexpr double kClearMajority =
     3;  // ratio of label votes that changes the class: detectors often confuse classes
@@ -52,6 +51,10 @@ double LandmarkMap::likelihoodRatio(const Landmark& landmark, const WorldMeasure
 }
 
 LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& association) {
+  return fuse(seen, association, false);
+}
+
+LandmarkId LandmarkMap::fuse(const WorldMeasurement& seen, const Association& association, bool class_is_known) {
   const ObjectMeasurement& measurement = seen.measurement;
   Landmark* landmark = get(association.landmark);
   const bool is_new = landmark == nullptr;
@@ -63,11 +66,13 @@ LandmarkId LandmarkMap::update(const WorldMeasurement& seen, const Association& 
   voteLabel(*landmark, record, measurement);
   const std::string& label = measurement.proposal.class_name;
   if (label != landmark->class_name) {
-    if (record.labels[label] <= kClearMajority * record.labels[landmark->class_name]) return landmark->id;
+    if (class_is_known || record.labels[label] <= kClearMajority * record.labels[landmark->class_name]) return landmark->id;
     const Landmark before = *landmark;
     *landmark = initializeLandmark(seen, before.id, before.existence);
     landmark->class_posterior = before.class_posterior;
     landmark->observations = before.observations;
+    record.size_weight = record.front = record.back = 0;  // of what it was taken for
+    record.recent.clear();
   } else if (!is_new) {
     weigh(*landmark, likelihoodRatio(*landmark, seen));
     fusePlace(*landmark, seen);
@@ -289,12 +294,16 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
     landmark.observations = 0;
   }
   records_.clear(), together_.clear(), in_frame_.clear();
+  frame_ = {};
+  classify(by_frame, result, former);
   auto next = existence_updates.begin();
   auto next_former = former.begin();
   const auto weighUntil = [&](FrameId frame) {
     for (; next != existence_updates.end() && next->first < frame; ++next) {
       countFormerUntil(next->first, next_former, former);
-      updateExistence(next->second.first, next->second.second.log_ratio, next->second.second.missed_in);
+      const auto& [id, update] = next->second;
+      updateExistence(id, update.log_ratio, update.missed_in);
+      if (!update.missed_in.valid() && update.log_ratio > 0) records_[id].ray_support += update.log_ratio;
     }
     countFormerUntil(frame, next_former, former);
   };
@@ -303,7 +312,7 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
     for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
       Association known = result.decisions[f][k].association;
       known.landmark = result.decisions[f][k].landmark;
-      update(by_frame[f][k], known);
+      fuse(by_frame[f][k], known, true);
     }
   }
   weighUntil(FrameId{std::numeric_limits<std::int64_t>::max()});
@@ -315,17 +324,41 @@ void LandmarkMap::adopt(const std::vector<std::vector<WorldMeasurement>>& by_fra
   }
 }
 
+void LandmarkMap::classify(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result,
+                           const std::vector<FormerSighting>& former) {
+  std::map<LandmarkId, std::map<std::string, double>> labels;
+  std::map<std::pair<LandmarkId, std::string>, const WorldMeasurement*> first;
+  for (const FormerSighting& sighting : former) labels[sighting.landmark][sighting.class_name] += sighting.weight;
+  for (std::size_t f = 0; f < by_frame.size(); ++f)
+    for (std::size_t k = 0; k < by_frame[f].size(); ++k) {
+      const LandmarkId id = result.decisions[f][k].landmark;
+      const ObjectMeasurement& measurement = by_frame[f][k].measurement;
+      labels[id][measurement.proposal.class_name] += sightingWeight(measurement);
+      first.try_emplace({id, measurement.proposal.class_name}, &by_frame[f][k]);
+    }
+  for (auto& landmark : landmarks_) {
+    const auto& votes = labels[landmark.id];
+    const auto most = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most == votes.end() || most->second <= kClearMajority * labels[landmark.id][landmark.class_name]) continue;
+    if (const auto seen = first.find({landmark.id, most->first}); seen != first.end())
+      landmark = initializeLandmark(*seen->second, landmark.id, rules().birth_existence);
+    landmark.observations = 0;
+  }
+}
+
 // Of the former sightings, in order of time, those in frames before this one.
 void LandmarkMap::countFormerUntil(FrameId frame, std::vector<FormerSighting>::const_iterator& next,
                                    const std::vector<FormerSighting>& former) {
   for (; next != former.end() && next->frame < frame; ++next) {
     Landmark* landmark = get(next->landmark);
     if (!landmark) continue;
+    LandmarkRecord& record = records_[landmark->id];
+    record.labels[next->class_name] += next->weight;
+    if (next->class_name != landmark->class_name) continue;
     weigh(*landmark, std::exp(next->existence_log_ratio));
     ++landmark->observations;
-    LandmarkRecord& record = records_[landmark->id];
     record.evidence += next->weight;
-    record.labels[next->class_name] += next->weight;
+    countTogether(next->frame, landmark->id);
   }
 }
 

@@ -71,7 +71,7 @@ std::vector<Association> decide(const Evidence& evidence, std::size_t f, const A
 
 // Priors from the tracks before each frame; backwards: after it.
 Priors filter(const Frames& frames, const Evidence& evidence, const AssociationModel& model, bool backwards) {
-  TrackMemory tracks;
+  TrackMemory tracks(backwards);
   Priors out(frames.size());
   for (std::size_t step = 0; step < frames.size(); ++step) {
     const std::size_t f = backwards ? frames.size() - 1 - step : step;

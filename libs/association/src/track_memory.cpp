@@ -24,7 +24,9 @@ std::vector<double> TrackMemory::prior(const ObjectMeasurement& measurement,
   std::vector<double> out(ids.size(), even);
   const auto past = tracks_.find(keyOf(measurement));
   if (past == tracks_.end() || std::abs(measurement.t - past->second.t) > kMemory_s) return out;
-  const double kept = (1 - forgetting) * std::clamp(measurement.beta, 0.0, 1.0);
+  // Of the later one of both frames.
+  const double beta = backwards_ ? past->second.beta : measurement.beta;
+  const double kept = (1 - forgetting) * std::clamp(beta, 0.0, 1.0);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto found = past->second.posterior.find(ids[i]);
     out[i] = kept * (found == past->second.posterior.end() ? 0 : found->second) + (1 - kept) * even;
@@ -39,6 +41,7 @@ void TrackMemory::remember(const ObjectMeasurement& measurement, const WeightedL
   if (key.second < 0) return;
   Past& past = tracks_[key];
   past.t = measurement.t;
+  past.beta = measurement.beta;
   past.posterior.clear();
   for (const auto& [id, probability] : posterior) past.posterior[id] += probability;
 }

@@ -14,6 +14,9 @@ namespace roomgraph {
 /// overcome: a larger one, the less the frame is like the one before (p_c, proportional to beta, Eq. 5).
 class TrackMemory {
  public:
+  /// `backwards`: sightings come from the last one to the first.
+  explicit TrackMemory(bool backwards = false) : backwards_(backwards) {}
+
   /// Prior of each of `ids` (invalid: new), summing to at most 1; even for a track that is new. `forgetting`:
   /// share of the past that is lost from one frame to the next, in (0, 1].
   std::vector<double> prior(const ObjectMeasurement& measurement, const std::vector<LandmarkId>& ids,
@@ -27,11 +30,13 @@ class TrackMemory {
  private:
   struct Past {
     double t = 0;
+    double beta = 1;  // of its frame: how much it is like the one before
     std::map<LandmarkId, double> posterior;
   };
   using Key = std::pair<bool, std::int64_t>;  // flag: the detector's own ids, which are no gamma chains
   static Key keyOf(const ObjectMeasurement& measurement);
 
+  bool backwards_;
   std::map<Key, Past> tracks_;
 };
 

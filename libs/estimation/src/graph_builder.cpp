@@ -229,7 +229,7 @@ std::vector<LandmarkId> landmarksIn(const FactorGraph& graph, const ObjectsInGra
 
 Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                    const BackendOptions& options, std::size_t first,
-                   const std::optional<MarginalPrior>& prior) {
+                   const std::optional<MarginalPrior>& prior, const ClosuresInPrior& in_prior) {
   Window window;
   window.local_maps = addPoses(window.graph, poses, motion, measurements, options, {.first = first, .hold = !prior});
   if (prior) {
@@ -246,6 +246,8 @@ Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measuremen
     if (std::max(closure.t_a, closure.t_b) < poses.nodes()[before].t) continue;
     const auto factor = closureFactor(closure, poses, options.closure_robust_width);
     if (!factor || std::max(factor->a, factor->b) < oldest.id) continue;
+    const auto left = in_prior.find(std::min(factor->a, factor->b));
+    if (left != in_prior.end() && i < left->second) continue;
     for (const NodeId id : {factor->a, factor->b})
       if (id < oldest.id && held.insert(id).second)
         window.graph.addPose(id, poses.node(id).world_from_robot, true);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "roomgraph/geometry/covariance.h"
+#include "roomgraph/observations/trajectory_velocity.h"
 
 namespace roomgraph {
 namespace {
@@ -145,14 +146,15 @@ Matrix6d MotionSource::interpolation(double t) const {
   return changeSquared((t - before_t) * (after->t - t));
 }
 
-// A pose beyond the last two, a and b, is b + r (b - a), r the share of their interval: both errors are in it, and how the movement has
+// A pose beyond the last one, b, and one before it, a, is b + r (b - a), r the share of their interval: both errors are in it, and how the movement has
 // changed since.
 Matrix6d MotionSource::extrapolation(double t) const {
   const auto& poses = poses_.poses();
   if (poses.empty() || t <= poses.back().t) return interpolation(t);
   const double beyond_s = t - poses.back().t;
-  if (beginnings_.contains(poses.back().t)) return unknownMovement(beyond_s).covariance;  // no step told of its velocity
-  const double r = beyond_s / (poses.back().t - poses[poses.size() - 2].t);
+  const auto base = velocityBase(poses_, true);
+  if (!base) return unknownMovement(beyond_s).covariance;
+  const double r = beyond_s / (poses.back().t - poses[*base].t);
   return 2 * r * (1 + r) * stepAt(poses.back().t) + changeSquared(beyond_s * beyond_s);
 }
 

@@ -178,7 +178,10 @@ ObjectFactors objectFactors(const ObjectFrames& frames, const KeyPoses& poses,
       if (found == known.end()) continue;
       const Landmark& landmark = *found->second;
       if (landmark.class_name != decision.seen.measurement.proposal.class_name) continue;
-      const double trust = model ? model->depthTrust(decision.seen, landmark) : 1;
+      // By the poses of now: those of when it was decided may have been elsewhere.
+      const WorldMeasurement seen = measurementInWorld(decision.seen.measurement, decision.seen.camera,
+                                                       node.world_from_robot * node_from_camera, options.pose_sigma_m);
+      const double trust = model ? model->depthTrust(seen, landmark) : 1;
       gather(frame, decision, landmark, node, node_from_camera, options, trust, gathered[landmark.id]);
     }
   }

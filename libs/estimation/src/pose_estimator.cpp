@@ -172,11 +172,12 @@ bool PoseEstimator::due() const {
 void PoseEstimator::slideWindow() {
   const auto& nodes = poses_.nodes();
   if (nodes.size() - first_ <= static_cast<std::size_t>(options_.window_nodes)) return;
-  Variables keep{.nodes = window_.held};  // closures to them are added to the next window again
+  Variables keep{.nodes = window_.held};  // closures to them are added to the next window again, others not
   for (std::size_t i = first_ + 1; i + 1 < nodes.size(); ++i) keep.nodes.push_back(nodes[i].id);
   for (const LocalMap& map : window_.local_maps)
     if (map.end > first_ + 1) keep.nodes.push_back(map.id);
   prior_ = window_.graph.marginalize(keep);
+  in_prior_[nodes[first_].id] = measurements_.closures.size();
   ++first_;
 }
 
@@ -184,6 +185,7 @@ void PoseEstimator::slideWindow() {
 void PoseEstimator::restartWindow(std::size_t first) {
   first_ = first;
   prior_.reset();
+  in_prior_.clear();
   window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
 }
 
@@ -195,7 +197,7 @@ void PoseEstimator::movedFromOutside() {
 
 void PoseEstimator::optimizeWindow() {
   slideWindow();
-  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_, in_prior_);
   if (!window_.graph.optimize(options_.max_iterations).usable) return;
   for (std::size_t i = first_; i < poses_.nodes().size(); ++i) {
     const NodeId id = poses_.nodes()[i].id;

@@ -91,7 +91,7 @@ PosedViews SpaceMemory::posed(const KeyPoses& poses) const {
         {image.t, (poses.at(image.t) * image.robot_from_camera).inverse(), &image.camera, &image.depth_mm});
   for (const auto& scan : scans_) {
     const Pose3 world_from_lidar = poses.at(scan->t) * scan->robot_from_lidar;
-    out.scans_.push_back({planarPart(world_from_lidar).inverse(), world_from_lidar.translation().z(), scan.get()});
+    out.scans_.push_back({world_from_lidar.inverse(), world_from_lidar.translation().z(), scan.get()});
   }
   return out;
 }
@@ -134,9 +134,9 @@ std::vector<RayCounts> PosedViews::byScans(const std::vector<Eigen::Vector2d>& p
     if (z_m < least_z_m || z_m > most_z_m) continue;
     const auto beams = static_cast<long>(scan->ranges_m.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector2d p = lidar_from_world * points[i];
+      const Eigen::Vector2d p = (lidar_from_world * Eigen::Vector3d(points[i].x(), points[i].y(), z_m)).head<2>();
       const double range = p.norm();
-      if (range < kNearest_m || range > scan->max_range_m) continue;
+      if (range < kNearest_m || !reaches(*scan, range)) continue;
       const double from_first = (std::atan2(p.y(), p.x()) - scan->angle_min_rad) / scan->angle_step_rad;
       const double turn = std::abs(2 * M_PI / scan->angle_step_rad);
       const long beam = std::lround(from_first - turn * std::floor(from_first / turn));

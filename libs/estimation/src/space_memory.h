@@ -47,7 +47,7 @@ class PosedViews {
     const cv::Mat* depth_mm;
   };
   struct Beams {
-    Pose2 lidar_from_world;
+    Pose3 lidar_from_world;
     double z_m;
     const Scan* scan;
   };

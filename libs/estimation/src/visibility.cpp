@@ -55,13 +55,15 @@ bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& wor
                              [&box](const Detection& d) { return iou(d.box, *box) > kSamePlace; });
 }
 
+bool reaches(const Scan& scan, double range_m) { return !(scan.max_range_m > 0) || range_m <= scan.max_range_m; }
+
 RayEvidence rayEvidence(const ObjectShape& shape, const Pose3& world_from_object, const Scan& scan,
                         const Pose3& world_from_robot, double solid_share) {
   RayEvidence out;
   const Pose3 object_from_lidar = world_from_object.inverse() * world_from_robot * scan.robot_from_lidar;
   const Eigen::Vector3d origin = object_from_lidar.translation();
   const double reach = std::hypot(shape.width, shape.depth) / 2, away = origin.head<2>().norm();
-  if (origin.z() < 0 || origin.z() > shape.height || away > scan.max_range_m || away < reach) return out;
+  if (origin.z() < 0 || origin.z() > shape.height || !reaches(scan, away) || away < reach) return out;
   const bool solid = origin.z() < solid_share * shape.height;
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     if (!scan.valid[i]) continue;

@@ -26,6 +26,9 @@ std::optional<Box2> boxInGoodView(const Landmark& landmark, const Pose3& camera_
 bool shouldBeSeen(const Landmark& landmark, const Frame& frame, const Pose3& world_from_camera,
                   const std::vector<Detection>& detections);
 
+/// Whether the lidar sees so far; one whose range is not known (0) does.
+bool reaches(const Scan& scan, double range_m);
+
 /// Beams of a scan that are evidence for or against an object.
 struct RayEvidence {
   int inside = 0;   ///< ended in its footprint

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSurface = 0.5;  // cells at least this probable are surfaces
 constexpr double kFree = 0.3;     // known cells below are free space
+constexpr std::size_t kMostNormals = 1000;
 
 void addPrior(const Pose2& pose, const PosePrior& prior, GridCost& cost) {
   const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y,
@@ -95,7 +96,10 @@ Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& pose,
                                  const Eigen::Matrix3d& grid_curvature) {
   const Points2 turned = transformed({0, 0, pose.yaw}, points);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector2d& p : turned) {
+  // Only directions count: some points speak for all, or a map's returns would take the square of their number.
+  const std::size_t stride = 1 + turned.size() / kMostNormals;
+  for (std::size_t i = 0; i < turned.size(); i += stride) {
+    const Eigen::Vector2d& p = turned[i];
     Eigen::Matrix<double, 2, 3> jacobian;
     jacobian << 1, 0, -p.y(), 0, 1, p.x();
     sum += jacobian.transpose() * normalProjection(p, turned) * jacobian;

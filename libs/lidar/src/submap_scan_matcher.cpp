@@ -103,6 +103,8 @@ void SubmapScanMatcher::prepare() {
   trajectory_ = Trajectory();
   segment_ = lost_scans_ = 0;
   last_t_.reset();
+  accepted_t_.reset();
+  unled_ = false;
   last_pose_ = velocity_ = kept_pose_ = Pose2();
 }
 
@@ -119,6 +121,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     repeated.segment = segment_;
     return repeated;
   }
+  unled_ = unled_ || !has_prior;
   const bool noisy = roughness_.standsOut(scan);
   if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
@@ -131,14 +134,15 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   }
   if (noisy && has_prior && found.explained < kLeastOfNoisy) return ledOver(scan.t, predicted, "much noisier than the scans before");
   // Recording may have paused while the robot was carried off.
-  const bool elsewhere = last_t_ && scan.t - *last_t_ > kPause_s && !has_prior && found.explained < kSamePlace;
+  const bool elsewhere = accepted_t_ && scan.t - *accepted_t_ > kPause_s && unled_ && found.explained < kSamePlace;
   if (found.explained < min_score_ || elsewhere) {
     if (!elsewhere && lost_scans_ < max_lost_scans_) return lose(scan.t, predicted, has_prior, "no overlap");
     ++segment_;
     submaps_->finishAll();
     free_space_.clear();
+    const bool anywhere = unled_;
     ScanMatch begun = start(scan, planar, predicted);
-    begun.anywhere = !has_prior;
+    begun.anywhere = anywhere;
     return begun;
   }
   ScanMatch out;
@@ -210,8 +214,9 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
     const Pose2 step = last_pose_.inverse() * pose;
     velocity_ = {step.x / dt, step.y / dt, step.yaw / dt};
   }
-  last_t_ = scan.t;
+  last_t_ = accepted_t_ = scan.t;
   last_pose_ = pose;
+  unled_ = false;
   lost_scans_ = 0;
   trajectory_.add(scan.t, toPose3(pose), segment_);
   std::vector<std::size_t> moving;

@@ -61,7 +61,9 @@ class SubmapScanMatcher : public ScanMatcher {
   UsualRoughness roughness_;
   Trajectory trajectory_;
   int segment_ = 0, lost_scans_ = 0;
-  std::optional<double> last_t_;  ///< of the last scan, matched or predicted
+  std::optional<double> last_t_;      ///< of the last scan, matched or predicted
+  std::optional<double> accepted_t_;  ///< of the last scan that was matched
+  bool unled_ = false;                ///< nothing measured some of the movement since then
   Pose2 last_pose_;
   Pose2 velocity_;  ///< last movement per second, in the robot frame
   double kept_t_ = 0;

@@ -20,8 +20,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr std::size_t kLargestBytes = 128u
-                                      << 20;  // a grid of 400 m x 400 m at 0.05 m, and 64 MB for the rest
+constexpr std::size_t kLargestBytes = 512u << 20;  // the largest grid of a run, 4e8 cells, and 110 MB for the rest
 // What follows the archive: this mark and the SHA-256 of all before it.
 constexpr std::string_view kSumMark = "roomgraph map sha256 ";
 constexpr std::size_t kSumDigits = 64;

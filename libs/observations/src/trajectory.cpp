@@ -3,9 +3,26 @@
 #include "roomgraph/observations/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "roomgraph/observations/trajectory_velocity.h"
+
 namespace roomgraph {
+namespace {
+constexpr double kLeastStep_s = 0.015;  // poses less apart, stamped in a burst, tell no velocity
+}  // namespace
+
+std::optional<std::size_t> velocityBase(const Trajectory& trajectory, bool at_end) {
+  if (trajectory.empty()) return std::nullopt;
+  const std::size_t end = at_end ? trajectory.size() - 1 : 0;
+  for (std::size_t steps = 1; steps < trajectory.size(); ++steps) {
+    const std::size_t i = at_end ? end - steps : end + steps;
+    if (trajectory.segment(i) != trajectory.segment(end)) break;
+    if (std::abs(trajectory.poses()[i].t - trajectory.poses()[end].t) >= kLeastStep_s) return i;
+  }
+  return std::nullopt;
+}
 
 void Trajectory::add(double t, const Pose3& pose, int segment) {
   if (!poses_.empty() && t <= poses_.back().t)
@@ -21,15 +38,16 @@ std::optional<Pose3> Trajectory::at(double t, double horizon_s) const {
       std::lower_bound(poses_.begin(), poses_.end(), t,
                        [](const StampedPose& stamped, double time) { return stamped.t < time; });
   if (after != poses_.end() && after->t == t) return after->pose;
-  std::size_t right = static_cast<std::size_t>(after - poses_.begin());
-  if (poses_.size() == 1) return poses_.front().pose;
-  const bool inside = right > 0 && right < poses_.size();
-  right = std::clamp<std::size_t>(right, 1, poses_.size() - 1);
-  const std::size_t left = right - 1;
-  if (segments_[left] != segments_[right]) {
-    if (inside) return std::nullopt;
-    return t < poses_.front().t ? poses_.front().pose : poses_.back().pose;
+  const std::size_t right = static_cast<std::size_t>(after - poses_.begin());
+  const bool at_end = right == poses_.size();
+  if (right == 0 || at_end) {
+    const std::size_t end = at_end ? right - 1 : 0;
+    const auto base = velocityBase(*this, at_end);
+    if (!base) return poses_[end].pose;
+    return interpolate(poses_[*base].pose, poses_[end].pose, (t - poses_[*base].t) / (poses_[end].t - poses_[*base].t));
   }
+  const std::size_t left = right - 1;
+  if (segments_[left] != segments_[right]) return std::nullopt;
   return interpolate(poses_[left].pose, poses_[right].pose,
                      (t - poses_[left].t) / (poses_[right].t - poses_[left].t));
 }

@@ -15,7 +15,7 @@ void ScansAhead::see(const Record& record) {
   if (!matcher_ || over_ || !problemOfRecord(record).empty()) return;
   over_ = std::holds_alternative<Frame>(record);
   if (const auto* reading = std::get_if<OdometryReading>(&record); reading && wheels_predict_)
-    wheels_.add(reading->t, toPose3(reading->odom_from_robot), 0, Matrix6d::Zero());
+    wheels_.add(reading->t, toPose3(reading->odom_from_robot), 0);
   if (const auto* scan = std::get_if<Scan>(&record); scan && (!last_t_ || scan->t > *last_t_)) match(*scan);
 }
 

@@ -103,6 +103,13 @@ StepReport SemanticSlam::step(const Frame& frame) {
           .image = &frame};
 }
 
+// Scans that were matched: others may be noise, or of a place that is not where the robot is thought to be.
+void SemanticSlam::use(const Scan& clean) {
+  mapper_.add(clean);
+  objects_.observe(clean, estimator_.poses().at(clean.t), setup_->database);
+  if (map_) map_->add(clean, estimator_.poses());
+}
+
 StepReport SemanticSlam::step(const Scan& scan) {
   StepReport report{.kind = StepReport::Kind::kScan, .t = scan.t};
   if (!setup_->stages.scan_matcher || !inOrder(scan.t, last_scan_t_, "scans")) return {};
@@ -121,10 +128,8 @@ StepReport SemanticSlam::step(const Scan& scan) {
   }
   clean = withoutBeams(std::move(clean), matched.moving);
   counts_.returns_in_free_space += static_cast<int>(matched.moving.size());
-  mapper_.add(clean);
   localize(scan.t);
-  objects_.observe(clean, estimator_.poses().at(scan.t), setup_->database);
-  if (map_) map_->add(clean, estimator_.poses());
+  if (matched.matched) use(clean);
 
   robot_times_.push_back(scan.t);
   report.world_from_robot = estimator_.poses().at(scan.t);

@@ -41,19 +41,23 @@ double obscured(const PlacedShape& placed, const BoxEvidence& e) {
 constexpr double kGoingOn = 0.4;
 
 // Proposals from the next depth cluster and without depth, for when the first cluster explains the box badly:
-// it may be an occluder.
+// it may be an occluder. `other`: the evidence with the next cluster, where there is one.
 std::vector<PlacedShape> reconsidered(std::vector<PlacedShape> first, const BoxEvidence& evidence,
-                                      const Frame& frame, const ShapeGenerator& generator,
-                                      const GeneratorLimits& limits) {
+                                      const std::optional<BoxEvidence>& other, const Frame& frame,
+                                      const ShapeGenerator& generator, const GeneratorLimits& limits) {
   std::vector<PlacedShape> all = std::move(first);
-  for (const DepthMask& mask : {evidence.other_mask, DepthMask{}}) {
-    const double goes_further = std::max(0.0, mask.goes_on - evidence.mask.goes_on);
-    for (PlacedShape placed : generator.generate(withMask(evidence, mask, frame), limits)) {
-      placed.supported = !mask.points.empty();
+  if (other) {
+    const double goes_further = std::max(0.0, other->mask.goes_on - evidence.mask.goes_on);
+    for (PlacedShape placed : generator.generate(*other, limits)) {
+      placed.other_cluster = true;
       placed.quality *= 1 - kGoingOn * goes_further;
-      if (!placed.supported) placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
       all.push_back(std::move(placed));
     }
+  }
+  for (PlacedShape placed : generator.generate(withMask(evidence, {}, frame), limits)) {
+    placed.supported = false;
+    placed.quality *= kUnsupported * (1 - obscured(placed, evidence));
+    all.push_back(std::move(placed));
   }
   return keepBest(std::move(all), {}, limits);
 }
@@ -144,11 +148,14 @@ void GeometricProposalGenerator::propose(const Frame& frame, int index, FramePro
   if (keep_traces_) limits.rejected = &rejected;
   const ShapeGenerator& generator = generators_.of(*model);
   auto found = generator.generate(evidence, limits);
-  if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful))
-    found = reconsidered(std::move(found), evidence, frame, generator, limits);
+  std::optional<BoxEvidence> other;
+  if (!evidence.mask.points.empty() && (found.empty() || found.front().quality < kDoubtful)) {
+    if (!evidence.other_mask.points.empty()) other = withMask(evidence, evidence.other_mask, frame);
+    found = reconsidered(std::move(found), evidence, other, frame, generator, limits);
+  }
   const double tilt_sigma = tiltSigma(*out.ground);
   for (const PlacedShape& placed : found)
-    if (auto proposal = proposalOf(placed, evidence, start, tilt_sigma)) {
+    if (auto proposal = proposalOf(placed, placed.other_cluster ? *other : evidence, start, tilt_sigma)) {
       proposal->detection = index;
       out.proposals.push_back(std::move(*proposal));
     }

@@ -29,7 +29,7 @@ struct ConstellationMatch {
 
 /// The rigid transform on the floor that matches the most objects of `query` with objects of `map`, class by class and
 /// one to one (method.md sec. 4: loop closing by objects). Every two objects of `query` and two of `map` at equal
-/// distances propose a transform; its inliers are the pairs within tolerance; least squares (Umeyama 1991) refines it.
+/// distances propose a transform (of more than 15 objects in `query`, those 15 whose classes are rarest in `map`); its inliers are the pairs within tolerance; least squares (Umeyama 1991) refines it.
 /// Nothing when there are too few inliers, or when a clearly different transform has nearly as many: a row of equal
 /// chairs matches itself in several ways.
 std::optional<ConstellationMatch> matchConstellation(const std::vector<Landmark>& query,

@@ -12,6 +12,8 @@
 
 namespace roomgraph {
 
+constexpr double kMaxRaySupport = 1;  ///< log odds of existence that rays may give
+
 /// Position of one sighting, for the test whether a landmark is two objects.
 struct PlaceSketch {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
@@ -49,7 +51,8 @@ void fuseSize(Landmark& landmark, LandmarkRecord& record, const ObjectMeasuremen
 /// classes seen.
 void voteLabel(Landmark& landmark, LandmarkRecord& record, const ObjectMeasurement& seen);
 void remember(LandmarkRecord& record, const WorldMeasurement& seen);
-/// Adds the record of a merged landmark; `turned`: its yaw is the opposite one.
+/// Adds the record of a merged landmark; `turned`: its yaw is the opposite one. What rays said of both between the same frames counts
+/// once, and all that speaks for it up to kMaxRaySupport.
 void joinRecords(LandmarkRecord& record, const LandmarkRecord& other, bool turned);
 
 /// Two groups of sightings too far apart for one object.

@@ -83,6 +83,11 @@ class LandmarkMap {
 
  private:
   Landmark* get(LandmarkId id);
+  /// As update(); `class_is_known`: no label changes it.
+  LandmarkId fuse(const WorldMeasurement& seen, const Association& association, bool class_is_known);
+  /// Where other labels have far more votes, the landmark is of that class, and begins with its first sighting.
+  void classify(const std::vector<std::vector<WorldMeasurement>>& by_frame, const Reassociation& result,
+                const std::vector<FormerSighting>& former);
   void weigh(Landmark& landmark, double ratio) const;
   void updateExistence(LandmarkId id, double log_ratio, FrameId missed_in = {});
   double likelihoodRatio(const Landmark& landmark, const WorldMeasurement& seen) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -61,6 +62,9 @@ FactorGraph buildGraph(const KeyPoses& poses, const Motion& motion, const Measur
 /// Those of the landmarks that the graph holds.
 std::vector<LandmarkId> landmarksIn(const FactorGraph& graph, const ObjectsInGraph& objects);
 
+/// By key pose that has left the window: how many closures there were then. Those that connect it with later ones are in the prior.
+using ClosuresInPrior = std::map<NodeId, std::size_t>;
+
 /// Graph of the latest key poses and of the older ones that closures connect them with.
 struct Window {
   FactorGraph graph;
@@ -73,6 +77,6 @@ struct Window {
 /// 1 % or 20 % of their information, the live pose was no better.
 Window buildWindow(const KeyPoses& poses, const Motion& motion, const Measurements& measurements,
                    const BackendOptions& options, std::size_t first,
-                   const std::optional<MarginalPrior>& prior);
+                   const std::optional<MarginalPrior>& prior, const ClosuresInPrior& in_prior = {});
 
 }  // namespace roomgraph

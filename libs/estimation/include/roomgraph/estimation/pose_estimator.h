@@ -135,6 +135,7 @@ class PoseEstimator {
   Window window_;                       ///< of the latest key poses
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
+  ClosuresInPrior in_prior_;
   int nodes_since_optimization_ = 0;
   std::size_t formed_ = 0;  // key poses whose places a solution of the whole graph has set
   bool again_ = false;  ///< what was taken over last did not know of a surprise, or was void

@@ -134,6 +134,7 @@ class SemanticSlam {
                                         const std::vector<FeatureTrack>& features,
                                         const FrameDetections& detections);
   ScanMatch match(const Scan& scan);
+  void use(const Scan& clean);
 
   void localize(double t);
   void takeOver();

@@ -27,7 +27,8 @@ struct PlacedShape {
   Eigen::Vector3d size_information = Eigen::Vector3d::Zero();  ///< see Proposal
   Eigen::Vector3d least_size_information = Eigen::Vector3d::Zero();  ///< see Proposal
   PlaceBySize place_by_size = PlaceBySize::Zero();  ///< see Proposal
-  bool supported = true;                      ///< false: made without the evidence's depth points
+  bool supported = true;       ///< false: made without the evidence's depth points
+  bool other_cluster = false;  ///< made with those of the evidence's other_mask
   std::string source;                         ///< how it was made, for debug pictures
   std::string reason;                         ///< why it was dropped
 };
