@@ -36,6 +36,7 @@ struct BenchInput {
   std::vector<TrueFrame> frames;
   std::vector<EvaluatedObject> objects;
   std::vector<DetectedFrame> detections;
+  FramesByTime frames_by_time{frames}, detections_by_time{detections};
   Trajectory world_from_robot;
   std::map<std::string, ClassRule> rules;
 };
@@ -51,6 +52,8 @@ BenchInput load(const BenchOptions& options, const ObjectDatabase& database) {
   in.frames = readTrueFrames(options.boxes);
   in.objects = readObjects(options.objects);
   if (!options.detections.empty()) in.detections = readDetections(options.detections);
+  in.frames_by_time = FramesByTime(in.frames);
+  in.detections_by_time = FramesByTime(in.detections);
   in.world_from_robot = readTrajectory(options.trajectory).trajectory;
   in.rules = classRules(database);
   return in;
@@ -64,7 +67,7 @@ const EvaluatedObject* objectOf(const TrueBox& box, const BenchInput& in) {
 
 // The detector's box of the true one: same class, best IoU.
 const DetectedBox* detectionOf(const TrueBox& box, double t, const BenchInput& in, double min_iou) {
-  const int frame = nearestFrame(in.detections, t, kStampTolerance);
+  const int frame = in.detections_by_time.nearest(t, kStampTolerance);
   const DetectedBox* best = nullptr;
   if (frame < 0) return nullptr;
   for (const DetectedBox& d : in.detections[frame].boxes)
@@ -82,7 +85,7 @@ Pose3 poseOf(const EvaluatedObject& object) {
 std::vector<Pairing> pairingsOf(double t, const Pose3& camera_from_world, const BenchInput& in,
                                 const BenchOptions& options) {
   std::vector<Pairing> out;
-  const int frame = nearestFrame(in.frames, t, kStampTolerance);
+  const int frame = in.frames_by_time.nearest(t, kStampTolerance);
   if (frame < 0) return out;
   for (const TrueBox& box : in.frames[frame].boxes) {
     const EvaluatedObject* object = objectOf(box, in);

@@ -124,9 +124,10 @@ void writeJson(const CalibrationReport& report, const std::filesystem::path& fil
 void correct(const CalibrateArguments& arguments, const std::filesystem::path& calibration,
              StageProgress& progress) {
   if (arguments.rawlog.empty()) throw ConfigError("--apply needs --rawlog, the recording to write");
-  writeCorrectedRawlog(arguments.recordings.front(), arguments.rawlog, readCalibration(calibration),
-                       arguments.jpeg_quality, [&](double share) { progress.update("write", share); });
+  const auto left_out = writeCorrectedRawlog(arguments.recordings.front(), arguments.rawlog, readCalibration(calibration),
+                                             arguments.jpeg_quality, [&](double share) { progress.update("write", share); });
   progress.finish();
+  for (const auto& warning : left_out) std::cerr << "roomgraph: warning: " << warning << "\n";
   std::cout << arguments.rawlog.string() << ": the recording, corrected by " << calibration.string() << "\n";
 }
 

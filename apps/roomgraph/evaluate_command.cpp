@@ -52,6 +52,8 @@ void addPaths(CLI::App& command, PathArguments& paths) {
   estimate->needs(truth);
 }
 
+constexpr double kLever_m = 0.1;  // of a robot that turns on the spot positions tell no yaw
+
 Pose2 truthFromMap(const PathArguments& paths) {
   if (paths.estimate.empty()) return {};
   TrajectoryOptions association;
@@ -59,7 +61,7 @@ Pose2 truthFromMap(const PathArguments& paths) {
   const auto pairs =
       associate(readAndWarn(paths.truth).trajectory, readAndWarn(paths.estimate).trajectory, association);
   if (pairs.empty()) throw RunError(paths.estimate + " has no pose within the time of " + paths.truth);
-  return alignPlanar(pairs);
+  return alignPlanar(pairs, kLever_m);
 }
 
 void addTrajectory(CLI::App& parent) {
@@ -135,7 +137,7 @@ void runObjects(ObjectArguments& a) {
   if (!a.boxes.empty()) a.options.seen = readSeenObjects(a.boxes, a.rule);
   a.options.truth_from_map = truthFromMap(a.paths);
   const auto errors = evaluateObjects(truth, landmarks, a.options);
-  const std::vector<std::filesystem::path> inputs{a.truth, a.landmarks, a.boxes, a.associations, a.database};
+  const std::vector<std::filesystem::path> inputs{a.truth, a.landmarks, a.boxes, a.associations, a.database, a.paths.truth, a.paths.estimate};
   if (a.associations.empty()) {
     report(a.json, inputs, errors);
   } else {
@@ -249,7 +251,7 @@ void addMap(CLI::App& parent) {
   command->callback([a] {
     a->options.truth_from_map = truthFromMap(a->paths);
     const auto errors = evaluateMap(loadOccupancyRos(a->truth), loadOccupancyRos(a->map), a->options);
-    report(a->json, {a->truth, a->map}, errors);
+    report(a->json, {a->truth, a->map, a->paths.truth, a->paths.estimate}, errors);
     if (errors.known_in_both == 0) throw RunError(a->map + " knows no place that " + a->truth + " knows");
   });
 }

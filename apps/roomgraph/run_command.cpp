@@ -78,13 +78,13 @@ struct ExtraSinks {
   }
 };
 
-ExtraSinks addSinks(const RunOptions& options, const Setup& setup) {
+ExtraSinks addSinks(const RunOptions& options, const Setup& setup, const ReadOptions& reading) {
   ExtraSinks sinks;
   if (!options.recording.empty()) {
     if (!setup.stages.detector)
       throw ConfigError("--record-detections needs a detector; [detection] enabled is false");
     sinks.recording =
-        std::make_shared<DetectionRecording>(options.input, options.recording, *setup.stages.detector);
+        std::make_shared<DetectionRecording>(options.input, options.recording, *setup.stages.detector, reading.corrections.time_offsets_s);
   }
   if (!options.detections.empty()) {
     if (!setup.stages.detector)
@@ -255,7 +255,7 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   auto output = std::make_shared<RunOutput>(options.output, inputs);
   const auto checkpoint = openCheckpoint(options, *setup, output->files(), whole);
   RunPlaces places(options.input, output->files());
-  const ExtraSinks extra = addSinks(options, *setup);
+  const ExtraSinks extra = addSinks(options, *setup, reading);
   setup->options.general.lookahead_s += whole.beginnings.longestOffset();
   auto slam = std::make_unique<SemanticSlam>(std::move(setup));
   if (checkpoint) slam->setResultStore(checkpoint->results());

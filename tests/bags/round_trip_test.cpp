@@ -260,6 +260,9 @@ TEST(TumExport, DepthOfAnotherCameraIsProjected) {
   const auto a = std::get<Frame>(*before.next()), b = std::get<Frame>(*after.next());
   EXPECT_TRUE(samePixels(a.color, b.color));
   EXPECT_LT(cv::norm(a.depth, b.depth, cv::NORM_INF), 1.01e-4) << "half a unit of 0.2 mm";
+  Pose3 optical = exported.robot_from_camera;
+  optical.linear() = optical.linear() * bodyFromOptical();
+  EXPECT_TRUE(optical.isApprox(a.robot_from_camera, 1e-9)) << "that of the colour camera, whose pixels both images have";
 }
 
 TEST(TumExport, BadUseIsToldAndLeavesNothing) {

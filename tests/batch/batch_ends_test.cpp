@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <csignal>
 #include <random>
 
 #include "child_process.h"
@@ -76,6 +77,16 @@ TEST_F(BatchEnds, TwiceCtrlCKills) {
   kill(program.pid(), SIGINT);
   EXPECT_EQ(program.wait().exit_code, -1);
   EXPECT_TRUE(waitUntil([&] { return tasks().empty(); }, 5));
+}
+
+// Some daemons ignore the ends of their children, and so does what they start.
+TEST_F(BatchEnds, HowAChildEndedIsToldWhereTheEndsOfChildrenWereIgnored) {
+  std::signal(SIGCHLD, SIG_IGN);
+  ChildProcess fails({"/bin/sh", "-c", "exit 3"}, folder.file("log"), true);
+  std::optional<ChildEnd> end;
+  ASSERT_TRUE(waitUntil([&] { return (end = fails.ended()).has_value(); }));
+  std::signal(SIGCHLD, SIG_DFL);
+  EXPECT_EQ(end->exit_code, 3);
 }
 
 // A queue sends SIGTERM to all processes of a job, to some of them after their parent has told them by SIGINT.

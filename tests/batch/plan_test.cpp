@@ -81,6 +81,21 @@ TEST_F(Plans, NamesAreThoseOfTheFilesWithAsManyFoldersAsItTakes) {
   EXPECT_THAT(inputNames({"a/lab.rawlog", "a/*.rawlog"}), ElementsAre("lab")) << "one file, named twice";
 }
 
+TEST_F(Plans, RecordingsThatNoFolderTellsApartAreNumbered) {
+  touch("a/lab.rawlog");
+  touch("a/lab.rawlog.gz");
+  const auto names = inputNames({"a/lab.rawlog", "a/lab.rawlog.gz"});
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_THAT(names[0], ::testing::EndsWith("a_lab"));
+  EXPECT_EQ(names[1], names[0] + "_2");
+}
+
+TEST_F(Plans, AFileThatIsThereIsNoPattern) {
+  touch("a/lab[1].rawlog");
+  touch("a/lab1.rawlog");
+  EXPECT_THAT(inputNames({"a/lab[1].rawlog"}), ElementsAre("lab_1_"));
+}
+
 TEST_F(Plans, APatternWithoutFilesIsAnError) {
   touch("a/lab.rawlog");
   EXPECT_THAT(messageOf<InputError>([&] { inputNames({"a/*.rawlogs"}); }),

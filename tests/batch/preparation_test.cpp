@@ -40,6 +40,11 @@ class Prepared : public ::testing::Test {
     run.task.planned.wall_s = 12;
     writeRunResult(run.task.planned, folder.file("out/runs/lab--default/result.json"));
   }
+  void failEvaluation() const {
+    RunResult result = readRunResult(folder.file("out/runs/lab--default/result.json"));
+    result.reason = "evaluate trajectory: disk full";
+    writeRunResult(result, folder.file("out/runs/lab--default/result.json"));
+  }
   const TemporaryFolder folder;
   BatchProgram program{"/program", "1.0", "rev", {}, {}};
   MadeUpNeeds inspector;
@@ -52,6 +57,13 @@ TEST_F(Prepared, WhatIsCompleteIsNotNeeded) {
   EXPECT_FALSE(prepare().needed);
   program.parts = {folder.write("program", "version 2")};
   EXPECT_EQ(prepare().why, "the program has changed");
+}
+
+TEST_F(Prepared, AnEvaluationThatFailedIsDoneAgain) {
+  complete(prepare());
+  failEvaluation();
+  EXPECT_TRUE(prepare().needed);
+  EXPECT_FALSE(prepare().task.run_again);
 }
 
 TEST_F(Prepared, LessThanIsToBeKeptIsNotEnough) {

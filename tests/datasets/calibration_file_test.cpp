@@ -175,6 +175,30 @@ TEST_F(CalibrationFileTest, ACorrectedCopyIsWhatTheFileSays) {
   EXPECT_EQ(frames + 10 * readings + 100 * scans, 222);
 }
 
+// Movements without a stamp take that of the next observation, in the copy as in a run; what is left out is told.
+TEST_F(CalibrationFileTest, ACorrectedCopyHasTheMovementsWithoutStamps) {
+  writeRawlog(folder.file("x.rawlog"), {makeAction(-1, 1, 0, 0), makeSensoryFrame({makeScan(1)}), makeAction(-1, 0.5, 0, 0.2),
+                                        makeSensoryFrame({makeScan(2)}), mrpt::obs::CActionCollection::Create(), makeSensoryFrame({makeScan(3)})});
+  const auto left_out = writeCorrectedRawlog(folder.file("x.rawlog"), folder.file("y.rawlog"), read("[wheels]\nscale = 2\n"));
+  ASSERT_EQ(left_out.size(), 1u);
+  EXPECT_NE(left_out[0].find("1 records left out: CActionCollection: no movement"), std::string::npos) << left_out[0];
+  RawlogReader expected(folder.file("x.rawlog"), {.corrections = read("[wheels]\nscale = 2\n").corrections}), copy(folder.file("y.rawlog"));
+  int readings = 0;
+  while (const auto record = expected.next()) {
+    const auto other = copy.next();
+    ASSERT_TRUE(other);
+    ASSERT_EQ(other->index(), record->index());
+    EXPECT_NEAR(timeOf(*other), timeOf(*record), 1e-6);
+    const auto* reading = std::get_if<OdometryReading>(&*record);
+    if (reading) {
+      EXPECT_NEAR(std::get<OdometryReading>(*other).odom_from_robot.x, reading->odom_from_robot.x, 1e-9);
+    }
+    readings += reading != nullptr;
+  }
+  EXPECT_FALSE(copy.next());
+  EXPECT_EQ(readings, 2);
+}
+
 TEST_F(CalibrationFileTest, ACorrectedCopyIsWholeOrNotThere) {
   writeRawlog(folder.file("x.rawlog"), {makeScan(1), makeImages(2)});
   const auto write = [&](const Calibration& calibration,

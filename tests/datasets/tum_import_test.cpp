@@ -11,6 +11,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/camera_presets.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/tum_export.h"
 
 namespace roomgraph {
 namespace {
@@ -22,6 +23,27 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+// Depth that is projected into the colour image is written in fifths of a millimetre: 16 bits reach to 13.1 m.
+TEST(TumExport, WhatIsFartherThanItsDepthReachesIsNotKnown) {
+  const TemporaryFolder folder;
+  const auto images = makeImages(1);
+  images->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0.001, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+  for (int v = 0; v < 12; ++v)
+    for (int u = 0; u < 16; ++u) images->rangeImage(v, u) = u < 8 ? 13000 : 20000;
+  writeRawlog(folder.file("x.rawlog"), {images});
+  ASSERT_EQ(exportTum(folder.file("x.rawlog"), folder.file("tum")).registered, 1);
+  const cv::Mat depth = cv::imread((folder.file("tum/depth") / "1.000000000.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(depth.type(), CV_16UC1);
+  int near = 0;
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u) {
+      const int value = depth.at<std::uint16_t>(v, u);
+      near += value == 64995;  // a millimetre less than 13 m
+      EXPECT_TRUE(value == 0 || value == 64995) << u << ", " << v << ": " << value;
+    }
+  EXPECT_GT(near, 50);
+}
 
 class TumImport : public ::testing::Test {
  protected:

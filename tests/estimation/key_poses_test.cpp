@@ -47,6 +47,18 @@ TEST(KeyPoses, BeyondTheEndsTheSourceGoesOn) {
   expectPlace(poses.at(3.5), 0.2, -2.5);
 }
 
+// Lost at second 4 and found again, elsewhere, in a segment of its own at second 9: each side goes on by itself.
+TEST(KeyPoses, AGapDoesNotDrawTheWayBeforeItToThePlaceBehindIt) {
+  Motion motion = straightOn();
+  for (int i = 0; i <= 4; ++i) motion.lidar.add(9 + 0.5 * i, poseFromYpr(0.5 * i, 0, 0, 0, 0, 0), 1, Matrix6d::Zero());
+  KeyPoses poses(motion);
+  poses.add(2, heading(0, 0));
+  poses.add(10, heading(30, -40));
+  expectPlace(poses.at(3.5), 0, -1.5);
+  expectPlace(poses.at(9.5), 30, -39.5);
+  EXPECT_LT((poses.at(6).translation() - Eigen::Vector3d(15, -20, 0)).norm(), 1e-12) << "within it nothing is known: half way";
+}
+
 TEST(KeyPoses, HoldsStillWhereNoSourceReaches) {
   const Motion motion = straightOn();
   KeyPoses poses(motion);

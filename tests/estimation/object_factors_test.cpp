@@ -178,30 +178,6 @@ TEST(ObjectFactors, AVisitCountsOnceAndSharesTheErrorOfItsDirection) {
   EXPECT_EQ(by_view, (std::set<std::vector<std::int64_t>>{{1, 5}, {3}})) << "the middle of each visit";
 }
 
-// Whether a depth failed is asked where the poses of now place the sighting: the path may have moved since it was decided.
-TEST(ObjectFactors, ADepthIsTrustedByThePosesOfNow) {
-  const MotionSource none(MotionNoise{}, true);
-  const Motion motion{none, none, none};
-  const KeyPoses poses = twoVisits(motion);
-  std::vector<ObjectFrame> frames = framesOf(poses);
-  for (ObjectFrame& frame : frames) frame.decisions[0].seen.measurement.proposal.score = 0.6;
-  const MeasurementModel model;
-  const ObjectFactors plain = objectFactors(frames, poses, {chair()}, {}, {});
-  std::vector<double> weights[2];
-  for (const bool moved : {false, true}) {
-    for (ObjectFrame& frame : frames) {
-      auto& seen = frame.decisions[0].seen;
-      const Pose3 then = poseFromYpr(moved ? 1.0 : 0, 0, 0, 0, 0, 0) * poses.nearest(frame.t).world_from_robot;
-      seen.world_from_object = then * seen.measurement.proposal.camera_from_object;
-    }
-    for (const auto& sighting : objectFactors(frames, poses, {chair()}, {}, {}, &model).sightings)
-      weights[moved].push_back(sighting.weight);
-  }
-  ASSERT_EQ(weights[0].size(), plain.sightings.size());
-  EXPECT_EQ(weights[0], weights[1]);
-  for (std::size_t i = 0; i < weights[0].size(); ++i) EXPECT_GT(weights[0][i], 0.9 * plain.sightings[i].weight);
-}
-
 // A graph that is built again goes on from its views: who comes first among the landmarks must not name them.
 TEST(ObjectFactors, AViewKeepsItsIdWhateverElseIsSeen) {
   const MotionSource none(MotionNoise{}, true);

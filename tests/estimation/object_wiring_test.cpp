@@ -200,6 +200,20 @@ TEST_F(SofaSeenFromFourPlaces, AFailedDepthCountsLittle) {
   EXPECT_GT(weightOf(nullptr), 0);
 }
 
+// Whether a depth failed is asked where the poses of now place the sighting: the path may have moved since it was decided.
+TEST_F(SofaSeenFromFourPlaces, ADepthIsTrustedByThePosesOfNow) {
+  const MeasurementModel model;
+  const auto weightsOf = [&](const MeasurementModel* trusted) {
+    std::vector<double> out;
+    for (const auto& sighting : objectFactors(frames_, poses_, {sofa_}, shippedObjects(), options_, trusted).sightings) out.push_back(sighting.weight);
+    return out;
+  };
+  const auto before = weightsOf(&model), whole = weightsOf(nullptr);
+  for (auto& frame : frames_) frame.decisions[0].seen.world_from_object.pretranslate(Eigen::Vector3d(1, -1, 0));
+  EXPECT_EQ(weightsOf(&model), before);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GT(before[i], 0.9 * whole[i]);
+}
+
 // A closure in the plane knows nothing of height, roll and pitch, whatever its covariance says of them.
 TEST(ClosureFactor, InThePlaneLeavesHeightAndTiltFree) {
   const MotionSource none(MotionNoise{}, true);

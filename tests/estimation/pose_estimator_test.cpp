@@ -364,7 +364,7 @@ TEST(PoseEstimator, TheFloorLevelsAHandheldWorld) {
   estimator.addFloor(0, groundInCamera(level_from_camera), Pose3::Identity());
   EXPECT_FALSE(estimator.levelled()) << "what one frame saw";
   const Pose3 start = estimator.poses().at(0);
-  const Pose3 moved = estimator.level(transformed(start, groundInCamera(level_from_camera)));
+  const Pose3 moved = estimator.level(transformed(start, groundInCamera(level_from_camera))).new_from_old;
   EXPECT_TRUE(estimator.levelled());
   EXPECT_TRUE((moved * start).isApprox(estimator.poses().at(0), 1e-9));
   const Pose3 world_from_camera = estimator.poses().at(0);

@@ -112,6 +112,19 @@ TEST(Alignment, StandingStillTakesTheRotationFromTheOrientations) {
   EXPECT_NEAR(planar.y, 2, 1e-12);
 }
 
+// A robot that turns on the spot, with a millimetre of noise: as points 10 cm away its directions tell the yaw.
+TEST(Alignment, DirectionsTellTheYawOfARobotThatHardlyMoves) {
+  Random random(8);
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < 200; ++i) {
+    const auto noisy = [&](double sigma) { return Pose2{random.uniform(-sigma, sigma), random.uniform(-sigma, sigma), 0.1 * i}; };
+    const Pose2 truth = noisy(0.001), estimate = noisy(0.003);
+    pairs.push_back({double(i), toPose3(truth), toPose3(estimate)});
+  }
+  EXPECT_LT(std::abs(alignPlanar(pairs, 0.1).yaw), 0.01);
+  EXPECT_GT(std::abs(alignPlanar(pairs).yaw), 0.02) << "positions alone do not";
+}
+
 TEST(Alignment, NoPairsGiveIdentity) {
   EXPECT_TRUE(align({}).isApprox(Pose3::Identity()));
   EXPECT_EQ(alignPlanar({}).yaw, 0);

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <random>
+
 #include "errors_of.h"
 #include "roomgraph/core/errors.h"
 #include "temporary_folder.h"
@@ -80,12 +83,31 @@ TEST(FrameFiles, BadLinesNameFileAndLine) {
 }
 
 TEST(FrameFiles, NearestFrameWithinTheLimit) {
-  const std::vector<DetectedFrame> frames = {{1.0, {}}, {1.1, {}}, {1.1, {}}, {1.2, {}}};
-  EXPECT_EQ(nearestFrame(frames, 1.1, 0.02), 1);
-  EXPECT_EQ(nearestFrame(frames, 1.19, 0.1), 3);
-  EXPECT_EQ(nearestFrame(frames, 1.05, 0.02), -1);
-  EXPECT_EQ(nearestFrame(frames, 1.2, 0), 3);
-  EXPECT_EQ(nearestFrame(std::vector<DetectedFrame>{}, 1, 1), -1);
+  const FramesByTime frames(std::vector<DetectedFrame>{{1.0, {}}, {1.1, {}}, {1.1, {}}, {1.2, {}}});
+  EXPECT_EQ(frames.nearest(1.1, 0.02), 1);
+  EXPECT_EQ(frames.nearest(1.11, 0.02), 1);
+  EXPECT_EQ(frames.nearest(1.19, 0.1), 3);
+  EXPECT_EQ(frames.nearest(1.05, 0.02), -1);
+  EXPECT_EQ(frames.nearest(1.2, 0), 3);
+  EXPECT_EQ(FramesByTime(std::vector<DetectedFrame>{}).nearest(1, 1), -1);
+}
+
+// In any order, with equal stamps and equal distances: as by trying all, of which the first one that is nearest counts.
+TEST(FrameFiles, NearestFrameIsThatOfTryingAll) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<DetectedFrame> frames;
+    for (int i = 0; i < 12; ++i) frames.push_back({0.25 * static_cast<double>(random() % 16), {}});
+    const FramesByTime by_time(frames);
+    for (double t = -0.5; t < 4.5; t += 0.125) {
+      int best = -1;
+      for (int i = 0; i < 12; ++i) {
+        const auto gap = [&](int at) { return std::abs(frames[static_cast<std::size_t>(at)].t - t); };
+        if (gap(i) <= 0.5 && (best < 0 || gap(i) < gap(best))) best = i;
+      }
+      EXPECT_EQ(by_time.nearest(t, 0.5), best);
+    }
+  }
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ class FloorOfAHandheldCamera : public ::testing::Test {
                   "class = FakeOdometry\n[lidar]\nenabled = false\n"));
     slam.addSink(std::make_shared<Watch>(look));
     for (double t = 0; t < kLastFrame_s; t += 0.1) {
+      if (t > gap_.first && t < gap_.second) continue;
       Frame frame = Drive::frame(t);
       frame.robot_from_camera = Pose3::Identity();
       slam.process(frame);
@@ -55,6 +56,7 @@ class FloorOfAHandheldCamera : public ::testing::Test {
       EXPECT_LT((up.normal - truth.normal).norm(), 0.01) << t;
     }
   }
+  std::pair<double, double> gap_{1e300, 1e300};  ///< without frames
   static constexpr const char* kWrong = "ground: what was taken for the floor was none";
 };
 
@@ -87,6 +89,23 @@ TEST_F(FloorOfAHandheldCamera, StaysWhereItIsAboveTables) {
   const auto result = run([](double t) { return t < 2 || t > 7 ? 0 : kTable_m; }, [](const StepReport&) {});
   expectLevel(result);
   EXPECT_EQ(result.counts.reasons.count(kWrong), 0u);
+}
+
+// It is covered, tilted and goes on: what was right before is right still, and what comes after is levelled by the floor.
+TEST_F(FloorOfAHandheldCamera, KeepsWhatWasLevelWhenItIsLostAndTilted) {
+  gap_ = {3.95, 6.05};
+  const auto tilted = [](double t) { return Pose3(handheld(t) * Eigen::AngleAxisd(t > 5 ? 0.4 : 0, Eigen::Vector3d::UnitX())); };
+  fakes::world().world_from_camera = tilted;
+  fakes::world().lost_at = 6;
+  const auto result = run([](double) { return 0; }, [](const StepReport&) {});
+  EXPECT_EQ(result.counts.reasons.at(kWrong), 1);
+  int after = 0;
+  for (const auto& [t, pose] : result.world_from_camera) {
+    EXPECT_NEAR(pose.translation().z(), handheld(t).translation().z(), 0.03) << t;
+    EXPECT_LT((groundInCamera(pose).normal - groundInCamera(tilted(t)).normal).norm(), 0.02) << t;
+    after += t > 5;
+  }
+  EXPECT_GT(after, 15);
 }
 
 }  // namespace

@@ -121,6 +121,19 @@ TEST_F(RecordingTest, RecordedDetectionsAreRecordedAgainAsTheyAre) {
   EXPECT_EQ(after.begin()->second.model, before.begin()->second.model);
 }
 
+// A calibration says that the camera's clock is late: the copy keeps the stamps of the input, of images and of boxes.
+TEST_F(RecordingTest, BoxesKeepTheStampsOfTheirImagesWhateverTheCalibration) {
+  const auto calibration = folder.write("calibration.ini", "[sensor KINECT]\ntime_offset_s = 0.08\n");
+  auto arguments = replayed;
+  const auto copy = folder.file("copy.rawlog");
+  arguments.insert(arguments.end(), {"--calibration", calibration.string(), "--record-detections", copy.string()});
+  const auto first = run(kRoomToRecord, "first", arguments);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto before = detectionsIn(kRoomToRecord), after = detectionsIn(copy);
+  ASSERT_EQ(before.size(), after.size());
+  for (auto a = before.begin(), b = after.begin(); a != before.end(); ++a, ++b) EXPECT_NEAR(b->first, a->first, 1e-6);
+}
+
 TEST_F(RecordingTest, WrongUseIsRefused) {
   fs::copy(kRoomToRecord, folder.file("own.rawlog"));
   auto itself = replayed;

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "made_up_run.h"
+#include "roomgraph/geometry/pose.h"
 
 namespace roomgraph::test {
 namespace {
@@ -263,6 +264,27 @@ TEST_F(ReportData, ErrorsAreThoseAfterAlignment) {
   for (const json& value : run["live_errors"]["position_m"]["high"])
     if (!value.is_null()) largest = std::max(largest, value.get<double>());
   EXPECT_NEAR(largest, run["live_errors"]["ate_m"]["max"], 1e-4);
+}
+
+// Truth of a handheld recording is that of the camera: here .3 m ahead of the robot, looking ahead, in its optical frame.
+TEST_F(ReportData, ATruthOfTheCameraIsComparedWithTheCamera) {
+  const Pose3 robot_from_camera = poseFromYpr(0.3, 0, 1, 0, 0, 0) * Pose3(Eigen::Isometry3d(bodyFromOptical()));
+  for (const char* name : {"truth.txt", "trajectory_camera.tum"}) {
+    std::ofstream out(folder.file(name));
+    out << std::fixed << std::setprecision(7);
+    for (int i = 0; i < 200; ++i) {
+      const auto [x, y, yaw] = poseAtTime(i / 10.);
+      const Pose3 pose = poseFromYpr(x, y, 0, yaw, 0, 0) * robot_from_camera;
+      const Eigen::Quaterniond q(pose.linear());
+      out << kStart + i / 10. << ' ' << pose.translation().transpose() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
+    }
+  }
+  const json run = dataOf(reportOf(folder, folder.file("truth.txt"))).at("runs").at(0);
+  EXPECT_TRUE(run["truth_is_of_camera"]);
+  EXPECT_NEAR(run["final_errors"]["ate_m"]["rmse"], 0, 1e-5);
+  EXPECT_LT(run["final_errors"]["rpe_rot_deg"]["rmse"], 0.01);
+  EXPECT_GT(run["live_errors"]["ate_m"]["rmse"], 0.002);
+  EXPECT_FALSE(dataOf(reportOf(folder, folder.file("trajectory.tum"))).at("runs").at(0)["truth_is_of_camera"]);
 }
 
 TEST_F(ReportData, EvaluationsBesideTheRunAreShown) {

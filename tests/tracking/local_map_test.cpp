@@ -266,5 +266,28 @@ TEST(KeyframeInsertion, AnotherSegmentIsLeftAlone) {
   for (std::int64_t id = 0; id < 48; ++id) EXPECT_FALSE(map.point(id).erased) << id;
 }
 
+// What a point looks like is what the latest of its sightings saw; those that are removed are forgotten.
+TEST(LocalMap, APointLooksAsTheLatestSightingThatItHas) {
+  LocalMap map;
+  for (int k = 0; k < 3; ++k) {
+    map.keyframes.push_back(keyframeAt(0.5 * k, {{0, 0, 3}}));
+    map.keyframe(k).features.descriptors[0].fill(static_cast<std::uint8_t>(k));
+  }
+  const auto id = map.createPoint(0, 0);
+  map.addSighting(id, 1, 0);
+  map.addSighting(id, 2, 0);
+  const auto expectSeenFrom = [&](int k) {
+    EXPECT_EQ(map.point(id).descriptor[0], k);
+    EXPECT_NEAR(map.point(id).distance, std::hypot(0.5 * k, 3), 1e-9);
+    EXPECT_NEAR(map.point(id).direction.x(), -0.5 * k / std::hypot(0.5 * k, 3), 1e-9);
+  };
+  expectSeenFrom(2);
+  map.removeSighting(id, 0);
+  expectSeenFrom(2);
+  map.removeSighting(id, 2);
+  expectSeenFrom(1);
+  expectConsistent(map);
+}
+
 }  // namespace
 }  // namespace roomgraph::tracking

@@ -25,7 +25,7 @@ namespace {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // it died before
   if (!own_group) std::signal(SIGTERM, SIG_IGN);  // first: the queue may send it now
-  for (const int number : {SIGINT, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGHUP, SIGPIPE, SIGCHLD}) std::signal(number, SIG_DFL);
   if (own_group) std::signal(SIGTERM, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
@@ -40,6 +40,8 @@ namespace {
   _exit(127);
 }
 
+constexpr int kNotTold = 126;  // exit code of a child of which nothing is known
+
 double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
@@ -53,6 +55,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::f
   for (auto& text : texts) words.push_back(text.data());
   words.push_back(nullptr);
   const pid_t parent = getpid();
+  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, nobody is told how a child ended
   const std::string log_name = log.string();
   pid_ = fork();
   if (pid_ < 0) throw RunError(command.front() + ": cannot be started: " + std::strerror(errno));
@@ -72,6 +75,7 @@ std::optional<ChildEnd> ChildProcess::ended() {
   const pid_t pid = wait4(pid_, &status, WNOHANG, &used);
   if (pid == 0 || (pid < 0 && errno == EINTR)) return std::nullopt;
   pid_ = 0;
+  if (pid < 0) return ChildEnd{kNotTold, 0, 0};
   return ChildEnd{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
                   seconds(used.ru_utime) + seconds(used.ru_stime),
                   static_cast<double>(used.ru_maxrss) / 1024};

@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> filesOf(const std::string& pattern, const std::string& place) {
+  if (fs::is_regular_file(pattern)) return {pattern};  // of whatever name
   glob_t found{};
   const int outcome = glob(pattern.c_str(), 0, nullptr, &found);
   std::vector<fs::path> files(found.gl_pathv, found.gl_pathv + (outcome == 0 ? found.gl_pathc : 0));
@@ -46,7 +47,15 @@ std::string nameWithFolders(const fs::path& file, int folders) {
   return name;
 }
 
-// Recordings of one name get those of their folders in front, as many as it takes.
+constexpr int kMostFolders = 40;
+
+std::string numbered(const std::string& name, const std::set<std::string>& taken) {
+  std::string out = name;
+  for (int number = 2; taken.contains(out); ++number) out = name + "_" + std::to_string(number);
+  return out;
+}
+
+// Recordings of one name get those of their folders in front, as many as it takes; a number where those are the same, too.
 void nameRecordings(std::vector<PlannedInput>& inputs) {
   std::set<std::string> taken;
   for (const auto& input : inputs)
@@ -60,7 +69,11 @@ void nameRecordings(std::vector<PlannedInput>& inputs) {
     for (auto& input : inputs) {
       if (!input.simulate.empty() || !input.input.name.empty()) continue;
       const std::string name = nameOf(input);
-      if ((counts[name] == 1 && !taken.contains(name)) || folders > 40) input.input.name = name;
+      if (counts[name] == 1 && !taken.contains(name)) input.input.name = name;
+      if (folders > kMostFolders) {
+        input.input.name = numbered(name, taken);
+        taken.insert(input.input.name);
+      }
     }
     for (const auto& input : inputs) taken.insert(input.input.name);
   }

@@ -185,7 +185,7 @@ void RunPreparer::decide(PreparedRun& run) const {
   }
   const bool same_run =
       before->complete() && before->key == now.key && keepFromText(before->keep) >= run.task.keep;
-  run.needed = !same_run || before->evaluation_key != now.evaluation_key;
+  run.needed = !same_run || before->evaluation_key != now.evaluation_key || !before->reason.empty();
   run.why = run.needed ? whatChanged(*before, now) : "unchanged";
   // Only the truth has changed, and all that an evaluation reads was kept.
   if (!run.needed || !same_run || before->keep != toText(Keep::kAll)) return;

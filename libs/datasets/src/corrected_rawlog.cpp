@@ -107,7 +107,7 @@ CObservation::Ptr correctedObservation(const CObservation::Ptr& observation, con
 
 }  // namespace
 
-void writeCorrectedRawlog(const std::filesystem::path& input, const std::filesystem::path& output,
+std::vector<std::string> writeCorrectedRawlog(const std::filesystem::path& input, const std::filesystem::path& output,
                           const Calibration& calibration, std::optional<int> jpeg_quality,
                           const std::function<void(double)>& progress) {
   requireOther(output, {input});
@@ -121,6 +121,11 @@ void writeCorrectedRawlog(const std::filesystem::path& input, const std::filesys
     if (progress) progress(reader.progress());
   }
   writer.finish();
+  std::vector<std::string> left_out;
+  for (const auto& [reason, count] : reader.skipped())
+    left_out.push_back(input.string() + ": " + std::to_string(count) + " records left out: " + reason);
+  if (!reader.truncation().empty()) left_out.push_back(reader.truncation());
+  return left_out;
 }
 
 }  // namespace roomgraph

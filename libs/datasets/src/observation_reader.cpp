@@ -24,28 +24,34 @@ struct ObservationReader::Impl {
 
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void takeActions(const mrpt::obs::CActionCollection& actions);
+  mrpt::obs::CObservation::Ptr odometryAt(mrpt::Clock::time_point t);
   /// Empty, or why the observation cannot be used.
   std::string problemWith(mrpt::obs::CObservation& observation) const;
 
   RecordSource source;
   std::string image_folder;
   OdometrySum odometry;
+  bool odometry_waits = false;  ///< for the time of the next observation
   std::deque<mrpt::obs::CObservation::Ptr> waiting;  ///< of one sensory frame
   std::map<std::string, int> skipped;
 };
 
 void ObservationReader::Impl::takeActions(const mrpt::obs::CActionCollection& actions) {
-  auto problem = odometry.add(actions);
-  if (problem.empty() && !odometry.time()) problem = "invalid time stamp";
-  if (!problem.empty()) {
+  if (const auto problem = odometry.add(actions); !problem.empty()) {
     ++skipped["CActionCollection: " + problem];
     return;
   }
+  odometry_waits = !odometry.time();
+  if (!odometry_waits) waiting.push_back(odometryAt(mrpt::Clock::fromDouble(*odometry.time())));
+}
+
+mrpt::obs::CObservation::Ptr ObservationReader::Impl::odometryAt(mrpt::Clock::time_point t) {
+  odometry_waits = false;
   auto reading = mrpt::obs::CObservationOdometry::Create();
   const Pose2 pose = odometry.pose();
   reading->odometry = {pose.x, pose.y, pose.yaw};
-  reading->timestamp = mrpt::Clock::fromDouble(*odometry.time());
-  waiting.push_back(reading);
+  reading->timestamp = t;
+  return reading;
 }
 
 std::string ObservationReader::Impl::problemWith(mrpt::obs::CObservation& observation) const {
@@ -88,7 +94,11 @@ mrpt::obs::CObservation::Ptr ObservationReader::next() {
       impl_->waiting.pop_front();
       if (!observation) continue;  // MRPT could not make it
       const auto problem = impl_->problemWith(*observation);
-      if (problem.empty()) return observation;
+      if (problem.empty()) {
+        if (!impl_->odometry_waits) return observation;
+        impl_->waiting.push_front(observation);
+        return impl_->odometryAt(observation->timestamp);
+      }
       ++impl_->skipped[shortClassName(observation->GetRuntimeClass()->className) + ": " + problem];
     }
     const auto item = impl_->source.next();

@@ -5,9 +5,12 @@
 #include <mrpt/core/Clock.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "frame_conversion.h"
 #include "image_folder.h"
@@ -29,6 +32,7 @@ struct ImagePair {
   PinholeCamera camera;
   double depth_scale = 0;
   bool registered_here = false;
+  std::optional<Pose3> robot_from_camera = std::nullopt;  ///< x ahead; none: that of the record
 };
 
 // A folder under construction, removed unless it was put into its place.
@@ -85,6 +89,15 @@ ImagePair pairAsItIs(CObservation3DRangeScan& record) {
   return pair;
 }
 
+// 16 bits; what is farther than they reach is not known.
+cv::Mat inUnits(const cv::Mat& depth, double scale) {
+  cv::Mat scaled, out;
+  depth.convertTo(scaled, CV_64F, scale);
+  scaled.setTo(0, scaled > std::numeric_limits<std::uint16_t>::max());
+  scaled.convertTo(out, CV_16U);
+  return out;
+}
+
 Outcome<ImagePair> pairOf(CObservation3DRangeScan& record, const ObservationReader& reader) {
   if (ObservationReader::isRegistered(record) && record.range_is_depth && record.rangeUnits > 0)
     return pairAsItIs(record);
@@ -92,8 +105,10 @@ Outcome<ImagePair> pairOf(CObservation3DRangeScan& record, const ObservationRead
   if (!frame) return Outcome<ImagePair>::failure(frame.reason());
   if (frame->color.empty() || frame->depth.empty())
     return Outcome<ImagePair>::failure("colour or depth image missing");
-  ImagePair pair{frame->color, {}, frame->camera, kScaleOfRegistered, true};
-  frame->depth.convertTo(pair.depth, CV_16U, kScaleOfRegistered);
+  Pose3 robot_from_camera = frame->robot_from_camera;  // of the colour image, whose pixels the depth has now
+  robot_from_camera.linear() = robot_from_camera.linear() * bodyFromOptical().transpose();
+  ImagePair pair{frame->color, {}, frame->camera, kScaleOfRegistered, true, robot_from_camera};
+  pair.depth = inUnits(frame->depth, kScaleOfRegistered);
   return pair;
 }
 
@@ -125,7 +140,7 @@ class TumFolderWriter {
     if (result_.written == 0) begin(*pair, record);
     if (!(pair->camera == result_.camera)) return leaveOut("its camera is not that of the first image");
     if (pair->depth_scale != depth_scale_)
-      pair->depth.convertTo(pair->depth, CV_16U, depth_scale_ / pair->depth_scale);
+      pair->depth = inUnits(pair->depth, depth_scale_ / pair->depth_scale);
     char stamp[48];
     std::snprintf(stamp, sizeof stamp, "%.9f", mrpt::Clock::toDouble(record.timestamp));
     const std::string color = std::string("rgb/") + stamp + ".png",
@@ -156,7 +171,7 @@ class TumFolderWriter {
  private:
   void begin(const ImagePair& pair, const CObservation3DRangeScan& record) {
     result_.camera = pair.camera;
-    result_.robot_from_camera = toPose3(record.sensorPose);
+    result_.robot_from_camera = pair.robot_from_camera.value_or(toPose3(record.sensorPose));
     depth_scale_ = pair.depth_scale;
   }
   void leaveOut(const std::string& reason) {

@@ -44,7 +44,10 @@ Pose3 KeyPoses::at(double t) const {
   if (after == nodes_.begin()) return nodes_.front().world_from_robot * offset(nodes_.front(), t);
   if (after == nodes_.end()) return nodes_.back().world_from_robot * offset(nodes_.back(), t);
   const KeyPose &a = *std::prev(after), &b = *after;
+  const auto sees = [&](const KeyPose& node) { return node.t == t || motion_.movement(node.t, t, kHorizon_s); };
   const Pose3 from_a = a.world_from_robot * offset(a, t), from_b = b.world_from_robot * offset(b, t);
+  // Before a gap that nothing covers the pose beyond it says nothing, and the other way round.
+  if (const bool by_a = sees(a), by_b = sees(b); by_a != by_b) return by_a ? from_a : from_b;
   return interpolate(from_a, from_b, (t - a.t) / (b.t - a.t));
 }
 

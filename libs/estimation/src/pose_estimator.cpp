@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
@@ -133,17 +134,28 @@ std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose
   return shifts;
 }
 
-Pose3 PoseEstimator::level(const Plane& floor_in_world) {
+// The first key pose after the last gap; 0: all are connected.
+std::size_t PoseEstimator::beginningAfterGap() const {
+  const auto& nodes = poses_.nodes();
+  std::size_t i = nodes.size() - 1;
+  while (i > 0 && connected(motion_, nodes[i - 1], nodes[i])) --i;
+  return i;
+}
+
+PathShift PoseEstimator::level(const Plane& floor_in_world) {
   const Pose3 world_from_ground = cameraFromGround(floor_in_world);
   const Pose3 ground_from_world = world_from_ground.inverse();
-  const Pose3& first = poses_.nodes().front().world_from_robot;
-  const Pose2 kept = planarPart(first), turned = planarPart(ground_from_world * first);
-  Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
-  measurements_.grounds.clear();  // of a floor that was none
-  for (MapFix& fix : measurements_.fixes) fix.world_from_robot = level_from_world * fix.world_from_robot;
-  transform(level_from_world);
+  const KeyPose first = poses_.nodes()[levelled_ ? beginningAfterGap() : 0];
+  const Pose2 kept = planarPart(first.world_from_robot), turned = planarPart(ground_from_world * first.world_from_robot);
+  const Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
+  std::erase_if(measurements_.grounds, [&](const GroundFactor& ground) { return ground.node >= first.id; });  // of a floor that was none
+  for (MapFix& fix : measurements_.fixes)
+    if (fix.t >= first.t) fix.world_from_robot = level_from_world * fix.world_from_robot;
+  poses_.moveFrom(first.id, level_from_world);
+  movedFromOutside();
   levelled_ = true;
-  return level_from_world;
+  const bool all = first.id == poses_.nodes().front().id;
+  return {all ? -std::numeric_limits<double>::infinity() : first.t, level_from_world};
 }
 
 void PoseEstimator::addFloor(double t, const Plane& in_camera, const Pose3& robot_from_camera) {

@@ -64,13 +64,13 @@ Pose3 alignSpatial(const std::vector<PosePair>& pairs) {
   return out;
 }
 
-Pose2 alignPlanar(const std::vector<PosePair>& pairs) {
+Pose2 alignPlanar(const std::vector<PosePair>& pairs, double lever_m) {
   if (pairs.empty()) return {};
   const Moments moments = momentsOf(pairs);
   const auto turnOf = [](const Eigen::Matrix3d& m) {
     return Eigen::Vector2d(m(0, 0) + m(1, 1), m(1, 0) - m(0, 1));
   };
-  Eigen::Vector2d turn = turnOf(moments.cross);
+  Eigen::Vector2d turn = turnOf(moments.cross) + lever_m * lever_m * turnOf(moments.turns);
   if (turn.norm() < kDegenerate) turn = turnOf(moments.turns);
   Pose2 out{0, 0, std::atan2(turn.y(), turn.x())};
   const Eigen::Vector2d shift = moments.truth.head<2>() - out * Eigen::Vector2d(moments.estimate.head<2>());

@@ -38,8 +38,9 @@ std::vector<Attributed> attribute(const std::vector<TrueFrame>& truth,
                                   const std::vector<AssociatedFrame>& associations,
                                   const AssociationOptions& options) {
   std::vector<Attributed> out;
+  const FramesByTime by_time(truth);
   for (std::size_t i = 0; i < associations.size(); ++i) {
-    const int frame = nearestFrame(truth, associations[i].t, options.max_difference_s);
+    const int frame = by_time.nearest(associations[i].t, options.max_difference_s);
     if (frame < 0) continue;
     for (const auto& measured : associations[i].boxes) {
       const Overlap best = bestObject(truth[static_cast<std::size_t>(frame)], measured, options);

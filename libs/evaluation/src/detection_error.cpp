@@ -150,10 +150,11 @@ DetectionErrors evaluateDetections(const std::vector<TrueFrame>& truth,
                                    const DetectionOptions& options) {
   DetectionErrors out;
   std::vector<std::pair<const TrueFrame*, const DetectedFrame*>> pairs;
+  const FramesByTime by_time(truth);
   std::set<int> looked_at;
   std::set<std::string> classes;
   for (const auto& frame : detections) {
-    const int index = nearestFrame(truth, frame.t, options.max_difference_s);
+    const int index = by_time.nearest(frame.t, options.max_difference_s);
     if (index < 0) continue;
     looked_at.insert(index);
     pairs.emplace_back(&truth[static_cast<std::size_t>(index)], &frame);

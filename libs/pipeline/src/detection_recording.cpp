@@ -8,8 +8,10 @@
 namespace roomgraph {
 
 void DetectionRecording::onStep(const StepReport& report) {
-  if (report.image && report.detections.fresh)
-    copy_.insert(toRecord(*report.image, report.detections.boxes, detector_.identity(), report.detections.unsought));
+  if (!report.image || !report.detections.fresh) return;
+  Frame recorded = *report.image;
+  if (const auto offset = time_offsets_s_.find(recorded.sensor_label); offset != time_offsets_s_.end()) recorded.t -= offset->second;
+  copy_.insert(toRecord(recorded, report.detections.boxes, detector_.identity(), report.detections.unsought));
 }
 
 void DetectionFile::onStep(const StepReport& report) {

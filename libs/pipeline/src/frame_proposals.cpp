@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ground and proposals of a frame: beside its tracking where they do not need its pose.
-#include <limits>
 #include <opencv2/core/utility.hpp>
 
 #include "moving_in_depth.h"
@@ -8,6 +7,9 @@
 #include "roomgraph/pipeline/semantic_slam.h"
 
 namespace roomgraph {
+namespace {
+constexpr double kPlacedWithin_s = 0.3;  // a source whose last pose is so old still places a frame
+}  // namespace
 
 // On a robot the floor is where the extrinsics say.
 std::future<SemanticSlam::Proposed> SemanticSlam::propose(const Frame& frame, const std::vector<Detection>& detections) {
@@ -43,11 +45,18 @@ FrameGround SemanticSlam::seeGround(const Frame& frame) {
   return ground;
 }
 
+bool SemanticSlam::placedByOthers(double t) const {
+  const Motion& motion = front_ends_.motion();
+  const auto saw = [t](const MotionSource& source) { return source.between(t - kPlacedWithin_s, t, kPlacedWithin_s).has_value(); };
+  return saw(motion.odometry) || saw(motion.lidar);
+}
+
 // What moves is told in the tracker's frame: in world poses jump where loops close.
 void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, const TrackingResult& tracked) {
+  const bool tracks = setup_->stages.rgbd_odometry != nullptr;
+  if (tracks && !tracked.tracked && !placedByOthers(frame.t)) return;
   auto slice = mapper_.slice(frame, floor, people);
   if (!slice) return;
-  const bool tracks = setup_->stages.rgbd_odometry != nullptr;
   if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth() && (tracked.tracked || !tracks)) {
     const Pose3 robot = tracks ? tracked.odom_from_camera * frame.robot_from_camera.inverse() : estimator_.poses().at(frame.t);
     counts_.returns_in_free_space += moving_->leaveOut(*slice, robot, tracked.segment);
@@ -72,10 +81,13 @@ bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
   const Plane in_world = transformed(world_from_camera, in_camera);
   const bool again = estimator_.levelled();
   if (again && !contradictsFloor(in_world, world_from_camera.translation())) return false;
+  // The floor is where it was; the pose of a frame that nothing placed is wrong.
+  const auto& seen = front_ends_.motion().visual.poses();
+  if (again && setup_->stages.rgbd_odometry && (seen.empty() || seen.lastTime() < frame.t) && !placedByOthers(frame.t)) return false;
   const auto floor = floors_.add(frame.t, in_world, world_from_camera.translation());
   if (!floor) return false;
   if (again) ++counts_.reasons["ground: what was taken for the floor was none"];
-  objects_.move({-std::numeric_limits<double>::infinity(), estimator_.level(*floor)});
+  objects_.move(estimator_.level(*floor));
   floors_.clear();
   return true;
 }

@@ -88,7 +88,8 @@ StepReport SemanticSlam::step(const Frame& frame) {
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step
     }
   }
-  *people_ = peopleInView(proposals, frame.robot_from_camera, setup_->database);
+  // Where nobody looked, or nobody knows where, those seen last are there for a moment still.
+  if (detections.current() && proposals.ground) *people_ = peopleInView(proposals, frame.robot_from_camera, setup_->database);
 
   robot_times_.push_back(frame.t);
   camera_mounts_.emplace_back(frame.t, frame.robot_from_camera);
@@ -356,6 +357,7 @@ SlamResult SemanticSlam::finish() {
 void SemanticSlam::refine() {
   const auto timing = times_.measure("hindsight");
   if (estimator_.solving()) takeOver();
+  addClosures(front_ends_.takeImageClosures());  // found since the last key pose
   front_ends_.refine();
   front_ends_.releaseImages();
   optimizeAll(PoseEstimator::Effort::kNear);  // what the front ends have refined gives bodies another form

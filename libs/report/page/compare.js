@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several runs side by side: figures, maps that move together, keys that differ.
 
+// Of the objects of the map, not of boxes or cells, which have a precision, too; final before live.
+function objectEvaluation(run, name) {
+  const files = run.evaluations.filter((e) => name in e.figures && 'yaw_pairs' in e.figures);
+  return files.find((e) => !e.file.includes('live')) || files[0];
+}
+
 function comparedFigures() {
   const evaluated = (name) => (run) => {
-    const file = run.evaluations.find((e) => name in e.figures);
+    const file = objectEvaluation(run, name);
     return file ? file.figures[name] : null;
   };
   const ate = (key) => (run) => run[key] && run[key].ate_m.rmse;

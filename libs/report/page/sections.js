@@ -112,6 +112,8 @@ function accuracySection(run, onTime) {
   const parts = [];
   if (run.final_errors || run.live_errors) {
     const e = run.final_errors;
+    if (run.truth_is_of_camera)
+      parts.push(h('p', {class: 'none'}, 'The true path is that of the camera, as its directions tell: errors are those of the camera.'));
     parts.push(
         errorTable(run),
         h('div', {class: 'two'},
@@ -133,7 +135,8 @@ function accuracySection(run, onTime) {
 }
 
 function evaluationPart(run) {
-  const reliable = run.evaluations.find((e) => e.reliability.length);
+  const told = run.evaluations.filter((e) => e.reliability.length);
+  const reliable = told.find((e) => !e.file.includes('live')) || told[0];
   const diagram = reliable ?
       h('figure', {class: 'card pad', style: 'margin: 0'}, h('h3', {}, 'Reliability of the association'),
         h('p', {class: 'none'},

@@ -141,6 +141,7 @@ void addPaths(const RunData& run, ordered_json& out) {
   out["gaps"] = ordered_json::array();
   for (const auto& [from, to] : run.gaps) out["gaps"].push_back({rounded(from, 2), rounded(to, 2)});
   out["hindsight_m"] = seriesJson(run.hindsight_m);
+  out["truth_is_of_camera"] = run.truth_is_of_camera;
   out["final_errors"] = errorsJson(run.final_errors);
   out["live_errors"] = errorsJson(run.live_errors);
   out["closures"] = ordered_json::array();

@@ -49,7 +49,7 @@ double lengthOf(const std::vector<PathPoint>& path) {
 
 std::optional<ReportedErrors> errorsOf(const Trajectory& truth, const Trajectory& estimate, double start_t,
                                        double duration_s) {
-  ReportedErrors out{evaluateTrajectory(truth, estimate), {}, {}};
+  ReportedErrors out{evaluateTrajectory(truth, estimate), {}, {}, 0};
   if (out.figures.pairs == 0) return std::nullopt;
   Samples position_m, rotation_deg;
   for (const auto& pair : associate(truth, estimate, {})) {
@@ -57,6 +57,7 @@ std::optional<ReportedErrors> errorsOf(const Trajectory& truth, const Trajectory
     position_m.emplace_back(pair.t - start_t, error.translation().norm());
     rotation_deg.emplace_back(pair.t - start_t, rotationAngle(error) * kDegreesPerRadian);
   }
+  for (const auto& [t, degrees] : rotation_deg) out.mean_rotation_deg += degrees / static_cast<double>(rotation_deg.size());
   out.position_m = curveOf(position_m, duration_s);
   out.rotation_deg = curveOf(rotation_deg, duration_s);
   return out;

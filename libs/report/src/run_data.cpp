@@ -50,6 +50,7 @@ class Gathering {
  public:
   Gathering(std::filesystem::path folder, RunData& run) : folder_(std::move(folder)), run_(run) {}
 
+  const std::filesystem::path& folder() const { return folder_; }
   // Reads one file; what is wrong with it is noted.
   void read(const std::string& name, const std::function<void(const std::filesystem::path&)>& reader) {
     const auto file = folder_ / name;
@@ -78,13 +79,16 @@ class Gathering {
 };
 
 struct Trajectories {
-  Trajectory live, final;
+  Trajectory live, final;  // of the robot
+  Trajectory camera;       // final, optical frame
 };
 
 Trajectories gatherPaths(Gathering& files, RunData& run) {
   Trajectories out;
   files.read("trajectory.tum", [&](const auto& file) { out.final = readTrajectory(file).trajectory; });
   files.read("live.tum", [&](const auto& file) { out.live = readTrajectory(file).trajectory; });
+  if (std::error_code none; std::filesystem::exists(files.folder() / "trajectory_camera.tum", none))
+    files.read("trajectory_camera.tum", [&](const auto& file) { out.camera = readTrajectory(file).trajectory; });
   const Trajectory& longest = out.final.empty() ? out.live : out.final;
   if (longest.empty()) return out;
   run.start_t = longest.firstTime();
@@ -100,10 +104,31 @@ Trajectories gatherPaths(Gathering& files, RunData& run) {
   return out;
 }
 
+// Of the camera, as it is on the robot where both are known first.
+Trajectory seenByCamera(const Trajectory& robot, const Trajectories& known) {
+  std::optional<Pose3> robot_from_camera;
+  for (const auto& camera : known.camera.poses())
+    if (const auto at = known.final.at(camera.t); at && !robot_from_camera) robot_from_camera = at->inverse() * camera.pose;
+  Trajectory out;
+  if (robot_from_camera)
+    for (const auto& pose : robot.poses()) out.add(pose.t, pose.pose * *robot_from_camera);
+  return out;
+}
+
+constexpr double kClearlyFits = 0.5;  // of the error in direction of the other path
+
+// True paths are those of the robot or, as importers of handheld recordings write them, of the camera: directions tell.
 void compareWithTruth(const std::filesystem::path& file, const Trajectories& estimated, RunData& run) {
   const Trajectory truth = readTrajectory(file).trajectory;
-  run.final_errors = errorsOf(truth, estimated.final, run.start_t, run.duration_s);
-  run.live_errors = errorsOf(truth, estimated.live, run.start_t, run.duration_s);
+  const auto errors = [&](const Trajectory& path) { return errorsOf(truth, path, run.start_t, run.duration_s); };
+  run.final_errors = errors(estimated.final);
+  run.live_errors = errors(estimated.live);
+  const auto of_camera = errors(seenByCamera(estimated.final, estimated));
+  if (of_camera && run.final_errors && of_camera->mean_rotation_deg < kClearlyFits * run.final_errors->mean_rotation_deg) {
+    run.truth_is_of_camera = true;
+    run.final_errors = of_camera;
+    run.live_errors = errors(seenByCamera(estimated.live, estimated));
+  }
   if (!run.final_errors) return;
   const Pose3 estimate_from_truth = run.final_errors->figures.truth_from_estimate.inverse();
   Trajectory moved;

@@ -29,6 +29,7 @@ struct BinnedSeries {
 struct ReportedErrors {
   TrajectoryErrors figures;
   BinnedSeries position_m, rotation_deg;
+  double mean_rotation_deg = 0;
 };
 
 struct GridImage {
@@ -107,6 +108,7 @@ struct RunData {
   std::vector<std::pair<double, double>> gaps;  ///< spans without a pose, s since the first
   BinnedSeries hindsight_m;                     ///< distance between live and final pose
   std::optional<ReportedErrors> final_errors, live_errors;
+  bool truth_is_of_camera = false;  ///< errors are those of the camera's path, whose directions are the truth's
   std::optional<GridImage> grid;
   std::vector<ReportedObject> objects;
   std::map<std::string, std::string> colours;  ///< class -> #rrggbb

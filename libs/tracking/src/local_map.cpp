@@ -3,6 +3,7 @@
 #include "local_map.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 namespace roomgraph::tracking {
@@ -31,6 +32,14 @@ void LocalMap::addSighting(std::int64_t id, int keyframe_index, int feature) {
   const auto i = static_cast<std::size_t>(feature);
   p.sightings.push_back({keyframe_index, feature});
   frame.points[i] = id;
+  looksAsSeenLast(p);
+}
+
+// What it is known again by.
+void LocalMap::looksAsSeenLast(MapPoint& p) {
+  const auto& [keyframe_index, feature] = p.sightings.back();
+  const auto& frame = keyframe(keyframe_index);
+  const auto i = static_cast<std::size_t>(feature);
   const Eigen::Vector3d ray = p.position - frame.odom_from_camera.translation();
   p.descriptor = frame.features.descriptors[i];
   p.octave = frame.features.places[i].octave;
@@ -44,8 +53,12 @@ void LocalMap::removeSighting(std::int64_t id, int keyframe_index) {
                                [&](const Sighting& s) { return s.keyframe == keyframe_index; });
   if (it == sightings.end()) return;
   keyframe(keyframe_index).points[static_cast<std::size_t>(it->feature)] = -1;
+  const bool latest = std::next(it) == sightings.end();
   sightings.erase(it);
-  if (sightings.empty()) points.release(static_cast<std::size_t>(id));
+  if (sightings.empty())
+    points.release(static_cast<std::size_t>(id));
+  else if (latest)
+    looksAsSeenLast(point(id));
 }
 
 void LocalMap::erase(std::int64_t id) {

@@ -49,6 +49,7 @@ struct LocalMap {
   std::int64_t createPoint(int keyframe, int feature);
   void addSighting(std::int64_t point, int keyframe, int feature);
   void removeSighting(std::int64_t point, int keyframe);
+  void looksAsSeenLast(MapPoint& point);
   void erase(std::int64_t point);
   /// Gives back what the keyframe takes, and its points that no other shows; `older` shows what it showed. Time and pose stay.
   void giveUp(int keyframe, int older);

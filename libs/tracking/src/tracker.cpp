@@ -21,6 +21,8 @@ namespace roomgraph::tracking {
 namespace {
 
 constexpr int kCoastFrames = 3;         // lost frames over which the velocity is extrapolated
+constexpr double kMissing = 1.5;         // times the step before: an image is missing; less is how stamps vary at a steady rate
+constexpr double kLongestStep_s = 0.25;  // over which a velocity goes on
 constexpr double kUntoldPause_s = 2;    // without a frame, in which a camera may be carried away
 constexpr int kLoopPause = 3;           // keyframes between two loop closures
 constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
@@ -56,12 +58,21 @@ Pose3 Tracker::lastPose() const {
   return map_.keyframe(placed_.keyframe).odom_from_camera * placed_.keyframe_from_camera;
 }
 
+Pose3 Tracker::goesOn() const {
+  if (!velocity_ || velocity_->seconds <= 0) return Pose3::Identity();
+  const double share = step_s_ / velocity_->seconds;
+  if (share > 1 / kMissing && share < kMissing) return velocity_->step;
+  return interpolate(Pose3::Identity(), velocity_->step, share);
+}
+
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others) {
   const TrackingPrior prior = withMovers(by_others, frame.t);
   // Without other sensors the last velocity is trusted for a moment only.
   robot_from_camera_ = isMounted(frame) ? std::optional(frame.robot_from_camera) : std::nullopt;
   const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
-  const Pose3 guess = goes_on ? velocity_.value_or(Pose3::Identity()) : Pose3::Identity();
+  step_s_ = std::clamp(frame.t - reckoned_t_, 0.0, kLongestStep_s);
+  reckoned_t_ = std::max(reckoned_t_, frame.t);
+  const Pose3 guess = goes_on ? goesOn() : Pose3::Identity();
   carried_ |= !records_.empty() && frame.t - last_t_ > kUntoldPause_s && !prior.previous_from_current;
   dead_reckoned_before_ = dead_reckoned_;
   dead_reckoned_ = normalized(dead_reckoned_ * prior.previous_from_current.value_or(expected(guess)));
@@ -211,7 +222,8 @@ TrackingResult Tracker::lost(const std::string& reason, View* view) {
 
 TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
   const Pose3 step = normalized(previous.inverse() * view.odom_from_camera);
-  velocity_ = normalized((previous * dead_reckoned_before_).inverse() * view.odom_from_camera);
+  // After frames that dense alignment placed a step corrects its drift, too: their own velocity holds.
+  if (lost_frames_ == 0) velocity_ = {normalized((previous * dead_reckoned_before_).inverse() * view.odom_from_camera), step_s_};
   TrackingResult result;
   result.step_covariance = stepCovariance(step, view.solution);
   const bool elsewhere = view.jumped || map_.keyframe(reference_).origin != map_.keyframe(placed_.keyframe).origin;

@@ -148,6 +148,13 @@ class Tracker {
   Matrix6d stepCovariance(const Pose3& previous_from_current, const PoseSolution& solution);
   Pose3 lastPose() const;
 
+  struct Velocity {
+    Pose3 step = Pose3::Identity();  ///< previous_from_current
+    double seconds = 0;              ///< that it took
+  };
+  /// Where the last velocity leads in the time since the last frame; nothing known: it stands.
+  Pose3 goesOn() const;
+
   TrackingParameters parameters_;
   Foreseen<Sight> foreseen_;
   LocalMap map_;
@@ -157,7 +164,9 @@ class Tracker {
   Box2 mover_;                               ///< what moved before the camera, px,
   double mover_t_ = -1e300;                  ///< when it was seen last
   std::vector<std::int64_t> last_points_;    ///< inliers of the last tracked frame
-  std::optional<Pose3> velocity_;            ///< previous_from_current of the last step
+  std::optional<Velocity> velocity_;         ///< of the last step
+  double step_s_ = 0;                        ///< from the frame before to the one being tracked
+  double reckoned_t_ = -1e300;               ///< of the last frame, usable or not
   /// Movement since the last frame that features placed, as far as is known: now, and one frame before.
   Pose3 dead_reckoned_ = Pose3::Identity(), dead_reckoned_before_ = Pose3::Identity();
   std::optional<Pose3> measured_ = Pose3::Identity();  ///< the same as other sensors saw it; nothing when they missed a part

@@ -32,7 +32,7 @@ bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
   // Tried beside scans, too: no better in three flats, worse in one (docs/results.md).
   if (!parameters_.dense_alignment || prior.by_scans) return false;
   DenseChain::Prediction predicted{.first_from_current = dead_reckoned_, .measured = prior.previous_from_current.has_value()};
-  if (predicted.measured && velocity_) predicted.otherwise = dead_reckoned_before_ * expected(*velocity_);
+  if (predicted.measured && velocity_) predicted.otherwise = dead_reckoned_before_ * expected(goesOn());
   if (robot_from_camera_) predicted.body = CarryingBody{robot_from_camera_->inverse(), habits_.scatter()};
   const auto moved = dense_.follow(frame, prior.dynamic_regions, predicted);
   densely_placed_ = moved.has_value();
@@ -49,7 +49,7 @@ void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
     result.reason = "by depth and brightness: " + result.reason;
     blind_frames_ = 0;
     // Where nothing is seen of a movement, it ends rather than goes on.
-    velocity_ = interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), kGoesOn);
+    velocity_ = {interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), kGoesOn), step_s_};
   }
   result.segment = placed_.segment;
   result.odom_from_camera = lastPose() * dead_reckoned_;

@@ -13,6 +13,7 @@
 namespace roomgraph {
 
 constexpr double kMaxRaySupport = 1;  ///< log odds of existence that rays may give
+constexpr double kClearMajority = 3;  ///< ratio of label votes that changes the class: detectors often confuse classes
 
 /// Position of one sighting, for the test whether a landmark is two objects.
 struct PlaceSketch {

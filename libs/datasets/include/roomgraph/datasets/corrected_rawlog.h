@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "roomgraph/datasets/calibration_file.h"
 
@@ -16,8 +18,8 @@ namespace roomgraph {
 /// without loss. Depth values move by whole units of the recording. `progress` gets the share done and may
 /// throw; nothing is left of a copy that was not finished. Throws InputError (no rawlog), ConfigError (the
 /// output is the input; a sensor is not in it) or RunError (cannot be written; depth along rays, which a bias
-/// would not fit).
-void writeCorrectedRawlog(const std::filesystem::path& input, const std::filesystem::path& output,
+/// would not fit). Returns what was left out of the copy, in words: records that cannot be used, a file that is cut off.
+std::vector<std::string> writeCorrectedRawlog(const std::filesystem::path& input, const std::filesystem::path& output,
                           const Calibration& calibration, std::optional<int> jpeg_quality = std::nullopt,
                           const std::function<void(double)>& progress = nullptr);
 

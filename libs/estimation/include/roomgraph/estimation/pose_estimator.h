@@ -72,8 +72,9 @@ class PoseEstimator {
   /// are to be moved likewise.
   std::vector<PathShift> addClosures(const std::vector<RelativePose>& offered);
   /// Moves world so that this plane becomes z = 0 and the first key pose keeps x, y and yaw: world stays in
-  /// the frame of an earlier map. Returns how it was moved. Floors measured before are forgotten.
-  Pose3 level(const Plane& floor_in_world);
+  /// the frame of an earlier map. Of a world that was levelled before, only what came after the last gap that no source of motion covers
+  /// is moved likewise: what the floor was seen from before still holds. Returns how; floors measured in what is moved are forgotten.
+  PathShift level(const Plane& floor_in_world);
   /// The floor that a handheld camera measured by depth at time t (a plane in the camera's frame), in a
   /// levelled world; seen from a key pose, it becomes a factor. Nothing for a robot on the floor.
   void addFloor(double t, const Plane& in_camera, const Pose3& robot_from_camera);
@@ -122,6 +123,7 @@ class PoseEstimator {
   double surpriseOf(const RelativePose& closure) const;
   void pullSurprises();
   void settleSurprises();
+  std::size_t beginningAfterGap() const;
   std::optional<PathShift> reconnect(const RelativePose& closure);
 
   const BackendOptions& options_;

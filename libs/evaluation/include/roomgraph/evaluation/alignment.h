@@ -19,8 +19,9 @@ struct PosePair {
 /// orientations. Identity when there are no pairs.
 Pose3 alignSpatial(const std::vector<PosePair>& pairs);
 
-/// The same in the plane: a transform of x, y and yaw.
-Pose2 alignPlanar(const std::vector<PosePair>& pairs);
+/// The same in the plane: a transform of x, y and yaw. Directions count as points that far from the positions, m; 0: only where
+/// positions tell no yaw.
+Pose2 alignPlanar(const std::vector<PosePair>& pairs, double lever_m = 0);
 
 /// True when no pose of either side leaves the horizontal plane: constant z, no roll or pitch.
 bool isPlanar(const std::vector<PosePair>& pairs);

@@ -2,9 +2,12 @@
 // True boxes, detections and associations per frame, read from JSON lines.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "roomgraph/geometry/box.h"
@@ -55,17 +58,33 @@ std::vector<TrueFrame> readTrueFrames(const std::filesystem::path& file);
 std::vector<DetectedFrame> readDetections(const std::filesystem::path& file);
 std::vector<AssociatedFrame> readAssociations(const std::filesystem::path& file);
 
-/// Index of the frame whose stamp is nearest to t; -1 when none is within max_difference_s.
-template <class Frame>
-int nearestFrame(const std::vector<Frame>& frames, double t, double max_difference_s) {
-  int nearest = -1;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const double gap = std::abs(frames[i].t - t);
-    if (gap > max_difference_s) continue;
-    nearest = static_cast<int>(i);
-    max_difference_s = std::nextafter(gap, -1);
+/// Frames, in whatever order, to be found by their stamps.
+class FramesByTime {
+ public:
+  template <class Frame>
+  explicit FramesByTime(const std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) by_time_.emplace_back(frame.t, static_cast<int>(by_time_.size()));
+    std::sort(by_time_.begin(), by_time_.end());
   }
-  return nearest;
-}
+
+  /// Index of the frame whose stamp is nearest to t, the first of several; -1 when none is within max_difference_s.
+  int nearest(double t, double max_difference_s) const {
+    const auto from = std::lower_bound(by_time_.begin(), by_time_.end(), std::pair(t, -1));
+    int best = -1;
+    const auto ask = [&](const std::pair<double, int>& frame) {
+      const double gap = std::abs(frame.first - t);
+      if (gap > max_difference_s || (best >= 0 && gap == max_difference_s && frame.second > best)) return;
+      best = frame.second;
+      max_difference_s = gap;
+    };
+    if (from != by_time_.end()) ask(*from);
+    if (from != by_time_.begin())
+      ask(*std::lower_bound(by_time_.begin(), from, std::pair(std::prev(from)->first, -1)));  // the first of its stamp
+    return best;
+  }
+
+ private:
+  std::vector<std::pair<double, int>> by_time_;
+};
 
 }  // namespace roomgraph

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "roomgraph/datasets/rawlog_copy.h"
 #include "roomgraph/detection/detector.h"
@@ -15,10 +18,11 @@ namespace roomgraph {
 /// carried are not written: the replay carries them again.
 class DetectionRecording : public Sink {
  public:
-  /// The detector outlives the recording. Throws like RawlogCopy.
+  /// The detector outlives the recording. `time_offsets_s`: by sensor label, what was added to the stamps of the input when it was read;
+  /// the copy has the stamps of the input. Throws like RawlogCopy.
   DetectionRecording(const std::filesystem::path& input, const std::filesystem::path& output,
-                     const Detector& detector)
-      : copy_(input, output), detector_(detector) {}
+                     const Detector& detector, std::map<std::string, double> time_offsets_s = {})
+      : copy_(input, output), detector_(detector), time_offsets_s_(std::move(time_offsets_s)) {}
 
   void onStep(const StepReport& report) override;
   /// Copies the rest of the input. Throws RunError when writing failed.
@@ -27,6 +31,7 @@ class DetectionRecording : public Sink {
  private:
   RawlogCopy copy_;
   const Detector& detector_;
+  std::map<std::string, double> time_offsets_s_;
 };
 
 /// Writes what the detector finds, and nothing else, as a rawlog that `[detection] file` takes: a thousandth

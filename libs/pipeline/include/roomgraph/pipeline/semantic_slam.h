@@ -135,6 +135,8 @@ class SemanticSlam {
                                         const FrameDetections& detections);
   ScanMatch match(const Scan& scan);
   void use(const Scan& clean);
+  /// Whether wheels or scans tell where the robot is then.
+  bool placedByOthers(double t) const;
 
   void localize(double t);
   void takeOver();
