@@ -52,7 +52,7 @@ class EngineSession {
       front_end_ = std::make_unique<EngineFrontEnd>(request.make_setup(), request.rawlog);
     if (ini.parts.has("CObjectClosuresERD")) front_end_->mapObjects(request.make_setup());
     if (request.window) window_ = std::make_unique<EngineWindow>("roomgraph graphslam: " + request.rawlog.filename().string());
-    const SceneLock lock(display());
+    const SceneLock lock(request.truth.empty() ? display() : nullptr);  // with a truth the engine may wait for a second window
     try {
       parts_ = PartMaker<GRAPH>(front_end_.get()).make(ini.parts);
       setConsole();

@@ -92,6 +92,11 @@ TEST_F(TaskOfAScript, AnEvaluationThatFailsIsAWarning) {
             0);
   EXPECT_EQ(result.status, "complete");
   EXPECT_EQ(result.reason, "evaluate trajectory: no pairs");
+  // All stays for the next time, whatever is to be kept in the end.
+  task.keep = Keep::kSummary;
+  perform(std::string("[ $1 = run ] && echo x > graph.g2o\n[ $1 = evaluate ] && exit 1\n") + kSummary);
+  EXPECT_TRUE(result.files.contains("graph.g2o"));
+  EXPECT_EQ(result.keep, "all");
 }
 
 TEST_F(TaskOfAScript, WhoIsOverTheTimeIsToldToEnd) {

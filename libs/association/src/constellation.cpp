@@ -118,6 +118,8 @@ std::vector<std::size_t> anchorsOf(const std::vector<Landmark>& query, const std
   const auto alike = [&](std::size_t i) {
     return std::count_if(map.begin(), map.end(), [&](const Landmark& m) { return m.class_name == query[i].class_name; });
   };
+  std::erase_if(out, [&](std::size_t i) { return alike(i) == 0; });
+  if (out.size() <= kMostAnchors) return out;
   std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) { return alike(a) < alike(b); });
   out.resize(kMostAnchors);
   std::sort(out.begin(), out.end());

@@ -186,8 +186,8 @@ class Performance {
   void finish() {
     std::error_code none;
     fs::remove(task_.folder / "progress", none);
-    // What could not be evaluated may be the next time.
     if (result_.complete() && result_.reason.empty()) removeUnkept(task_.folder, task_.keep);
+    if (result_.complete() && !result_.reason.empty()) result_.keep = toText(Keep::kAll);  // to be evaluated the next time
     if (result_.complete()) fs::remove(task_.folder / "task.json", none);
     result_.files = filesIn(task_.folder);
     writeRunResult(result_, task_.folder / "result.json");

@@ -295,7 +295,7 @@ bool ObjectMapper::reassociate() {
 // its sightings have changed, and the former one may hold it back.
 void ObjectMapper::goOnFrom(const Landmark& optimum) {
   if (optimum.shape.kind != ShapeKind::kCuboid) return;
-  if (const Landmark* fused = landmarks_.find(optimum.id))
+  if (const Landmark* fused = landmarks_.find(optimum.id); fused && fused->class_name == optimum.class_name)
     landmarks_.correct(optimum.id, optimum.position, optimum.yaw, optimum.shape, fused->covariance);
 }
 

@@ -138,7 +138,12 @@ std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose
 std::size_t PoseEstimator::beginningAfterGap() const {
   const auto& nodes = poses_.nodes();
   std::size_t i = nodes.size() - 1;
-  while (i > 0 && connected(motion_, nodes[i - 1], nodes[i])) --i;
+  const auto linked = [&](const KeyPose& a, const KeyPose& b) {
+    return std::any_of(measurements_.closures.begin(), measurements_.closures.end(), [&](const RelativePose& closure) {
+      return closure.link && std::min(closure.t_a, closure.t_b) < b.t && std::max(closure.t_a, closure.t_b) > a.t;
+    });
+  };
+  while (i > 0 && (connected(motion_, nodes[i - 1], nodes[i]) || linked(nodes[i - 1], nodes[i]))) --i;
   return i;
 }
 
@@ -149,12 +154,12 @@ PathShift PoseEstimator::level(const Plane& floor_in_world) {
   const Pose2 kept = planarPart(first.world_from_robot), turned = planarPart(ground_from_world * first.world_from_robot);
   const Pose3 level_from_world = toPose3(kept * turned.inverse()) * ground_from_world;
   std::erase_if(measurements_.grounds, [&](const GroundFactor& ground) { return ground.node >= first.id; });  // of a floor that was none
-  for (MapFix& fix : measurements_.fixes)
-    if (fix.t >= first.t) fix.world_from_robot = level_from_world * fix.world_from_robot;
+  const bool all = first.id == poses_.nodes().front().id;
+  if (all)  // else world stays where it is
+    for (MapFix& fix : measurements_.fixes) fix.world_from_robot = level_from_world * fix.world_from_robot;
   poses_.moveFrom(first.id, level_from_world);
   movedFromOutside();
   levelled_ = true;
-  const bool all = first.id == poses_.nodes().front().id;
   return {all ? -std::numeric_limits<double>::infinity() : first.t, level_from_world};
 }
 
@@ -189,7 +194,7 @@ void PoseEstimator::slideWindow() {
   for (const LocalMap& map : window_.local_maps)
     if (map.end > first_ + 1) keep.nodes.push_back(map.id);
   prior_ = window_.graph.marginalize(keep);
-  in_prior_[nodes[first_].id] = measurements_.closures.size();
+  in_prior_[nodes[first_].id] = closures_in_window_;
   ++first_;
 }
 
@@ -198,7 +203,12 @@ void PoseEstimator::restartWindow(std::size_t first) {
   first_ = first;
   prior_.reset();
   in_prior_.clear();
-  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_);
+  buildWindowAgain();
+}
+
+void PoseEstimator::buildWindowAgain() {
+  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_, in_prior_);
+  closures_in_window_ = measurements_.closures.size();
 }
 
 void PoseEstimator::movedFromOutside() {
@@ -209,7 +219,7 @@ void PoseEstimator::movedFromOutside() {
 
 void PoseEstimator::optimizeWindow() {
   slideWindow();
-  window_ = buildWindow(poses_, motion_, measurements_, options_, first_, prior_, in_prior_);
+  buildWindowAgain();
   if (!window_.graph.optimize(options_.max_iterations).usable) return;
   for (std::size_t i = first_; i < poses_.nodes().size(); ++i) {
     const NodeId id = poses_.nodes()[i].id;

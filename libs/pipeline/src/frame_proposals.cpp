@@ -82,8 +82,7 @@ bool SemanticSlam::findFloor(const Frame& frame, const Plane& in_camera) {
   const bool again = estimator_.levelled();
   if (again && !contradictsFloor(in_world, world_from_camera.translation())) return false;
   // The floor is where it was; the pose of a frame that nothing placed is wrong.
-  const auto& seen = front_ends_.motion().visual.poses();
-  if (again && setup_->stages.rgbd_odometry && (seen.empty() || seen.lastTime() < frame.t) && !placedByOthers(frame.t)) return false;
+  if (again && setup_->stages.rgbd_odometry && placed_t_ != frame.t && !placedByOthers(frame.t)) return false;
   const auto floor = floors_.add(frame.t, in_world, world_from_camera.translation());
   if (!floor) return false;
   if (again) ++counts_.reasons["ground: what was taken for the floor was none"];

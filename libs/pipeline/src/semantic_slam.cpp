@@ -194,6 +194,7 @@ TrackingResult SemanticSlam::track(const Frame& frame, const std::vector<Box2>& 
   if (!setup_->stages.rgbd_odometry) return {};
   const auto timing = times_.measure("RGB-D odometry");
   TrackingResult result = front_ends_.track(frame, people);
+  if (result.tracked) placed_t_ = frame.t;
   counts_.frames_lost += !result.tracked;
   counts_.frames_with_movers += result.moving > 0;
   if (!result.reason.empty()) ++counts_.reasons["tracking: " + result.reason];

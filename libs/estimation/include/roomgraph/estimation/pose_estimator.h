@@ -119,6 +119,7 @@ class PoseEstimator {
   PathShift adopt(const FactorGraph& solved, std::size_t count);
   void slideWindow();
   void restartWindow(std::size_t first);
+  void buildWindowAgain();
   void movedFromOutside();
   double surpriseOf(const RelativePose& closure) const;
   void pullSurprises();
@@ -138,6 +139,7 @@ class PoseEstimator {
   std::size_t first_ = 0;               ///< oldest key pose in it
   std::optional<MarginalPrior> prior_;  ///< of them, from measurements since the whole graph was optimised
   ClosuresInPrior in_prior_;
+  std::size_t closures_in_window_ = 0;  ///< how many there were when window_ was built
   int nodes_since_optimization_ = 0;
   std::size_t formed_ = 0;  // key poses whose places a solution of the whole graph has set
   bool again_ = false;  ///< what was taken over last did not know of a surprise, or was void

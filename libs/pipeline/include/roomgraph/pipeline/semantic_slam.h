@@ -176,6 +176,7 @@ class SemanticSlam {
   ViewMemory views_;                      ///< for whoever continues this one
   RunCounts counts_;
   double last_frame_t_, last_scan_t_;
+  double placed_t_ = -1e300;  ///< of the last frame that was tracked
   std::optional<double> first_t_;                        ///< of the first record
   bool finished_ = false;
   std::vector<double> robot_times_, odometry_times_;     ///< of all frames and scans; of all readings
