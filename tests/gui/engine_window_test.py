@@ -83,8 +83,8 @@ class EngineWindow(unittest.TestCase):
         self.assertTrue(condition(self.share()), why)
 
     def pause(self, process):
-        """The share that was done when the key had been pressed early in the recording."""
-        self.until_share(process, lambda share: share > 0.05, "nothing was replayed")
+        """The share that was done when the key had been pressed in the first half of the recording."""
+        self.until_share(process, lambda share: share > 0.3, "nothing was replayed")
         self.display.xdotool("mousemove", 300, 300)
         self.display.key("p")
         time.sleep(2)  # a step takes less
@@ -101,7 +101,7 @@ class EngineWindow(unittest.TestCase):
         out, err = process.communicate(timeout=PATIENCE_S)
         self.assertEqual(process.returncode, 0, err)
         self.assertIn("16 nodes", out)
-        self.assertGreater(count(drawn, is_scan), 30, "what was there before the pause")
+        self.assertGreater(count(drawn, is_scan), 10, "what was there before the pause")
 
     def test_ends_on_a_signal_while_it_is_paused(self):
         process = self.start("--progress-file", self.folder / "progress", "--quiet")
