@@ -117,6 +117,23 @@ TEST(Constellation, AHallOfChairsIsFoundByItsDoors) {
   EXPECT_NEAR(match->map_from_query.yaw, 2.5, 1e-6);
 }
 
+// All chairs were taken elsewhere, the doors are where they were.
+TEST(Constellation, AHallWithOtherChairsIsFoundByItsDoors) {
+  Random random(6);
+  std::vector<Landmark> map, query;
+  const Pose2 map_from_query{3, -2, 2.5};
+  for (int i = 0; i < 25; ++i) map.push_back(object("chair", random.uniform(0, 60), random.uniform(0, 60)));
+  for (int i = 0; i < 25; ++i) query.push_back(object("chair", random.uniform(200, 260), random.uniform(0, 60)));
+  for (int i = 0; i < 8; ++i) {
+    map.push_back(object("door", random.uniform(0, 20), random.uniform(0, 20)));
+    query.push_back(moved(map.back(), map_from_query.inverse()));
+  }
+  const auto match = matchConstellation(query, map);
+  ASSERT_TRUE(match);
+  EXPECT_GE(match->pairs.size(), 8u);
+  EXPECT_NEAR(match->map_from_query.yaw, 2.5, 0.05);
+}
+
 TEST(Constellation, FrontsMustAgreeUpToHalfATurn) {
   auto map = office();
   auto query = map;

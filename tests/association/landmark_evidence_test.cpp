@@ -234,6 +234,7 @@ TEST(LandmarkEvidence, BeamsCountOnceForLandmarksThatAreOne) {
     LandmarkMap map(options);
     const LandmarkId a = map.update(sightingAt(1, 1), belongsTo({})), b = map.update(sightingAt(1.1, 1), belongsTo({}));
     for (const LandmarkId id : {a, b}) through ? map.seenThrough(id, 10) : map.supported(id, 20);
+    ASSERT_EQ(map.mergeDuplicates().size(), 1u);
     const std::vector<std::vector<WorldMeasurement>> frames{{sightingAt(1, 1)}, {sightingAt(1, 1)}};
     const Reassociation result = reassociate(frames, map.landmarks(), map.identity(), AssociationModel{}, map.rules());
     ASSERT_EQ(result.landmarks.size(), 1u);
@@ -243,6 +244,25 @@ TEST(LandmarkEvidence, BeamsCountOnceForLandmarksThatAreOne) {
     map.supported(map.landmarks()[0].id, 1000);
     EXPECT_NEAR(map.landmarks()[0].existence, through ? 1 / (1 + std::exp(-sightings)) : odds / (1 + odds), 1e-9) << "no more than once";
   }
+}
+
+// Scans at different times ended in each of them: together they convince no more than in one.
+TEST(LandmarkEvidence, BeamsInLandmarksThatAreOneConvinceOnlySoFar) {
+  LandmarkOptions options;
+  options.rules.birth_existence = 0.5;
+  LandmarkMap map(options);
+  std::vector<std::vector<WorldMeasurement>> frames;
+  for (int frame = 0; frame < 2; ++frame) {
+    WorldMeasurement seen = sightingIn(frame);
+    seen.world_from_object.translation().x() += 0.1 * frame;
+    map.supported(map.update(seen, belongsTo({})), 20);
+    frames.push_back({seen});
+  }
+  ASSERT_EQ(map.mergeDuplicates().size(), 1u);
+  map.adopt(frames, reassociate(frames, map.landmarks(), map.identity(), AssociationModel{}, map.rules()));
+  const double odds = std::exp(2 * 5 * (0.9 - 0.2) + 1);
+  ASSERT_EQ(map.landmarks().size(), 1u);
+  EXPECT_NEAR(map.landmarks()[0].existence, odds / (1 + odds), 1e-9);
 }
 
 // A chair was taken for two, of which each was missed when the other one was seen. In hindsight they are one,
