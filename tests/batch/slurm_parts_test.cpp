@@ -248,6 +248,7 @@ TEST(ToolCalls, AnswersComeBack) {
   EXPECT_EQ(ToolCall::wait(call, 10), 3);
   EXPECT_EQ(call.answer(), "one\ntwo\n");
   EXPECT_EQ(call.lastWords(), "two");
+  EXPECT_EQ(call.ended(), 3) << "asked again";
   ToolCall slow({"sleep", "60"}, folder.file("a/answer"));
   EXPECT_EQ(call.answer(), "") << "the answer of before is gone";
   EXPECT_EQ(ToolCall::wait(slow, 0.1), 137);

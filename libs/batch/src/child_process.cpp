@@ -70,15 +70,18 @@ ChildProcess::~ChildProcess() {
 }
 
 std::optional<ChildEnd> ChildProcess::ended() {
+  if (end_) return end_;
   int status = 0;
   rusage used{};
   const pid_t pid = wait4(pid_, &status, WNOHANG, &used);
   if (pid == 0 || (pid < 0 && errno == EINTR)) return std::nullopt;
   pid_ = 0;
-  if (pid < 0) return ChildEnd{kNotTold, 0, 0};
-  return ChildEnd{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                  seconds(used.ru_utime) + seconds(used.ru_stime),
-                  static_cast<double>(used.ru_maxrss) / 1024};
+  if (pid < 0)
+    end_ = {kNotTold, 0, 0};
+  else
+    end_ = {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            seconds(used.ru_utime) + seconds(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024};
+  return end_;
 }
 
 void ChildProcess::signal(int number) const {

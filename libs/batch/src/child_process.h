@@ -26,16 +26,17 @@ class ChildProcess {
   /// of a job, and only the parent is to tell its child, once, by SIGINT. Throws RunError: cannot be started.
   ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& log, bool own_group);
   ~ChildProcess();
-  ChildProcess(ChildProcess&& other) noexcept : pid_(other.pid_) { other.pid_ = 0; }
+  ChildProcess(ChildProcess&& other) noexcept : pid_(other.pid_), end_(other.end_) { other.pid_ = 0; }
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Nothing while it runs.
+  /// Nothing while it runs, the same ever after.
   std::optional<ChildEnd> ended();
   void signal(int number) const;
   pid_t pid() const { return pid_; }
 
  private:
   pid_t pid_ = 0;
+  std::optional<ChildEnd> end_;
 };
 
 /// What the processes of a group hold in memory now, MB.
