@@ -117,6 +117,9 @@ void batch(const BatchOptions& options) {
     throw RunError(std::to_string(outcome.failed) + " of " +
                    std::to_string(outcome.done + outcome.skipped + outcome.failed) +
                    " runs failed, the first: " + outcome.problems.front());
+  if (!outcome.unevaluated.empty())
+    throw RunError(std::to_string(outcome.unevaluated.size()) + " of " + std::to_string(outcome.done) +
+                   " runs done could not be evaluated, the first: " + outcome.unevaluated.front());
 }
 
 // For the engines: not for people.

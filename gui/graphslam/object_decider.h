@@ -9,6 +9,7 @@
 
 #include "closure_decider.h"
 #include "roomgraph/graphslam/seen_object.h"
+#include "roomgraph/rendering/palette.h"
 
 namespace roomgraph {
 
@@ -70,10 +71,7 @@ class CObjectClosuresERD : public CClosuresERD<GRAPH> {
 
   // "#rrggbb" of the object database.
   mrpt::img::TColor colorOf(const std::string& class_name) const {
-    const auto* model = this->frontEnd().setup().database.find(class_name);
-    const unsigned long rgb = std::stoul(model ? model->color.substr(1) : "888888", nullptr, 16);
-    return mrpt::img::TColor(static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8),
-                             static_cast<std::uint8_t>(rgb), 200);
+    return palette::withAlpha(palette::ofClass(this->frontEnd().setup().database, class_name), 200);
   }
 
   void draw(LandmarkId id, const PlacedObject& object, mrpt::opengl::CSetOfObjects& into) const {

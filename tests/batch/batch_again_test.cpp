@@ -72,6 +72,19 @@ TEST_F(BatchAgain, ATruthThatComesLaterIsEvaluatedOnly) {
   EXPECT_THAT(batch({"data/a.rawlog", "-o", "out"}).out, HasSubstr("1 unchanged"));
 }
 
+TEST_F(BatchAgain, ATruthThatCannotBeUsedIsAFailure) {
+  makeRecording("a");
+  folder.write("data/a.rawlog.GT.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n");  // of another day
+  const auto first = batch({"data/a.rawlog", "-o", "out"});
+  EXPECT_EQ(first.exit_code, 1);
+  EXPECT_THAT(first.out, HasSubstr("1 runs done, 0 unchanged, 0 failed"));
+  EXPECT_THAT(first.err, HasSubstr("1 of 1 runs done could not be evaluated, the first: a--default: evaluate trajectory: "));
+  EXPECT_EQ(result("a--default").status, "complete");
+  std::filesystem::copy_file(runFolder("a--default") / "trajectory.tum", folder.file("data/a.rawlog.GT.txt"),
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(batch({"data/a.rawlog", "-o", "out"}).exit_code, 0);
+}
+
 TEST_F(BatchAgain, SimulatedInputsAreMadeOnce) {
   const std::string world = std::string(ROOMGRAPH_SOURCE_DIR) + "/rawlogs/tiny_room.json";
   folder.write("jobs.yaml", "inputs:\n  - simulate: {world: " + world + ", seeds: 4}\nkeep: summary\n");

@@ -42,6 +42,27 @@ TEST(BatchPage, LinksTheReportsThatAreThere) {
   EXPECT_THAT(page, Not(HasSubstr("://"))) << "it loads nothing";
 }
 
+// What a group is compared with is what the page says, where the group has it.
+TEST(BatchPage, GroupsHaveTheBaselineThatWasAskedFor) {
+  const TemporaryFolder folder;
+  Catalogue catalogue = Catalogue::forWriting(folder.file("c"));
+  for (int seed = 1; seed <= 2; ++seed) {
+    for (const char* variant : {"default", "fast", "zoom"}) catalogue.import(madeUpResult("home", seed, variant), "");
+    for (const char* variant : {"default", "fast"}) catalogue.import(madeUpResult("office", seed, variant), "");
+  }
+  ComparisonChoice choice;
+  choice.baseline = "zoom";
+  const std::string page = batchPage(catalogue, choice, {"t", folder.path(), "runs"});
+  const auto home = page.find("<h2>home</h2>"), office = page.find("<h2>office</h2>");
+  ASSERT_TRUE(home != std::string::npos && office != std::string::npos);
+  const auto first = [&](std::size_t from) {
+    return std::min({page.find("default", from), page.find("fast", from), page.find("zoom", from)});
+  };
+  EXPECT_EQ(first(home), page.find("zoom", home));
+  EXPECT_THAT(page.substr(office), HasSubstr("the difference from default is significant"));
+  EXPECT_THAT(page.substr(home, office - home), Not(HasSubstr("difference from")));
+}
+
 // On an axis of 116 px from 2 px on, over both variants: 0 to 4.
 TEST(BatchPage, DrawsAllVariantsOnOneScale) {
   const TemporaryFolder folder;

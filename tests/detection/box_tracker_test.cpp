@@ -249,5 +249,22 @@ TEST(BoxTracker, MaskKeepsTheSizeOfTheBox) {
   EXPECT_EQ(masked.mask.size(), cv::Size(120, 180)) << "the detection that was given stays";
 }
 
+TEST(BoxTracker, MasksAreCutWithTheirBoxes) {
+  const Stage2d stage(12);
+  const Box2 first{12, 150, 132, 330};
+  Detection masked = detection(first);
+  masked.mask = cv::Mat(180, 120, CV_8UC1, cv::Scalar(255));
+  masked.mask.colRange(0, 60) = 0;  // the left half is not the object
+  BoxTracker boxes = tracker();
+  boxes.start({masked}, stage.show(0, first, 2));
+  for (int k = 1; k <= 5; ++k) {
+    const auto carried = advanced(boxes, stage.show(k, moved(first, 1, -6.0 * k, 0), 2), {});
+    ASSERT_EQ(carried.size(), 1u);
+    const cv::Mat& mask = carried[0].mask;
+    EXPECT_NEAR(mask.cols - cv::countNonZero(mask.row(90)), 60 - std::max(0, 6 * k - 12), 2) << k;
+    EXPECT_NEAR(cv::countNonZero(mask.row(90)), 60, 2) << k << ": the right half is in the image";
+  }
+}
+
 }  // namespace
 }  // namespace roomgraph

@@ -81,6 +81,9 @@ TEST(Report, WhatCannotBeComputedIsNull) {
   EXPECT_TRUE(a.at("association_reliability").at(9).at("correct_share").is_null());
   EXPECT_EQ(a.at("association_reliability").at(9).at("to"), 1.0);
   EXPECT_TRUE(a.at("recall").is_null()) << "the landmarks' figures are in the same object";
+  AssociationErrors some;
+  some.reliability[9] = {1114, 0.999, 0.997};
+  EXPECT_THAT(toTable(some), HasSubstr("\nprobability     count   mean p  correct\n0.9 .. 1.0       1114    0.999    0.997\n"));
   EXPECT_THAT(toTable(AssociationErrors{}) + toTable(MapErrors{}) + toTable(DetectionErrors{}),
               HasSubstr(" - "));
 }

@@ -42,6 +42,7 @@ TEST(EngineFiles, ObjectsAndSummaryHoldWhatTheyWereGiven) {
   EXPECT_EQ(objects[0]["y"], 2);
   EXPECT_EQ(objects[0]["size_wdh"][2], 0.9);
   EXPECT_EQ(objects[0]["nodes"], 3);
+  EXPECT_EQ(objects[0]["has_yaw"], false);
   EngineRequest request;
   request.rawlog = "a\xff.rawlog";  // not UTF-8
   EngineOutcome outcome;

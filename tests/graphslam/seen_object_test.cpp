@@ -38,6 +38,27 @@ TEST(SeenObject, IsPlacedAtTheMeanOverNodes) {
   EXPECT_LT((placed.at(LandmarkId{8}).position - second.translation()).norm(), 1e-9);
 }
 
+// A dozen looks from afar, which all err to one side, beside thirty from near.
+TEST(SeenObject, SightingsWeighByWhatTheyKnow) {
+  std::vector<std::pair<Pose3, std::vector<SeenObject>>> nodes;
+  for (int i = 0; i < 42; ++i) {
+    const bool near = i < 30;
+    SeenObject door = seen(2, "door", poseFromYpr(near ? 7 : 4.6, 0, 0, i % 2 ? 0 : std::numbers::pi, 0, 0));
+    door.sigma_m = near ? 0.02 : 0.5;
+    door.symmetry = 2;
+    nodes.emplace_back(Pose3::Identity(), std::vector{door});
+  }
+  EXPECT_NEAR(placeObjects(nodes).at(LandmarkId{2}).position.x(), 7, 0.01);
+  const PlacedObject door = placeObjects(nodes).at(LandmarkId{2});
+  EXPECT_TRUE(door.has_yaw);
+  EXPECT_NEAR(std::abs(std::sin(door.yaw)), 0, 1e-6) << "both faces look alike";
+  for (auto& [node, objects] : nodes) objects[0].sigma_m = 0.1;
+  EXPECT_NEAR(placeObjects(nodes).at(LandmarkId{2}).position.x(), 7, 0.05) << "most are near, none knows better";
+  nodes.resize(1);
+  nodes[0].second[0].symmetry = 0;
+  EXPECT_FALSE(placeObjects(nodes).at(LandmarkId{2}).has_yaw);
+}
+
 TEST(SeenObject, TheClassOfMostSightingsIsItsClass) {
   const auto placed = placeObjects({{Pose3::Identity(), {seen(1, "sofa", Pose3::Identity())}},
                                     {Pose3::Identity(), {seen(1, "chair", Pose3::Identity())}},

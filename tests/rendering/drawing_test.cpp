@@ -61,6 +61,21 @@ TEST(Glyphs, TextStandsOnItsBaseLineInTheSizeAskedFor) {
   EXPECT_GT(textWidth("some text", small), textWidth("some", small));
 }
 
+TEST(Glyphs, LettersOfOtherLanguagesAreLetters) {
+  const TextStyle style{20, TColor(0, 0, 0), 0};
+  EXPECT_NEAR(textWidth("B\u00fcro", style), textWidth("Buro", style), 0.2 * textWidth("Buro", style));
+  EXPECT_NEAR(textWidth("\u00fc\u00fc", style), 2 * textWidth("\u00fc", style), 1e-6);
+  EXPECT_GT(textWidth("\xff", style), 0) << "no text at all";
+  cv::Mat image(120, 400, CV_8UC3, cv::Scalar(255, 255, 255));
+  drawText(image, "H\u00c4H", {40, 80}, style);
+  const auto [box, count] = inkOf(image);
+  EXPECT_NEAR(box.br().y, 80, 1.5);
+  EXPECT_GT(box.height, 22) << "dots above";
+  EXPECT_LT(box.height, 32);
+  EXPECT_NEAR(box.br().x, 40 + textWidth("H\u00c4H", style), 4);
+  EXPECT_GT(count, box.area() / 8);
+}
+
 TEST(Glyphs, AHaloSurroundsTheLettersAndOnlyThem) {
   cv::Mat image(80, 200, CV_8UC3, cv::Scalar(0, 0, 0));
   drawText(image, "H", {90, 50}, {20, TColor(0, 0, 255), 4});

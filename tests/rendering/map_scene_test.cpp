@@ -5,8 +5,10 @@
 #include <mrpt/opengl/CTexturedPlane.h>
 
 #include <algorithm>
+#include <map>
 
 #include "overlay.h"
+#include "picture_legend.h"
 #include "roomgraph/rendering/palette.h"
 #include "roomgraph/rendering/scene_parts.h"
 #include "sample_map.h"
@@ -240,6 +242,45 @@ TEST(Overlay, TheLegendHasTheClassesColours) {
   const auto swatch = image.at<cv::Vec3b>(960 - 26 - 5, 30 + 6);
   const auto expected = palette::mix(palette::ofClass(colours(), "door"), palette::kFree, 0.25);
   EXPECT_LT(apart(swatch, expected), 4);
+}
+
+CSemanticMap mapOfManyKinds(std::size_t count) {
+  CSemanticMap map = sampleMap();
+  map.landmarks.resize(1);
+  for (std::size_t i = 0; i < count; ++i) {
+    map.landmarks.push_back(map.landmarks[0]);
+    map.landmarks.back().class_name = "kind of object " + std::to_string(10 + i);
+  }
+  map.landmarks.erase(map.landmarks.begin());
+  return map;
+}
+
+TEST(Overlay, ALegendOfManyClassesTakesRowsBesideTheScale) {
+  const CSemanticMap map = mapOfManyKinds(12);
+  const SnapshotOptions options{SnapshotView::kTop, 960, 960, ""};  // unit: 10 px
+  const PictureLegend legend(map, colours(), {960, 960}, 10);
+  ASSERT_GE(legend.entries.size(), 12u);
+  ASSERT_GT(legend.rows(), 1u);
+  const Box2 area = mapArea(map, colours(), options);
+  EXPECT_EQ(area.v_max, 960 - 60 - 24.0 * static_cast<double>(legend.rows() - 1));
+  const auto scene = buildScene(map, colours());
+  const double bar_from = 960 - 30 - SceneView(*scene, map, options, area).pixelsPerMeter() * gridStep(contentExtent(map));
+  std::map<std::size_t, double> end;
+  for (const auto& entry : legend.entries) {
+    EXPECT_GE(entry.u, end[entry.row]) << entry.text;
+    end[entry.row] = entry.u + 13 + 7 + textWidth(entry.text, {9});
+    EXPECT_LT(end[entry.row], bar_from) << entry.text;
+  }
+  EXPECT_EQ(end.size(), legend.rows());
+}
+
+TEST(Overlay, ALegendIsNoLargerThanHalfThePicture) {
+  const CSemanticMap map = mapOfManyKinds(90);
+  const std::size_t all = PictureLegend(map, colours(), {9000, 9000}, 6).entries.size();
+  const PictureLegend legend(map, colours(), {320, 240}, 6);
+  EXPECT_LE(6 * kLegendRow * static_cast<double>(legend.rows()), 120);
+  EXPECT_GT(legend.rows(), 4u);
+  EXPECT_EQ(legend.entries.back().text, "and " + std::to_string(all - (legend.entries.size() - 1)) + " more");
 }
 
 TEST(Overlay, ATitleTakesItsPlaceFromTheMap) {

@@ -127,3 +127,9 @@ class Events:
         rows = one.run("return [...document.querySelectorAll('#findings tbody tr')].map((r) => r.textContent)")
         self.assertEqual(len(rows), 7)
         self.assertEqual(rows[:2], ["noteP0what 0", "warningP1what 1a hint"])
+
+    def test_numbers_say_what_they_count(self):
+        one = self.open()
+        titles = one.run("return [3, 10, undefined].map((n) => closureTitle({closures: [1, 2, 3], counts: {loop_closures: n}}))")
+        self.assertEqual(titles, ["Loop closures (3)", "Loop closures (3 ties of 10)", "Loop closures (3)"])
+        self.assertEqual(one.run("return [0.0005, 0.02, 0.1, 0.5, 1, 20].map(digitsOf)"), [4, 2, 1, 1, 0, 0])

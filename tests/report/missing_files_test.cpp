@@ -67,6 +67,15 @@ std::string causeOf(const TemporaryFolder& folder, const std::string& file) {
   return runOf(folder)["missing"].value(file, "(nothing is wrong)");
 }
 
+TEST(ReportErrors, ARunWithoutACameraHasNoPathOfOne) {
+  const TemporaryFolder folder;
+  writeRun(folder);
+  folder.write("trajectory_camera.tum", "");
+  EXPECT_EQ(causeOf(folder, "trajectory_camera.tum"), "(nothing is wrong)");
+  folder.write("trajectory_camera.tum", "1 2\n");
+  EXPECT_NE(causeOf(folder, "trajectory_camera.tum"), "(nothing is wrong)");
+}
+
 TEST(ReportErrors, TheCauseNamesThePlace) {
   const TemporaryFolder folder;
   writeRun(folder);

@@ -32,26 +32,22 @@ std::vector<PathPoint> randomWalk(unsigned seed, int count) {
   return path;
 }
 
-double distanceToPiece(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
-  double least = 1e9;
-  for (int i = 0; i <= 2000; ++i) {
-    const double s = i / 2000.;
-    least = std::min(least, std::hypot(p.x - a.x - s * (b.x - a.x), p.y - a.y - s * (b.y - a.y)));
-  }
-  return least;
+double distanceFromPlaceThen(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
+  const double velocity_x = (b.x - a.x) / (b.t - a.t), velocity_y = (b.y - a.y) / (b.t - a.t);
+  return std::hypot(a.x + velocity_x * (p.t - a.t) - p.x, a.y + velocity_y * (p.t - a.t) - p.y);
 }
 
 TEST(ReportThinning, NoPointIsFartherThanTheTolerance) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const auto path = randomWalk(seed, 600);
-    const auto kept = keptPoints(path, 0.05);
+    const auto kept = keptPoints(path, 0.05, 1);
     ASSERT_GE(kept.size(), 2u);
     EXPECT_EQ(kept.front(), 0u);
     EXPECT_EQ(kept.back(), path.size() - 1);
     EXPECT_LT(kept.size(), path.size() / 3);
     for (std::size_t k = 0; k + 1 < kept.size(); ++k)
       for (std::size_t i = kept[k]; i <= kept[k + 1]; ++i)
-        EXPECT_LE(distanceToPiece(path[i], path[kept[k]], path[kept[k + 1]]), 0.0501);
+        EXPECT_LE(distanceFromPlaceThen(path[i], path[kept[k]], path[kept[k + 1]]), 0.0501);
   }
 }
 
@@ -59,16 +55,26 @@ TEST(ReportThinning, CornersStayAndStraightsGo) {
   std::vector<PathPoint> path;
   for (int i = 0; i <= 100; ++i)
     path.push_back({1. * i, std::min(i, 50) * 0.1, std::max(0, i - 50) * 0.1, 0});
-  EXPECT_THAT(keptPoints(path, 0.01), ElementsAre(0, 50, 100));
+  EXPECT_THAT(keptPoints(path, 0.01, 2), ElementsAre(0, 50, 100));
+}
+
+TEST(ReportThinning, StopsAndGapsStay) {
+  std::vector<PathPoint> path;
+  for (int i = 0; i <= 50; ++i) path.push_back({0.1 * i, 0.05 * i, 0, 0});
+  for (int i = 51; i <= 150; ++i) path.push_back({0.1 * i, 2.5, 0, 0});  // stands
+  for (int i = 151; i <= 250; ++i) path.push_back({0.1 * i, 2.5 + 0.05 * (i - 150), 0, 0});
+  EXPECT_THAT(keptPoints(path, 0.01, 1), ElementsAre(0, 50, 150, 250));
+  for (std::size_t i = 200; i < path.size(); ++i) path[i].t += 20.0044;
+  EXPECT_THAT(keptPoints(path, 0.01, 1), ElementsAre(0, 50, 150, 199, 200, 250));
 }
 
 TEST(ReportThinning, LongPathsKeepTheirEndsAndTheLimit) {
-  EXPECT_TRUE(thinned({}, 100).empty());
-  const auto one = thinned({{1, 2, 3, 4}}, 100);
+  EXPECT_TRUE(thinned({}, 100, 1).empty());
+  const auto one = thinned({{1, 2, 3, 4}}, 100, 1);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].y, 3);
   const auto path = randomWalk(4, 9000);
-  const auto out = thinned(path, 300);
+  const auto out = thinned(path, 300, 1);
   EXPECT_LE(out.size(), 300u);
   EXPECT_GT(out.size(), 50u) << "not coarser than needed";
   EXPECT_EQ(out.front().t, path.front().t);

@@ -100,7 +100,9 @@ TEST(Descriptions, OfAMomentWhatIsInTheMap) {
   state->landmarks = std::make_shared<const ShownLandmarks>(ShownLandmarks{
       shownLandmark(landmark), shownLandmark(landmark, false), shownLandmark(landmark, false)});
   state->key_poses = std::make_shared<const ShownPath>(5);
-  state->closures = std::make_shared<const std::vector<ShownClosure>>(1);
+  const double t = state->t;
+  state->closures = std::make_shared<const std::vector<ShownClosure>>(
+      std::vector<ShownClosure>{{t - 9, t}, {t + 3, t - 8}, {t - 7, t + 1}});  // two of what comes later
   state->note = "not tracked: too dark";
   EXPECT_EQ(describeMoment(*state, kBegin_t + 2),
             "record 12, 10.0 s: 1 object (2 candidates), 5 key poses, 1 loop closure; not tracked: too dark");

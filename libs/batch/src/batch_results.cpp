@@ -119,7 +119,7 @@ void BatchAtWork::takeInRun(std::size_t run, const EndedTask& ended) {
     display_.event("complete  " + result.name + ": " + oneDecimal(result.wall_s) + " s, " +
                    oneDecimal(result.peak_memory_mb) + " MB" +
                    (result.reason.empty() ? "" : "; warning: " + result.reason));
-    if (!result.reason.empty()) outcome_.problems.push_back(result.name + ": " + result.reason);
+    if (!result.reason.empty()) outcome_.unevaluated.push_back(result.name + ": " + result.reason);
   } else if (result.status == "interrupted") {
     ++outcome_.left;
   } else if (!tryAgain(run, result)) {

@@ -167,6 +167,20 @@ std::string headHtml(const std::string& title, const std::vector<RunLine>& runs,
          " variants; program " + escapedForMarkup(revisions.empty() ? "-" : revisions) + "</p>\n";
 }
 
+// Against the baseline of all where the group has it.
+std::string groupHtml(const Catalogue& catalogue, ComparisonChoice choice, const std::string& group,
+                      const std::string& baseline) {
+  choice.group = group;
+  choice.baseline.clear();
+  Comparison compared = compareVariants(catalogue, choice);
+  const auto& variants = compared.variants;
+  if (std::find(variants.begin(), variants.end(), baseline) == variants.end())
+    return "<p>* where the difference from " + escapedForMarkup(variants.front()) + " is significant.</p>\n" +
+           spreadHtml(compared);
+  choice.baseline = baseline;
+  return spreadHtml(compareVariants(catalogue, choice));
+}
+
 }  // namespace
 
 std::string batchPage(const Catalogue& catalogue, const ComparisonChoice& choice, const PagePlaces& places) {
@@ -181,12 +195,8 @@ std::string batchPage(const Catalogue& catalogue, const ComparisonChoice& choice
       " is significant (below).</p>\n" + spreadHtml(all);
   body += differencesHtml(all);
   if (all.groups.size() > 1)
-    for (const auto& group : groupsOfSeveral(runs)) {
-      ComparisonChoice part = choice;
-      part.group = group;
-      part.baseline.clear();
-      body += "<h2>" + escapedForMarkup(group) + "</h2>\n" + spreadHtml(compareVariants(catalogue, part));
-    }
+    for (const auto& group : groupsOfSeveral(runs))
+      body += "<h2>" + escapedForMarkup(group) + "</h2>\n" + groupHtml(catalogue, choice, group, all.variants.front());
   body += failuresHtml(runs) + runsHtml(runs, places);
   return std::string(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "

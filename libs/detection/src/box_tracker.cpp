@@ -35,6 +35,23 @@ cv::Rect pixelsOf(const Box2& box, const Frame& frame) {
   return cv::Rect(first, last) & cv::Rect(cv::Point(), frame.gray.size());
 }
 
+cv::Size pixels(const Box2& box) {
+  return {std::max(1, static_cast<int>(std::lround(box.width()))),
+          std::max(1, static_cast<int>(std::lround(box.height())))};
+}
+
+// Of a mask of `whole` what lies in `visible`, the part of it inside the image.
+cv::Mat visibleMask(const cv::Mat& mask, const Box2& whole, const Box2& visible) {
+  cv::Mat scaled;
+  cv::resize(mask, scaled, pixels(whole), 0, 0, cv::INTER_NEAREST);
+  const cv::Size size = pixels(visible);
+  const int left = static_cast<int>(std::lround(visible.u_min - whole.u_min));
+  const int top = static_cast<int>(std::lround(visible.v_min - whole.v_min));
+  const cv::Rect part(std::min(left, scaled.cols - size.width), std::min(top, scaled.rows - size.height), size.width,
+                      size.height);
+  return scaled(part).clone();
+}
+
 }  // namespace
 
 bool BoxTracker::moves(const Detection& detection) const {
@@ -48,6 +65,7 @@ void BoxTracker::start(const std::vector<Detection>& detections, const Frame& fr
   for (const Detection& detection : detections) {
     Track track;
     track.detection = detection;
+    track.mask = detection.mask;
     track.box = detection.box;
     tracks_.push_back(track);
   }
@@ -149,12 +167,7 @@ bool BoxTracker::settle(Track& track, const Frame& frame) const {
   track.detection.score *= kScoreDecay;
   track.detection.rival_score *= kScoreDecay;
   track.detection.carried = true;
-  cv::Mat& mask = track.detection.mask;
-  if (!mask.empty())
-    cv::resize(mask, mask,
-               {std::max(1, static_cast<int>(std::lround(visible.width()))),
-                std::max(1, static_cast<int>(std::lround(visible.height())))},
-               0, 0, cv::INTER_NEAREST);
+  if (!track.mask.empty()) track.detection.mask = visibleMask(track.mask, track.box, visible);
   if (static_cast<double>(track.points.size()) < kRefreshShare * static_cast<double>(track.chosen))
     chooseCorners(track, frame);
   else if (frame.hasDepth())

@@ -61,8 +61,8 @@ std::string toTable(const AssociationErrors& e) {
           e.wrong_landmark, e.unattributed) +
       format("landmarks of %d true objects %d, identity switches %d, expected calibration error %s\n",
              e.objects, static_cast<int>(e.object_of_landmark.size()), e.identity_switches,
-             cell(e.ece, e.with_probability > 0, "%.4f").c_str(), "probability", "count", "mean p",
-             "correct");
+             cell(e.ece, e.with_probability > 0, "%.4f").c_str()) +
+      format("%-12s %8s %8s %8s\n", "probability", "count", "mean p", "correct");
   for (std::size_t i = 0; i < e.reliability.size(); ++i) {
     const auto& bin = e.reliability[i];
     if (bin.count == 0) continue;

@@ -30,6 +30,7 @@ void writeObjects(const std::filesystem::path& file, const std::map<LandmarkId, 
                                  {"y", object.position.y()},
                                  {"z", object.position.z()},
                                  {"yaw", object.yaw},
+                                 {"has_yaw", object.has_yaw},
                                  {"size_wdh", {object.size_m.x(), object.size_m.y(), object.size_m.z()}},
                                  {"nodes", object.nodes}});
   OutputFile out(file);

@@ -2,6 +2,8 @@
 // A run with loop closing by objects alone, and what it saw of them.
 #include "object_front_end.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace roomgraph {
@@ -32,10 +34,19 @@ std::unique_ptr<Setup> closingByObjects(std::unique_ptr<Setup> setup) {
   return setup;
 }
 
-SeenObject toSeen(const ObjectDecision& decision, const Pose3& world_from_robot) {
+constexpr double kLeastSigma_m = 0.02;
+
+SeenObject toSeen(const ObjectDecision& decision, const Pose3& world_from_robot, const ObjectDatabase& database) {
   const Proposal& proposal = decision.seen.measurement.proposal;
-  return {decision.landmark, proposal.class_name, world_from_robot.inverse() * decision.seen.world_from_object,
-          {proposal.shape.width, proposal.shape.depth, proposal.shape.height}};
+  const ObjectModel* model = database.find(proposal.class_name);
+  const Eigen::Matrix2d covariance = proposal.covariance.topLeftCorner<2, 2>();
+  const double variance = covariance.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return {decision.landmark,
+          proposal.class_name,
+          world_from_robot.inverse() * decision.seen.world_from_object,
+          {proposal.shape.width, proposal.shape.depth, proposal.shape.height},
+          std::sqrt(std::max(variance, kLeastSigma_m * kLeastSigma_m)),
+          proposal.has_yaw && model ? model->symmetry : 0};
 }
 
 }  // namespace
@@ -43,17 +54,21 @@ SeenObject toSeen(const ObjectDecision& decision, const Pose3& world_from_robot)
 /// Decisions of the frames since the last call.
 class ObjectFrontEnd::Sightings : public Sink {
  public:
+  explicit Sightings(const ObjectDatabase& database) : database_(database) {}
   void onStep(const StepReport& report) override {
     for (const auto& decision : report.decisions)
-      if (decision.landmark.valid()) seen.emplace_back(report.t, toSeen(decision, report.world_from_robot));
+      if (decision.landmark.valid()) seen.emplace_back(report.t, toSeen(decision, report.world_from_robot, database_));
   }
   std::vector<std::pair<double, SeenObject>> seen;
+
+ private:
+  const ObjectDatabase& database_;  // of the setup, which lives longer
 };
 
 ObjectFrontEnd::ObjectFrontEnd(std::unique_ptr<Setup> setup)
     : slam_(closingByObjects(std::move(setup))),
       sorter_(slam_.setup().options.general.lookahead_s),
-      sightings_(std::make_shared<Sightings>()) {
+      sightings_(std::make_shared<Sightings>(slam_.setup().database)) {
   slam_.addSink(sightings_);
 }
 ObjectFrontEnd::~ObjectFrontEnd() = default;

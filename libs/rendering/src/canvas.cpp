@@ -14,7 +14,6 @@
 namespace roomgraph {
 namespace {
 
-constexpr const char* kFont = "DejaVu Sans";
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
@@ -46,17 +45,6 @@ std::size_t characterAt(const std::string& text, std::size_t at) {
   return good ? length : 0;
 }
 
-/// File names may hold any bytes; cairo gives up for good at the first that is no text.
-std::string validText(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = characterAt(text, i);
-    out += length ? text.substr(i, length) : "?";
-    i += std::max<std::size_t>(length, 1);
-  }
-  return out;
-}
-
 /// cairo numbers the surfaces of a process: the only thing in a file that tells the second from the first.
 std::string withoutCounter(const std::string& svg) {
   const std::string name = "id=\"surface";
@@ -76,6 +64,16 @@ std::string isoTime(double t) {
 }
 
 }  // namespace
+
+std::string validText(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = characterAt(text, i);
+    out += length ? text.substr(i, length) : "?";
+    i += std::max<std::size_t>(length, 1);
+  }
+  return out;
+}
 
 Canvas::Canvas(CanvasFormat format, const Eigen::Vector2d& size, const std::string& title, double t)
     : format_(format),

@@ -20,6 +20,12 @@ enum class CanvasFormat { kPdf, kSvg, kPixels };
 /// Points of a typographer, 1/72 inch, and pixels of 1/96 inch as CSS has them.
 constexpr double kPointsPerMillimeter = 72 / 25.4, kPointsPerPixel = 72.0 / 96;
 
+constexpr const char* kFont = "DejaVu Sans";
+constexpr double kCapShare = 0.729;  ///< height of its capital letters in its size
+
+/// File names may hold any bytes; cairo gives up for good at the first that is no text.
+std::string validText(const std::string& text);
+
 struct Pen {
   palette::TColor color = palette::kInk;
   double width = 0.75;         ///< pt

@@ -20,7 +20,8 @@ constexpr double kInSight_s = 0.25;  ///< that a line leads to what was measured
 
 std::string clockNote(double seconds) {
   char text[32];
-  std::snprintf(text, sizeof text, ",  %d:%04.1f", static_cast<int>(seconds / 60), std::fmod(seconds, 60));
+  const double tenths = std::round(10 * seconds) / 10;  // 59.97 s are a minute
+  std::snprintf(text, sizeof text, ",  %d:%04.1f", static_cast<int>(tenths / 60), std::fmod(tenths, 60));
   return text;
 }
 

@@ -10,7 +10,8 @@
 
 namespace roomgraph {
 
-/// Text from MRPT's built-in outline font (no font files needed), anti-aliased.
+/// Text from MRPT's built-in outline font (no font files needed), anti-aliased; with other letters than those of ASCII
+/// from DejaVu Sans.
 struct TextStyle {
   double cap_height_px = 10;  ///< height of a capital letter
   palette::TColor color = palette::kInk;

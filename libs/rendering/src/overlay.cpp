@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "glyphs.h"
 #include "labels.h"
+#include "picture_legend.h"
 #include "roomgraph/rendering/scene_parts.h"
 
 namespace roomgraph {
@@ -22,16 +22,6 @@ double unit(const SnapshotOptions& options) {
 
 cv::Scalar toScalar(const palette::TColor& color) {
   return {color.B * 1.0, color.G * 1.0, color.R * 1.0};
-}
-
-/// Filled rectangle with sub-pixel edges.
-void fill(cv::Mat& image, const Box2& box, const palette::TColor& color) {
-  const auto fixed = [](double value) { return static_cast<int>(std::lround(value * 16)); };
-  const cv::Point corners[4] = {{fixed(box.u_min), fixed(box.v_min)},
-                                {fixed(box.u_max), fixed(box.v_min)},
-                                {fixed(box.u_max), fixed(box.v_max)},
-                                {fixed(box.u_min), fixed(box.v_max)}};
-  cv::fillConvexPoly(image, corners, 4, toScalar(color), cv::LINE_AA, 4);
 }
 
 Box2 imageBox(const Landmark& landmark, const SceneView& view) {
@@ -52,7 +42,7 @@ bool has(const CSemanticMap& map, LandmarkId id) {
 }
 
 void drawLabels(cv::Mat& image, const MapPicture& picture, const SnapshotOptions& options,
-                const SceneView& view) {
+                const SceneView& view, const Box2& area) {
   const TextStyle style{unit(options) * 0.9, palette::kInk, 2.2};
   const Box2 frame{0, 0, static_cast<double>(image.cols), static_cast<double>(image.rows)};
   std::vector<Label> labels;
@@ -68,7 +58,7 @@ void drawLabels(cv::Mat& image, const MapPicture& picture, const SnapshotOptions
   }
   const double margin = unit(options);
   placeLabels(labels, {margin, margin * (options.title.empty() ? 1 : 4.5), image.cols - margin,
-                       mapArea(options).v_max + margin});
+                       area.v_max + margin});
   for (std::size_t i = 0; i < labels.size(); ++i)
     if (has(picture.shown, ids[i]))
       drawText(image, labels[i].text, {labels[i].place.u_min, labels[i].place.v_max}, style);
@@ -79,57 +69,6 @@ void drawTitle(cv::Mat& image, const MapPicture& picture, const SnapshotOptions&
   const double u = unit(options);
   drawText(image, options.title, {3 * u, 4 * u}, {1.5 * u, palette::kInk, 2});
   drawText(image, factsOf(picture), {3 * u, 6.2 * u}, {0.9 * u, palette::kFaintInk, 2});
-}
-
-/// One row at the bottom, filled from the left.
-class Legend {
- public:
-  Legend(cv::Mat& image, double unit_px)
-      : image_(image), unit_(unit_px), u_(3 * unit_px), v_(image.rows - 2.6 * unit_px) {}
-  void swatch(const palette::TColor& color, const palette::TColor& rim, const std::string& text) {
-    fill(image_, {u_, v_ - 1.15 * unit_, u_ + 1.3 * unit_, v_ + 0.15 * unit_}, rim);
-    fill(image_, {u_ + 1, v_ - 1.15 * unit_ + 1, u_ + 1.3 * unit_ - 1, v_ + 0.15 * unit_ - 1}, color);
-    name(u_ + 1.3 * unit_, text);
-  }
-  void path(const std::string& text) {
-    const int steps = 24;
-    for (int i = 0; i < steps; ++i)
-      fill(
-          image_,
-          {u_ + 3 * unit_ * i / steps, v_ - 0.65 * unit_, u_ + 3 * unit_ * (i + 1) / steps, v_ - 0.3 * unit_},
-          palette::mix(palette::kPathStart, palette::kPathEnd, static_cast<double>(i) / (steps - 1)));
-    name(u_ + 3 * unit_, text);
-  }
-  void gap() { u_ += 1.2 * unit_; }
-
- private:
-  void name(double from, const std::string& text) {
-    const TextStyle style{0.9 * unit_, palette::kInk, 2};
-    drawText(image_, text, {from + 0.7 * unit_, v_}, style);
-    u_ = from + 0.7 * unit_ + textWidth(text, style) + 2 * unit_;
-  }
-  cv::Mat& image_;
-  double unit_, u_, v_;
-};
-
-void drawLegend(cv::Mat& image, const MapPicture& picture, const ObjectDatabase& database,
-                const SnapshotOptions& options) {
-  Legend legend(image, unit(options));
-  std::map<std::string, int> counts;
-  for (const auto& landmark : picture.whole.landmarks) counts[landmark.class_name] = 0;
-  for (const auto& landmark : picture.shown.landmarks) ++counts[landmark.class_name];
-  for (const auto& [name, count] : counts) {
-    const auto color = palette::ofClass(database, name);
-    legend.swatch(palette::mix(color, palette::kFree, 0.25), palette::mix(color, {0, 0, 0}, 0.25),
-                  inWords(name) + " (" + std::to_string(count) + ")");
-  }
-  if (!counts.empty()) legend.gap();
-  if (picture.whole.occupancy) {
-    legend.swatch(palette::kOccupied, palette::kOccupied, "obstacle");
-    legend.swatch(palette::kFree, palette::kGridLine, "free");
-    legend.gap();
-  }
-  if (!picture.whole.world_from_robot.empty()) legend.path("path, start to end");
 }
 
 void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& options,
@@ -144,14 +83,30 @@ void drawScale(cv::Mat& image, const CSemanticMap& map, const SnapshotOptions& o
     return;
   }
   const double length = step * view.pixelsPerMeter();
-  fill(image, {right - length, v - 0.15 * u, right, v + 0.1 * u}, palette::kInk);
+  fillBox(image, {right - length, v - 0.15 * u, right, v + 0.1 * u}, palette::kInk);
   for (const double end : {right - length, right - 0.2 * u})
-    fill(image, {end, v - 0.7 * u, end + 0.2 * u, v + 0.1 * u}, palette::kInk);
+    fillBox(image, {end, v - 0.7 * u, end + 0.2 * u, v + 0.1 * u}, palette::kInk);
   text << step << " m";
   drawText(image, text.str(), {right - length / 2 - textWidth(text.str(), style) / 2, v - 0.9 * u}, style);
 }
 
 }  // namespace
+
+void fillBox(cv::Mat& image, const Box2& box, const palette::TColor& color) {
+  const auto fixed = [](double value) { return static_cast<int>(std::lround(value * 16)); };
+  const cv::Point corners[4] = {{fixed(box.u_min), fixed(box.v_min)},
+                                {fixed(box.u_max), fixed(box.v_min)},
+                                {fixed(box.u_max), fixed(box.v_max)},
+                                {fixed(box.u_min), fixed(box.v_max)}};
+  cv::fillConvexPoly(image, corners, 4, toScalar(color), cv::LINE_AA, 4);
+}
+
+// Nothing of the map is wider than its larger side, and that fits into the picture.
+double roomOfScale(const CSemanticMap& map, const cv::Size& size, double unit_px) {
+  const double extent = contentExtent(map);
+  const double bar_px = extent > 0 ? gridStep(extent) / extent * std::max(size.width, size.height) : 0;
+  return std::clamp(bar_px, 8 * unit_px, std::max(8 * unit_px, size.width / 2.0));
+}
 
 std::string factsOf(const MapPicture& picture) {
   const auto& path = picture.shown.world_from_robot;
@@ -169,16 +124,22 @@ std::string factsOf(const MapPicture& picture) {
   return facts.str() + picture.note;
 }
 
-Box2 mapArea(const SnapshotOptions& options) {
-  const double u = unit(options);
-  return {3 * u, (options.title.empty() ? 3 : 8) * u, options.width - 3 * u, options.height - 6 * u};
+Box2 mapArea(const SnapshotOptions& options, std::size_t legend_rows) {
+  const double u = unit(options), above_first = kLegendRow * static_cast<double>(legend_rows - 1);
+  return {3 * u, (options.title.empty() ? 3 : 8) * u, options.width - 3 * u, options.height - (6 + above_first) * u};
+}
+
+Box2 mapArea(const MapPicture& picture, const ObjectDatabase& database, const SnapshotOptions& options) {
+  const PictureLegend legend(picture, database, {options.width, options.height}, unit(options));
+  return mapArea(options, legend.rows());
 }
 
 void drawOverlay(cv::Mat& image, const MapPicture& picture, const ObjectDatabase& database,
                  const SnapshotOptions& options, const SceneView& view) {
-  drawLabels(image, picture, options, view);
+  const PictureLegend legend(picture, database, image.size(), unit(options));
+  drawLabels(image, picture, options, view, mapArea(options, legend.rows()));
   drawTitle(image, picture, options);
-  drawLegend(image, picture, database, options);
+  legend.draw(image);
   drawScale(image, picture.whole, options, view);
 }
 

@@ -55,7 +55,7 @@ cv::Mat renderPicture(const MapPicture& picture, const ObjectDatabase& database,
                       const SnapshotOptions& options) {
   const SnapshotOptions wide = withWholeRows(options);
   const auto scene = buildScene(picture, database);
-  const SceneView view(*scene, picture, wide, mapArea(wide));
+  const SceneView view(*scene, picture, wide, mapArea(picture, database, wide));
   cv::Mat image = render(*scene, wide);
   drawOverlay(image, picture, database, wide, view);
   return image(cv::Rect(0, 0, options.width, options.height)).clone();

@@ -35,6 +35,16 @@ function closureKinds(run) {
   return [...kinds].filter(([kind]) => kind).map(([kind, n]) => `${whole(n)} by ${FOUND_BY[kind] || kind}`).join(', ');
 }
 
+// Long runs: the graph that is written ties bodies of key poses, and has one edge for all closures of two of them.
+const CONDENSED = 'The graph of a long run has one tie for all closures between the same two stretches of the path. ';
+
+function condensed(run) { return run.closures.length > 0 && run.counts.loop_closures > run.closures.length; }
+
+function closureTitle(run) {
+  const listed = whole(run.closures.length);
+  return `Loop closures (${condensed(run) ? `${listed} ties of ${whole(run.counts.loop_closures)}` : listed})`;
+}
+
 function closurePart(run) {
   const inOrder = run.closures.slice().sort((a, b) => Math.max(...a.t) - Math.max(...b.t));
   const columns = [
@@ -45,10 +55,10 @@ function closurePart(run) {
       [c.ids.join(' – '), spanOf(...c.t), FOUND_BY[c.kind] || c.kind || NONE, metres(c.off_m), degrees(c.off_rad),
        fixed(c.off_sigmas, 1)];
   return h(
-      'div', {class: 'card pad long', id: 'closures'}, h('h3', {}, `Loop closures (${whole(run.closures.length)})`),
+      'div', {class: 'card pad long', id: 'closures'}, h('h3', {}, closureTitle(run)),
       run.closures.length ?
           [h('p', {class: 'none'},
-             `${closureKinds(run)}${closureKinds(run) && '. '}Off: what is left between the measured movement and the final poses.`),
+             `${condensed(run) ? CONDENSED : ''}${closureKinds(run)}${closureKinds(run) && '. '}Off: what is left between the measured movement and the final poses.`),
            listing(inOrder, columns, row, 'Those that fit worst', (a, b) => b.off_sigmas - a.off_sigmas)] :
           missingNote(run, ['graph.g2o']));
 }

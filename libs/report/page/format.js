@@ -13,6 +13,9 @@ function fixed(value, digits) {
 
 function whole(value) { return fixed(value, 0); }
 
+/// Digits that tell multiples of `step` apart.
+function digitsOf(step) { return Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)); }
+
 function metres(value) {
   if (!isNumber(value)) return NONE;
   return value < 1 ? `${fixed(value * 100, value < 0.1 ? 2 : 1)}\u00a0cm` : `${fixed(value, 2)}\u00a0m`;

@@ -107,8 +107,8 @@ function curve(run, title, series, summary, value, tick, onTime) {
 }
 
 function accuracySection(run, onTime) {
-  const cm = (v, step) => step < 1 ? `${fixed(v * 100, step < 0.01 ? 1 : 0)} cm` : `${whole(v)} m`,
-        turn = (v, step) => `${fixed(v, step && step >= 1 ? 0 : 1)}°`;
+  const cm = (v, step) => step < 1 ? `${fixed(v * 100, digitsOf(100 * step))} cm` : `${whole(v)} m`,
+        turn = (v, step) => `${fixed(v, step ? digitsOf(step) : 1)}°`;
   const parts = [];
   if (run.final_errors || run.live_errors) {
     const e = run.final_errors;
@@ -176,7 +176,7 @@ function timeSection(run, onTime) {
                            missingNote(run, ['summary.json'])];
   const tick = (v, step) => step >= 1000 ?
       `${fixed(v / 1000, 0)} s` :
-      `${fixed(v, step < 1 ? 1 : 0)} ms`.replace(/^(\d+),(\d)00 ms$/, '$1.$2 s');
+      `${fixed(v, digitsOf(step))} ms`.replace(/^(\d+),(\d)00 ms$/, '$1.$2 s');
   parts.push(curve(
       run, 'Work on one record, without what is done once', [{name: 'work', data: run.record_ms}],
       `Largest ${milliseconds(largestOf([{data: run.record_ms}]))}.`, milliseconds, tick, onTime));

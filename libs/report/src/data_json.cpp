@@ -139,7 +139,7 @@ void addPaths(const RunData& run, ordered_json& out) {
   out["live_path"] = pathJson(run.live_path);
   out["truth_path"] = pathJson(run.truth_path);
   out["gaps"] = ordered_json::array();
-  for (const auto& [from, to] : run.gaps) out["gaps"].push_back({rounded(from, 2), rounded(to, 2)});
+  for (const auto& [from, to] : run.gaps) out["gaps"].push_back({rounded(from), rounded(to)});
   out["hindsight_m"] = seriesJson(run.hindsight_m);
   out["truth_is_of_camera"] = run.truth_is_of_camera;
   out["final_errors"] = errorsJson(run.final_errors);

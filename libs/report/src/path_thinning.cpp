@@ -12,10 +12,10 @@ namespace {
 constexpr double kFinest_m = 0.01;
 constexpr std::size_t kBlock = 4096;  // the effort grows with the square of a block at worst
 
-double distanceToSegment(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
-  const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
-  const double along = length2 > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length2, 0., 1.) : 0;
-  return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
+// From where the line that is left is at the time of p: who looks up a time finds the place, too.
+double distanceAtItsTime(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
+  const double share = b.t > a.t ? (p.t - a.t) / (b.t - a.t) : 0;
+  return std::hypot(p.x - a.x - share * (b.x - a.x), p.y - a.y - share * (b.y - a.y));
 }
 
 void keepWithin(const std::vector<PathPoint>& path, std::size_t first, std::size_t last, double tolerance_m,
@@ -27,7 +27,7 @@ void keepWithin(const std::vector<PathPoint>& path, std::size_t first, std::size
     double farthest_m = tolerance_m;
     std::size_t at = begin;
     for (std::size_t i = begin + 1; i < end; ++i)
-      if (const double distance_m = distanceToSegment(path[i], path[begin], path[end]);
+      if (const double distance_m = distanceAtItsTime(path[i], path[begin], path[end]);
           distance_m > farthest_m) {
         farthest_m = distance_m;
         at = i;
@@ -40,12 +40,13 @@ void keepWithin(const std::vector<PathPoint>& path, std::size_t first, std::size
 
 }  // namespace
 
-std::vector<std::size_t> keptPoints(const std::vector<PathPoint>& path, double tolerance_m) {
+std::vector<std::size_t> keptPoints(const std::vector<PathPoint>& path, double tolerance_m, double longest_s) {
   std::vector<bool> keep(path.size(), false);
-  for (std::size_t begin = 0; begin < path.size(); begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, path.size() - 1);
-    keep[begin] = keep[end] = true;
-    keepWithin(path, begin, end, tolerance_m, keep);
+  for (std::size_t begin = 0, end = 0; begin < path.size(); begin = end) {
+    for (end = begin + 1; end < path.size() && end < begin + kBlock; ++end)
+      if (path[end].t - path[end - 1].t > longest_s) break;
+    keep[begin] = keep[end - 1] = true;
+    keepWithin(path, begin, end - 1, tolerance_m, keep);
   }
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < path.size(); ++i)
@@ -53,10 +54,10 @@ std::vector<std::size_t> keptPoints(const std::vector<PathPoint>& path, double t
   return kept;
 }
 
-std::vector<PathPoint> thinned(const std::vector<PathPoint>& path, std::size_t most) {
+std::vector<PathPoint> thinned(const std::vector<PathPoint>& path, std::size_t most, double longest_s) {
   std::vector<std::size_t> kept;
   for (double tolerance_m = kFinest_m; tolerance_m < 1e4; tolerance_m *= 2) {
-    kept = keptPoints(path, tolerance_m);
+    kept = keptPoints(path, tolerance_m, longest_s);
     if (kept.size() <= most) break;
   }
   std::vector<PathPoint> out;

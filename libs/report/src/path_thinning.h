@@ -6,12 +6,14 @@
 
 namespace roomgraph {
 
-/// Indices of the points to keep so that no point is farther than `tolerance_m` from the line that is left
-/// (D. Douglas and T. Peucker 1973). First and last are kept.
-std::vector<std::size_t> keptPoints(const std::vector<PathPoint>& path, double tolerance_m);
+/// Indices of the points to keep so that no point is farther than `tolerance_m` from where the line that is left is at
+/// its time (after D. Douglas and T. Peucker 1973). First and last are kept, and both ends of each gap of more than
+/// `longest_s`.
+std::vector<std::size_t> keptPoints(const std::vector<PathPoint>& path, double tolerance_m, double longest_s);
 
-/// The path with 1 cm tolerance, or the finest doubling of it that leaves at most `most` points.
-std::vector<PathPoint> thinned(const std::vector<PathPoint>& path, std::size_t most);
+/// The path with 1 cm tolerance, or the finest doubling of it that leaves at most `most` points; where the gaps alone
+/// have more, with these.
+std::vector<PathPoint> thinned(const std::vector<PathPoint>& path, std::size_t most, double longest_s);
 
 /// Number of parts for a series of so many values: at least two values in each on average.
 int partsFor(std::size_t values, int most);

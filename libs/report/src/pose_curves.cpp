@@ -30,13 +30,17 @@ std::vector<PathPoint> seenFromAbove(const Trajectory& trajectory, double start_
   return path;
 }
 
-std::vector<std::pair<double, double>> gapsOf(const std::vector<PathPoint>& path) {
+double longestSpacing(const std::vector<PathPoint>& path) {
   std::vector<double> spacing;
   for (std::size_t i = 1; i < path.size(); ++i) spacing.push_back(path[i].t - path[i - 1].t);
-  const double least_s = std::max(kLeastGap_s, kGapInSpacings * summarize(spacing).median);
+  return std::max(kLeastGap_s, kGapInSpacings * summarize(spacing).median);
+}
+
+std::vector<std::pair<double, double>> gapsOf(const std::vector<PathPoint>& path) {
+  const double longest_s = longestSpacing(path);
   std::vector<std::pair<double, double>> gaps;
   for (std::size_t i = 1; i < path.size(); ++i)
-    if (path[i].t - path[i - 1].t > least_s) gaps.emplace_back(path[i - 1].t, path[i].t);
+    if (path[i].t - path[i - 1].t > longest_s) gaps.emplace_back(path[i - 1].t, path[i].t);
   return gaps;
 }
 

@@ -12,6 +12,8 @@ std::vector<PathPoint> seenFromAbove(const Trajectory& trajectory, double start_
 
 /// Spans between neighbours that are longer than 1 s and than ten median spacings.
 std::vector<std::pair<double, double>> gapsOf(const std::vector<PathPoint>& path);
+/// What is longer is a gap, s: a second, or ten spacings of a slow recording.
+double longestSpacing(const std::vector<PathPoint>& path);
 
 double lengthOf(const std::vector<PathPoint>& path);
 

@@ -78,6 +78,10 @@ class Gathering {
   RunData& run_;
 };
 
+std::vector<PathPoint> thinPath(const std::vector<PathPoint>& path) {
+  return thinned(path, kMostPoints, longestSpacing(path));
+}
+
 struct Trajectories {
   Trajectory live, final;  // of the robot
   Trajectory camera;       // final, optical frame
@@ -87,7 +91,8 @@ Trajectories gatherPaths(Gathering& files, RunData& run) {
   Trajectories out;
   files.read("trajectory.tum", [&](const auto& file) { out.final = readTrajectory(file).trajectory; });
   files.read("live.tum", [&](const auto& file) { out.live = readTrajectory(file).trajectory; });
-  if (std::error_code none; std::filesystem::exists(files.folder() / "trajectory_camera.tum", none))
+  // It holds no pose where there was no camera.
+  if (std::error_code none; std::filesystem::file_size(files.folder() / "trajectory_camera.tum", none) > 0 && !none)
     files.read("trajectory_camera.tum", [&](const auto& file) { out.camera = readTrajectory(file).trajectory; });
   const Trajectory& longest = out.final.empty() ? out.live : out.final;
   if (longest.empty()) return out;
@@ -96,10 +101,10 @@ Trajectories gatherPaths(Gathering& files, RunData& run) {
   run.has_poses = !out.final.empty();
   run.poses = static_cast<int>(out.final.size());
   const auto path = seenFromAbove(out.final, run.start_t);
-  run.path = thinned(path, kMostPoints);
+  run.path = thinPath(path);
   run.length_m = lengthOf(path);
   run.gaps = gapsOf(path);
-  run.live_path = thinned(seenFromAbove(out.live, run.start_t), kMostPoints);
+  run.live_path = thinPath(seenFromAbove(out.live, run.start_t));
   run.hindsight_m = hindsightOf(out.live, out.final, run.start_t, run.duration_s);
   return out;
 }
@@ -133,7 +138,7 @@ void compareWithTruth(const std::filesystem::path& file, const Trajectories& est
   const Pose3 estimate_from_truth = run.final_errors->figures.truth_from_estimate.inverse();
   Trajectory moved;
   for (const auto& pose : truth.poses()) moved.add(pose.t, estimate_from_truth * pose.pose);
-  run.truth_path = thinned(seenFromAbove(moved, run.start_t), kMostPoints);
+  run.truth_path = thinPath(seenFromAbove(moved, run.start_t));
 }
 
 void gatherObjects(Gathering& files, RunData& run) {

@@ -129,6 +129,18 @@ std::vector<float> sightingsOverTime(const std::vector<ShownSighting>& sightings
   return counts;
 }
 
+namespace {
+
+// A finished run knows all of its closures at any time.
+std::size_t closedBy(const ViewState& state) {
+  if (!state.closures) return 0;
+  return static_cast<std::size_t>(std::count_if(state.closures->begin(), state.closures->end(), [&](const auto& closure) {
+    return std::max(closure.t_a, closure.t_b) <= state.t + 1e-3;
+  }));
+}
+
+}  // namespace
+
 std::string describeMoment(const ViewState& state, double start_t) {
   std::size_t mapped = 0, all = 0;
   if (state.landmarks)
@@ -137,8 +149,7 @@ std::string describeMoment(const ViewState& state, double start_t) {
   if (state.record > 0) text = printed("record %d, %.1f s: ", state.record, state.t - start_t) + text;
   if (all > mapped) text += " (" + counted(all - mapped, "candidate", "candidates") + ")";
   if (state.key_poses) text += ", " + counted(state.key_poses->size(), "key pose", "key poses");
-  if (state.closures && !state.closures->empty())
-    text += ", " + counted(state.closures->size(), "loop closure", "loop closures");
+  if (const std::size_t closed = closedBy(state); closed > 0) text += ", " + counted(closed, "loop closure", "loop closures");
   return state.note.empty() ? text : text + "; " + state.note;
 }
 

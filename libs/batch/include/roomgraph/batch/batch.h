@@ -51,7 +51,8 @@ struct BatchOutcome {
   std::size_t done = 0, failed = 0, skipped = 0, left = 0;  ///< runs; left: not begun, or interrupted
   double wall_s = 0, run_s = 0;                             ///< of all; sum over the runs that were done
   bool interrupted = false;
-  std::vector<std::string> problems;  ///< one line each
+  std::vector<std::string> problems;     ///< of runs that failed, one line each
+  std::vector<std::string> unevaluated;  ///< runs done of which an evaluation failed, one line each
 };
 
 /// Lock of a batch folder, held while it exists. Throws RunError: another process has it, or no folder can be

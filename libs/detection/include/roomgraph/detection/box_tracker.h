@@ -40,6 +40,7 @@ class BoxTracker {
  private:
   struct Track {
     Detection detection;
+    cv::Mat mask;        ///< of the whole object as it was detected; empty: none
     Box2 anchor;         ///< box when the corners were chosen, px; may reach outside the image
     Box2 box;            ///< now; may reach outside the image
     double depth_m = 0;  ///< of the object now, along the optical axis; 0: not measured
