@@ -42,7 +42,7 @@ function condensed(run) { return run.closures.length > 0 && run.counts.loop_clos
 
 function closureTitle(run) {
   const listed = whole(run.closures.length);
-  return `Loop closures (${condensed(run) ? `${listed} ties of ${whole(run.counts.loop_closures)}` : listed})`;
+  return `Loop closures (${condensed(run) ? `${run.closures.length > 1 ? `${listed} ties` : '1 tie'} of ${whole(run.counts.loop_closures)}` : listed})`;
 }
 
 function closurePart(run) {
