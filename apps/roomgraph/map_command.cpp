@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph map`: info, export and crop of a map file.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -80,11 +81,22 @@ std::vector<std::string> exportOne(const CSemanticMap& map, const ObjectDatabase
   return exportedFiles(format);
 }
 
+// Classes of the map and of the object database.
+void requireKnownClasses(const MapExportOptions& options, const CSemanticMap& map, const ObjectDatabase& database) {
+  std::vector<std::string> known;
+  for (const auto& model : database.models()) known.push_back(model.class_name);
+  for (const auto& landmark : map.landmarks) known.push_back(landmark.class_name);
+  for (const auto& [name, margin] : options.keepout_margin_m)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw ConfigError("--margin " + name + ": no such class" + didYouMean(name, known));
+}
+
 void exportFormatsOf(const MapExportArguments& arguments) {
   const auto options = exportOptions(arguments);
   const auto formats = arguments.formats.empty() ? allFormats() : arguments.formats;
   const CSemanticMap map = loadMap(arguments.map);
   const ObjectDatabase database = databaseOf(map, arguments.map, arguments.objects);
+  requireKnownClasses(options, map, database);
   std::error_code error;
   std::filesystem::create_directories(arguments.folder, error);
   if (error) throw RunError("cannot make the folder " + arguments.folder + ": " + error.message());

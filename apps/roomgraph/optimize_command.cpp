@@ -65,7 +65,9 @@ void run(Graph& graph, const NodeTimes& times, const OptimizeArguments& argument
   if (!report.usable || !std::isfinite(after))
     throw RunError(arguments.graph.string() + ": cannot be optimised: " + report.message);
   saveG2o(graph, arguments.output, times);
-  std::cout << "chi2 after  " << decimal(after) << " (" << report.iterations << " iterations)\n"
+  const int steps = std::max(0, report.iterations - 1);  // the solver counts the start, too
+  std::cout << "chi2 after  " << decimal(after) << " (" << steps << " iterations"
+            << (steps >= arguments.max_iterations ? ", as many as --max-iterations allows: it may go lower" : "") << ")\n"
             << arguments.output.string() << ": written\n";
 }
 

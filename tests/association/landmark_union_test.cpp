@@ -27,6 +27,16 @@ TEST(LandmarkUnion, PlaceIsWeighedByInformation) {
   EXPECT_EQ(out.observations, 4);
 }
 
+TEST(LandmarkUnion, AYawIsTurnedOnlyTowardsAnother) {
+  Landmark without, with;
+  without.covariance = with.covariance = 0.01 * Eigen::Matrix4d::Identity();
+  with.yaw = 2.5;
+  with.has_yaw = true;
+  EXPECT_NEAR(fusedEstimates(without, with).yaw, 2.5, 1e-9);
+  EXPECT_NEAR(fusedEstimates(with, without).yaw, 2.5, 1e-9);
+  EXPECT_TRUE(fusedEstimates(without, with).has_yaw);
+}
+
 TEST(LandmarkUnion, LogOddsAdd) {
   EXPECT_NEAR(combinedExistence(0.8, 0.5), 0.8, 1e-12);
   EXPECT_NEAR(combinedExistence(0.8, 0.75), 12.0 / 13, 1e-12) << "odds 4 and 3";

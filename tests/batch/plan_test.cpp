@@ -8,6 +8,7 @@
 #include <set>
 
 #include "errors_of.h"
+#include "roomgraph/catalogue/run_result.h"
 #include "roomgraph/core/errors.h"
 #include "temporary_folder.h"
 
@@ -79,6 +80,21 @@ TEST_F(Plans, NamesAreThoseOfTheFilesWithAsManyFoldersAsItTakes) {
   EXPECT_THAT(inputNames({"a/lab.rawlog", "b/x/lab.rawlog", "c/x/lab.rawlog"}),
               UnorderedElementsAre("a_lab", "b_x_lab", "c_x_lab"));
   EXPECT_THAT(inputNames({"a/lab.rawlog", "a/*.rawlog"}), ElementsAre("lab")) << "one file, named twice";
+}
+
+TEST_F(Plans, ANameInTheFolderStaysWithItsRecording) {
+  for (const char* name : {"a/lab.rawlog", "b/lab.rawlog"}) touch(name);
+  RunResult done;
+  done.name = "lab--default";
+  done.input.name = "lab";
+  done.input.path = folder.file("a/lab.rawlog").string();
+  std::filesystem::create_directories(folder.file("out/runs/lab--default"));
+  writeRunResult(done, folder.file("out/runs/lab--default/result.json"));
+  EXPECT_THAT(inputNames({"a/lab.rawlog"}), ElementsAre("lab"));
+  EXPECT_THAT(inputNames({"b/lab.rawlog"}), ElementsAre("b_lab")) << "another recording";
+  EXPECT_THAT(inputNames({"b/lab.rawlog", "a/lab.rawlog"}), ElementsAre("b_lab", "lab"));
+  std::filesystem::remove(folder.file("a/lab.rawlog"));
+  EXPECT_THAT(inputNames({"b/lab.rawlog"}), ElementsAre("lab")) << "it may have been moved";
 }
 
 TEST_F(Plans, RecordingsThatNoFolderTellsApartAreNumbered) {

@@ -88,6 +88,48 @@ TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSays) {
   }
 }
 
+// Without walls in view nothing but the drive's own length tells the unit of depth: it must not shrink to make noise small.
+TEST(EstimateCalibration, WithoutWallsDepthDoesNotShrink) {
+  MadeUpDrive drive({.seconds = 60, .noise = usualNoise()});
+  CalibrationTask task = drive.task();
+  for (auto& view : task.evidence[0].views) view.upright.clear();
+  const auto estimate = estimateCalibration(task);
+  EXPECT_NEAR(estimate.after[kDepthScale], trueParameters()[kDepthScale], 0.05);
+  EXPECT_NEAR(estimate.after[kCameraZ], trueParameters()[kCameraZ], 0.03);
+}
+
+// The solver's derivatives lack the columns of what is held.
+TEST(EstimateCalibration, ErrorsAreWhatTheCovarianceSaysWithoutWheels) {
+  constexpr int kSeeds = 4;
+  ParameterVector squares = ParameterVector::Zero();
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    MadeUpDrive drive({.seconds = 60, .wheels = false, .noise = usualNoise(), .seed = seed});
+    ParameterVector before = wrongParameters();
+    before.segment<3>(kLidarX) = trueParameters().segment<3>(kLidarX);
+    CalibrationTask task = drive.task(before);
+    for (const int i : {kLidarX, kLidarY, kLidarYaw, kWheelTime, kWheelScale, kTurnScale, kHeadingDrift})
+      task.held.set(static_cast<std::size_t>(i));
+    const auto estimate = estimateCalibration(task);
+    for (int i = kCameraX; i <= kCameraRoll; ++i) {
+      const double off = estimate.after[i] - trueParameters()[i];
+      EXPECT_LT(std::abs(off), 5 * estimate.sigma(i)) << parameterTraits()[static_cast<std::size_t>(i)].name;
+      squares[i] += off * off / estimate.covariance(i, i) / kSeeds;
+    }
+  }
+  EXPECT_GT(squares.segment<6>(kCameraX).mean(), 0.1) << "not many times too large";
+  EXPECT_LT(squares.segment<6>(kCameraX).mean(), 3.3);
+}
+
+// Neither lidar nor camera has a place along y on the robot then, but both have one to each other.
+TEST(EstimateCalibration, WhatOnlyTogetherIsKnownStaysKnown) {
+  MadeUpDrive drive({.seconds = 20, .turns = false, .wheels = false, .noise = usualNoise(), .seed = 2});
+  CalibrationTask task = drive.task();
+  for (const int i : {kWheelTime, kWheelScale, kTurnScale, kHeadingDrift}) task.held.set(static_cast<std::size_t>(i));
+  const auto estimate = estimateCalibration(task);
+  const auto yawInLidar = [](const ParameterVector& p) { return wrapAngle(p[kCameraYaw] - p[kLidarYaw]); };
+  EXPECT_NEAR(yawInLidar(estimate.after), yawInLidar(trueParameters()), 0.3 * kDegree);
+}
+
 TEST(EstimateCalibration, WithoutTurnsPlacesStayAsTheyWere) {
   MadeUpDrive drive({.seconds = 20, .turns = false, .noise = usualNoise()});
   const auto task = drive.task();

@@ -198,6 +198,11 @@ TEST(Roughness, IsTheMedianSecondDifferenceOfBeamsThatReturn) {
   for (std::size_t i = 0; i < ranges.size(); i += 5) ranges[i] = 0;
   EXPECT_EQ(roughnessOf(ranges), 0) << "too few neighbours to tell";
   EXPECT_EQ(roughnessOf({}), 0);
+  // Half of what a scan sees may be chair legs.
+  std::vector<float> scan(100, 2.f);
+  for (std::size_t i = 0; i < 60; i += 2) scan[i] = 3;
+  EXPECT_EQ(roughnessOfScan(scan), 0);
+  EXPECT_GT(roughnessOf(scan), 1);
 }
 
 TEST(Roughness, OfNormalNoiseIsThatOfASumOfThree) {
@@ -206,6 +211,7 @@ TEST(Roughness, OfNormalNoiseIsThatOfASumOfThree) {
   for (auto& range : ranges) range = static_cast<float>(10 + random.normal(0, 0.2));
   // a - 2 b + c has the variance 6; half of a normal distribution lies within 0.6745 of its sigma.
   EXPECT_NEAR(roughnessOf(ranges), 0.6745 * std::sqrt(6.0) * 0.2, 0.005);
+  EXPECT_NEAR(roughnessOfScan(ranges), 0.2533 * std::sqrt(6.0) * 0.2, 0.005) << "a fifth within .2533 sigma";
 }
 
 TEST(Repetition, FindsTheLongestRunByTime) {

@@ -202,10 +202,26 @@ TEST_F(DoctorGeometry, SwayingHandHasNoFloorAtOnePlace) {
       false,
       [&](Images& images) {
         images.rangeUnits *= 1 + 0.1f * static_cast<float>(i++ % 8);  // now higher, now lower
+        images.sensorPose = {};
       },
       false);
   EXPECT_FALSE(imagesOf(report).floor);
   EXPECT_THAT(report.findings, kNoWorseThanNotes);
+}
+
+TEST_F(DoctorGeometry, SwayingCameraWithAHeightIsNotOnARobot) {
+  for (const bool on_robot : {false, true}) {
+    int i = 0;
+    const auto report = inspect(
+        on_robot, [&](Images& images) { images.rangeUnits *= 1 + 0.1f * static_cast<float>(i++ % 8); }, on_robot);
+    const auto by_hand = AllOf(finding(Severity::kWarning, "now higher, now lower: by 0.16 m"),
+                               Field(&Finding::hint, HasSubstr("--pose KINECT=0,0,0,0,0,0")));
+    if (on_robot) {
+      EXPECT_THAT(report.findings, Not(Contains(Field(&Finding::hint, HasSubstr("by hand")))));
+    } else {
+      EXPECT_THAT(report.findings, Contains(by_hand));
+    }
+  }
 }
 
 TEST_F(DoctorGeometry, FloorInFewImagesIsNoFloor) {

@@ -192,7 +192,8 @@ TEST_F(Doctor, ScanGeometry) {
 
 /// Turning on the spot, 0.15 rad each, in a room without symmetry; scans of 181 beams over 180 degrees. Odometry of some turns, but
 /// for the first so many of each four, says two fifths more. `forward_m`: it says that the robot drives on meanwhile.
-std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int right_of_four = 4, double forward_m = 0) {
+std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int right_of_four = 4, double forward_m = 0,
+                                 double roll = 0) {
   const auto wall = [](double a) {
     return 3 + std::sin(a + 1) + 0.6 * std::cos(2 * a) + 0.4 * std::sin(5 * a + 2);
   };
@@ -201,6 +202,7 @@ std::vector<Object> turningRobot(double declared_aperture, bool mirrored, int ri
   for (int k = 0; k < 20; ++k) {
     auto scan = makeScan(k, 2, 181);
     scan->aperture = static_cast<float>(declared_aperture);
+    scan->sensorPose.setYawPitchRoll(0, 0, roll);
     for (int i = 0; i < 181; ++i) {
       const double beam = (i - 90) * M_PI / 180 * (mirrored ? -1 : 1);
       scan->setScanRange(static_cast<std::size_t>(i), static_cast<float>(wall(beam + 0.15 * k)));
@@ -219,6 +221,9 @@ TEST_F(Doctor, ApertureIsComparedWithOdometry) {
   EXPECT_THAT(findings(turningRobot(M_PI / 2, false)),
               Contains(findingOf(Severity::kWarning, "odometry turns 1.9")));
   EXPECT_THAT(findings(turningRobot(M_PI, true)), Contains(findingOf(Severity::kWarning, "mirrored")));
+  EXPECT_THAT(findings(turningRobot(M_PI, true, 4, 0, M_PI)), Not(Contains(findingOf(Severity::kWarning, "mirrored"))))
+      << "mounted upside down, and said to be";
+  EXPECT_THAT(findings(turningRobot(M_PI, false, 4, 0, M_PI)), Contains(findingOf(Severity::kWarning, "mirrored")));
   EXPECT_THAT(findings(turningRobot(M_PI, false, 0)), Contains(findingOf(Severity::kWarning, "odometry turns 1.3")));
   EXPECT_TRUE(inspect(turningRobot(M_PI, false, 0, 0.05)).sensors[1].scans->rotation_ratio);
   EXPECT_FALSE(inspect(turningRobot(M_PI, false, 0, 0.07)).sensors[1].scans->rotation_ratio) << "an arc, past walls";

@@ -231,6 +231,41 @@ TEST_F(RecordedDetectorTest, BrokenFilesNameTheLine) {
   EXPECT_THROW(prepare("file = " + (folder_ / "none").string()), InputError);
 }
 
+TEST_F(RecordedDetectorTest, BoxesOfALargerImageAreScaled) {
+  prepare("");
+  CObservationDetections large = record(1.0, "chair");
+  large.image_width = 1280;
+  large.image_height = 960;
+  large.items.resize(1);
+  large.items[0].u_min = 700, large.items[0].v_min = 500, large.items[0].u_max = 1200, large.items[0].v_max = 900;
+  detector_.feed(large);
+  const auto found = detector_.detect(frameAt(1.0));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_EQ((*found)[0].box, (Box2{350, 250, 600, 450}));
+  large.timestamp = mrpt::Clock::fromDouble(2.0);
+  large.image_height = 720;  // cut, not scaled
+  detector_.feed(large);
+  const auto refused = detector_.detect(frameAt(2.0));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.reason(), HasSubstr("an image of 1280x720 px"));
+}
+
+// A run's own detections.jsonl, read again.
+TEST_F(RecordedDetectorTest, WhatWasCarriedIsNoRecord) {
+  const std::string box = R"({"class": "chair", "score": 0.9, "bbox": [1, 1, 9, 9]})";
+  const std::string carried = R"({"class": "sofa", "score": 0.8, "bbox": [2, 2, 9, 9], "carried": true})";
+  const auto records = readDetectionFile(write(R"({"timestamp": 1, "boxes": [)" + box + "]}\n" +
+                                               R"({"timestamp": 2, "boxes": [)" + carried + "], \"carried\": true}\n" +
+                                               R"({"timestamp": 3, "boxes": [], "carried": true})" + "\n" +
+                                               R"({"timestamp": 4, "boxes": [)" + box + ", " + carried +
+                                               "], \"unsought\": [\"sofa\"]}\n" + R"({"timestamp": 5, "boxes": []})" + "\n"));
+  std::vector<double> times;
+  for (const auto& [t, record] : records) times.push_back(t);
+  EXPECT_EQ(times, (std::vector<double>{1, 4, 5}));
+  EXPECT_EQ(records.find(4)->second.boxes.size(), 1u);
+}
+
 TEST_F(RecordedDetectorTest, MasksGiveTheBoxAndAreCutToIt) {
   cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
   cv::rectangle(mask, {100, 50, 40, 60}, cv::Scalar(255), cv::FILLED);

@@ -48,8 +48,9 @@ TEST(LandmarkContinuation, EvidenceAddsUpAndIdsAreKept) {
   const auto& [landmark, weight] = both.landmarks[0];
   EXPECT_EQ(landmark.id.value, 1);
   EXPECT_NEAR(landmark.existence, 12.0 / 13, 1e-9);
-  EXPECT_NEAR(landmark.position.x(), 0.1, 1e-9);
-  EXPECT_NEAR(landmark.covariance(0, 0), 0.005, 1e-9);
+  // What the earlier session said is 10 cm less sure now.
+  EXPECT_NEAR(landmark.position.x(), 0.2 * 0.02 / 0.03, 1e-9);
+  EXPECT_NEAR(landmark.covariance(0, 0), 0.02 * 0.01 / 0.03, 1e-9);
   EXPECT_EQ(landmark.observations, 20);
   EXPECT_EQ(weight, 10);
   EXPECT_EQ(both.seen_again, 1);
@@ -63,6 +64,32 @@ TEST(LandmarkContinuation, WhatWasMovedInThisRunStandsWhereItWasSeenLast) {
   EXPECT_EQ(both.landmarks[0].landmark.position.x(), 0.2);
   EXPECT_EQ(both.landmarks[0].landmark.stands_since, 7);
   EXPECT_EQ(both.landmarks[0].landmark.observations, 20);
+}
+
+TEST(LandmarkContinuation, WhatWasMovedBetweenSessionsStandsWhereItIsNow) {
+  const auto continued = [](WeighedLandmark then, WeighedLandmark now) {
+    for (auto* one : {&then, &now}) one->landmark.covariance = 0.0004 * Eigen::Matrix4d::Identity();
+    return continuedLandmarks({then}, {{}}, {now}, {LandmarkId{1}}, {}).landmarks.at(0).landmark;
+  };
+  EXPECT_EQ(continued(stool(1, 0, 0.9), stool(1, 0.8, 0.9)).position.x(), 0.8);
+  EXPECT_NEAR(continued(stool(1, 0, 0.9), stool(1, 0.2, 0.9)).position.x(), 0.2, 0.02) << "may be the same place";
+  EXPECT_NE(continued(stool(1, 0, 0.9), stool(1, 0.2, 0.9)).position.x(), 0.2);
+  WeighedLandmark then = stool(1, 0, 0.9), now = stool(1, 0, 0.9);
+  then.landmark.has_yaw = now.landmark.has_yaw = true;
+  now.landmark.yaw = 1.5;
+  EXPECT_EQ(continued(then, now).yaw, 1.5);
+  now.landmark.yaw = 3.1;  // half a turn is none
+  EXPECT_NEAR(std::abs(std::sin(continued(then, now).yaw)), 0, 0.05);
+}
+
+TEST(LandmarkContinuation, AGhostIsNoSighting) {
+  WeighedLandmark sofa = stool(8, 0, 0.98), ghost = stool(1, 0.05, 0.03);
+  sofa.landmark.class_name = "sofa";
+  const auto both = continuedLandmarks({stool(1, 0, 0.97)}, {{}}, {sofa, ghost}, {LandmarkId{8}}, {});
+  ASSERT_EQ(both.landmarks.size(), 1u);
+  EXPECT_EQ(both.landmarks[0].landmark.class_name, "sofa");
+  EXPECT_EQ(both.vanished, 1);
+  EXPECT_EQ(both.seen_again, 0);
 }
 
 TEST(LandmarkContinuation, WhatIsSeenThroughFadesAndWhatIsNotSeenStays) {

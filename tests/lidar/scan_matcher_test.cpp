@@ -120,6 +120,23 @@ TEST(SubmapScanMatcher, CorridorFollowsOdometryAndSaysItIsUncertain) {
   EXPECT_GT(last.step_covariance(0, 0), 2 * last.step_covariance(1, 1));
 }
 
+// Nothing tells how far it went; that it hardly stops, turns back or runs away is all that is known.
+TEST(SubmapScanMatcher, CorridorWithoutOdometryGoesOnAsItWent) {
+  const std::vector<test::Wall> closed = [] {  // one end in view at first
+    auto walls = test::corridor();
+    walls.push_back({{-1, -3}, {-1, 3}});
+    return walls;
+  }();
+  std::vector<Pose2> poses{{0, 0, 0}};
+  for (int i = 0; i < 100; ++i) poses.push_back(poses.back() * Pose2{0.05, 0, 0});
+  const Replayed run = replay(closed, poses, false);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Pose2 step = run.matches[i - 1].odom_from_robot.inverse() * run.matches[i].odom_from_robot;
+    EXPECT_LT(std::hypot(step.x, step.y), 0.15) << i;
+    EXPECT_NEAR(run.matches[i].odom_from_robot.x, poses[i].x, 0.5) << i;
+  }
+}
+
 // The corridor stands still while the robot turns, so the uncertain direction turns in the robot's frame.
 TEST(SubmapScanMatcher, CovarianceOfAStepIsInTheFrameOfTheRobotBeforeIt) {
   std::vector<Pose2> poses{{0, 0, 0}};

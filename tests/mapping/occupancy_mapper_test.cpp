@@ -154,6 +154,28 @@ TEST(OccupancyMapper, AnEarlierGridGrowsOnItsLattice) {
   EXPECT_GT(grown->getXMax(), 20);
 }
 
+// Depth shows the grid where the lidar has stopped, and where it has not begun; beside scans they are not drawn.
+TEST(OccupancyMapper, DepthGoesOnWhereTheLidarStops) {
+  OccupancyMapper mapper;
+  Trajectory path;
+  for (int i = 0; i <= 60; ++i) path.add(i, toPose3(Pose2{4.0 * i, 0, 0}));
+  for (int i = 20; i <= 30; ++i) mapper.add(scanAt(i, robotAt(0)));
+  for (int i = 0; i <= 60; ++i) {
+    RangeFan slice;
+    slice.t = i;
+    slice.angle_min_rad = -0.05;
+    slice.angle_step_rad = 0.01;
+    slice.ranges_m.assign(11, 1.5f);
+    mapper.add(std::move(slice));
+  }
+  const auto grid = mapper.build(path);
+  ASSERT_TRUE(grid);
+  const auto free = [&](int i) { return grid->getPos(static_cast<float>(4 * i + 1), 0.f) > 0.5f; };
+  for (const int i : {0, 10, 40, 60}) EXPECT_TRUE(free(i)) << i;
+  EXPECT_TRUE(mapper.drawsDepth(10) && mapper.drawsDepth(40));
+  EXPECT_FALSE(mapper.drawsDepth(17) || mapper.drawsDepth(25) || mapper.drawsDepth(33));
+}
+
 TEST(OccupancyMapper, WithoutScansOrPosesThereIsNoGrid) {
   OccupancyMapper mapper;
   EXPECT_FALSE(mapper.build(roomTrajectory()));

@@ -51,6 +51,17 @@ TEST(MapCrop, OutsideAConcavePolygonIsUnknown) {
   EXPECT_FALSE(part.world_from_robot.empty());
 }
 
+TEST(MapCrop, TheEvidenceInCellsStays) {
+  CSemanticMap map = test::sampleMap();
+  auto& grid = *map.occupancy;
+  for (unsigned x = 0; x < grid.getSizeX(); ++x) grid.getRow(3)[x] = static_cast<mrpt::maps::OccGridCellTraits::cellType>(x - 40);
+  const CSemanticMap whole = cropped(map, {{-99, -99}, {99, -99}, {99, 99}, {-99, 99}});
+  ASSERT_EQ(whole.occupancy->getSizeX(), grid.getSizeX());
+  ASSERT_EQ(whole.occupancy->getSizeY(), grid.getSizeY());
+  for (int y = 0; y < static_cast<int>(grid.getSizeY()); ++y)
+    EXPECT_TRUE(std::equal(grid.getRow(y), grid.getRow(y) + grid.getSizeX(), whole.occupancy->getRow(y))) << y;
+}
+
 TEST(MapCrop, NothingAndNoArea) {
   const CSemanticMap map = test::sampleMap();
   const CSemanticMap far = cropped(map, {{100, 100}, {101, 100}, {101, 101}});

@@ -53,6 +53,20 @@ TEST(GridOutlines, RandomCellsComeBack) {
   }
 }
 
+TEST(GridOutlines, ThinWallsOfFineGridsStay) {
+  for (const float cell : {0.05f, 0.03f, 0.02f, 0.01f}) {
+    mrpt::maps::COccupancyGridMap2D grid(0, 50 * cell, 0, 50 * cell, cell);
+    grid.fill(0.99f);
+    for (int y = 10; y < 40; ++y) grid.setCell(20, y, 0.01f);  // a wall of one cell
+    const auto walls = simplified(outlinesOf(grid, isOccupiedCell), outlineTolerance(grid));
+    ASSERT_EQ(walls.size(), 1u) << cell;
+    double twice = 0;
+    for (std::size_t i = 0, j = walls[0].size() - 1; i < walls[0].size(); j = i++)
+      twice += walls[0][j].x() * walls[0][i].y() - walls[0][i].x() * walls[0][j].y();
+    EXPECT_NEAR(twice / 2, 30.0 * static_cast<double>(cell * cell), 0.05 * 30 * static_cast<double>(cell * cell)) << cell;
+  }
+}
+
 TEST(GridOutlines, SimplifiedStaysNear) {
   const std::vector<Polygon2> steps{{{0, 0}, {2, 0}, {2, 0.02}, {4, 0.02}, {4, 2}, {0, 2}}};
   const auto simple = simplified(steps, 0.03);

@@ -76,6 +76,8 @@ TEST_F(MapCommand, WrongUseIsExplained) {
                 HasSubstr("is read by"));
   expectOneLine(map({"export", file("map.rgmap"), "-o", file("x"), "--margin", "sofa=far"}), 2,
                 HasSubstr("CLASS=METRES"));
+  expectOneLine(map({"export", file("map.rgmap"), "-o", file("x"), "--margin", "sofaa=0.3"}), 2,
+                HasSubstr("--margin sofaa: no such class (did you mean 'sofa'?)"));
   expectOneLine(map({"export", file("map.rgmap"), "-o", file("x"), "--format", "obj"}), 2, HasSubstr("obj"));
   expectOneLine(map({"export", file("map.rgmap"), "-o", file("map.rgmap")}), 1,
                 HasSubstr("cannot make the folder"));

@@ -94,6 +94,8 @@ TEST(ObjectDatabase, IsStrict) {
   EXPECT_THAT(complaint("[a]\nshape = planar\nfront = high_back\n"),
               HasSubstr("o.ini:3: [a] front = high_back: only a cuboid has a back"));
   EXPECT_THAT(complaint("[a]\nsolid_share = 2\n"), HasSubstr("o.ini:2: [a] solid_share"));
+  EXPECT_THAT(complaint("[sofa]\nlabels = couch, Chair\n[chair]\nlabels = stool, chair\n"),
+              HasSubstr("o.ini:4: [chair] labels: 'chair' means [sofa] already"));
   EXPECT_THAT(complaint("[dog]\nmoves = true\n"), HasSubstr("o.ini:2: [dog] moves: what moves by itself is no landmark"));
   EXPECT_THROW(ObjectDatabase::fromFile("no_such_objects.ini"), InputError);
 }

@@ -156,6 +156,19 @@ TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   EXPECT_LT(std::pow(found[0].y - 1.03, 2), 9 * c(1, 1));
 }
 
+// The upper side of a box is the door's top only where the camera stands upright.
+TEST(DoorOnPlane, HeightWhateverTheRollOfTheCamera) {
+  for (const double roll : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
+    Scene scene;
+    scene.lookAhead(1.1, 0.05, roll);
+    scene.addBox(3.4, 0, std::numbers::pi, 0.9, 0.12, 0, 2.05, 1);
+    scene.addBox(3.4, 0, std::numbers::pi, 8, 0.1, 0, 2.6, 2);  // its wall
+    const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, true));
+    ASSERT_FALSE(found.empty()) << roll;
+    EXPECT_NEAR(found[0].shape.height, 2.05, 0.05) << roll;
+  }
+}
+
 // A door in a wall straight ahead: what the box's sides are worth along the wall, by sampling them.
 TEST(DoorOnPlane, DeviationAlongTheWallEqualsSampling) {
   std::mt19937 random(9);

@@ -51,7 +51,7 @@ TEST(Scene, OnlyPersonsMove) {
   EXPECT_NEAR(scene.persons(2)[0].second.x, 1.4, 1e-6);
 }
 
-TEST(Scene, AHandHeldRecordingStartsLevelOnTheFloor) {
+TEST(Scene, AHandHeldCameraIsItsOwnRobot) {
   World world = test::exampleWorld();
   world.robot.reset();
   world.lidar.reset();
@@ -59,8 +59,10 @@ TEST(Scene, AHandHeldRecordingStartsLevelOnTheFloor) {
   world.handheld =
       HandheldSpec{{{{1, 2, 1.4}, {4, 2, 0.5}}, {{2, 2, 1.3}, {4, 1, 0.8}}}, false, 0.3, "handheld"};
   const Scene scene(world);
-  EXPECT_LT((scene.worldFromRobot(0).matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-9);
   EXPECT_NEAR(scene.worldFromCamera(0).translation().z(), 1.4, 0.02);
+  EXPECT_LT(scene.robotFromCamera().translation().norm(), 1e-9) << "a camera with a height is one on a robot";
+  EXPECT_NEAR(scene.worldFromRobot(0).translation().head<2>().norm(), 0, 1e-9);
+  EXPECT_NEAR(planarPart(scene.worldFromRobot(0)).yaw, 0, 1e-9);
   EXPECT_LT(scene.worldFromCamera(0).linear()(2, 2), -0.2);  // looks down
 }
 

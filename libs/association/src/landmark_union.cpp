@@ -34,14 +34,15 @@ double weightOfSightings(const CSemanticMap& map, const Landmark& landmark) {
 
 Landmark fusedEstimates(const Landmark& a, Landmark b) {
   Landmark out = a;
-  if (std::abs(wrapAngle(b.yaw - a.yaw)) > std::numbers::pi / 2) b.yaw = wrapAngle(b.yaw + std::numbers::pi);
+  const bool both_have_yaw = a.has_yaw && b.has_yaw;
+  if (both_have_yaw && std::abs(wrapAngle(b.yaw - a.yaw)) > std::numbers::pi / 2) b.yaw = wrapAngle(b.yaw + std::numbers::pi);
   const Eigen::Matrix4d total = a.covariance + b.covariance;
   const Eigen::Matrix4d gain = total.ldlt().solve(a.covariance).transpose();
   Eigen::Vector4d step;
-  step << b.position - a.position, wrapAngle(b.yaw - a.yaw);
+  step << b.position - a.position, both_have_yaw ? wrapAngle(b.yaw - a.yaw) : 0;
   const Eigen::Vector4d change = gain * step;
   out.position += change.head<3>();
-  if (a.has_yaw && b.has_yaw) out.yaw = wrapAngle(a.yaw + change[3]);
+  if (both_have_yaw) out.yaw = wrapAngle(a.yaw + change[3]);
   if (!a.has_yaw && b.has_yaw) out.yaw = b.yaw, out.has_yaw = true;
   out.covariance = a.covariance - gain * a.covariance;
   out.covariance = (out.covariance + out.covariance.transpose()).eval() / 2;

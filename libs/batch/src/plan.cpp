@@ -5,8 +5,10 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
+#include "roomgraph/catalogue/run_result.h"
 #include "roomgraph/core/errors.h"
 #include "truth_files.h"
 
@@ -55,11 +57,45 @@ std::string numbered(const std::string& name, const std::set<std::string>& taken
   return out;
 }
 
-// Recordings of one name get those of their folders in front, as many as it takes; a number where those are the same, too.
-void nameRecordings(std::vector<PlannedInput>& inputs) {
+// Files of recordings by the names under which a folder has results of them.
+std::map<std::string, fs::path> earlierRecordings(const fs::path& folder) {
+  std::map<std::string, fs::path> out;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "runs", none)) {
+    try {
+      const RunInput input = readRunResult(entry.path() / "result.json").input;
+      out[input.name] = input.path;
+    } catch (const InputError&) {  // no whole run
+    }
+  }
+  return out;
+}
+
+bool isNameOf(const std::string& name, const fs::path& file) {
+  for (int folders = 0; folders <= kMostFolders; ++folders)
+    if (nameWithFolders(file, folders) == name) return true;
+  return false;
+}
+
+// A recording keeps the name that it has in the folder; that of another one which is still there is not taken from it.
+std::set<std::string> keepNames(std::vector<PlannedInput>& inputs, const fs::path& folder) {
   std::set<std::string> taken;
   for (const auto& input : inputs)
     if (!input.simulate.empty()) taken.insert(input.input.name);
+  const auto earlier = earlierRecordings(folder);
+  for (auto& input : inputs)
+    for (const auto& [name, file] : earlier)
+      if (input.simulate.empty() && input.input.name.empty() && file == input.input.path && isNameOf(name, file) &&
+          taken.insert(name).second)
+        input.input.name = name;
+  std::error_code none;
+  for (const auto& [name, file] : earlier)
+    if (isNameOf(name, file) && fs::exists(file, none)) taken.insert(name);
+  return taken;
+}
+
+// Recordings of one name get those of their folders in front, as many as it takes; a number where those are the same, too.
+void nameRecordings(std::vector<PlannedInput>& inputs, std::set<std::string> taken) {
   for (int folders = 0;; ++folders) {
     std::map<std::string, int> counts;
     const auto nameOf = [&](const PlannedInput& input) { return nameWithFolders(input.input.path, folders); };
@@ -134,7 +170,7 @@ BatchPlan planBatch(const JobFile& jobs, const fs::path& folder) {
         throw ConfigError(entry.place + ": " + input.input.path + " is an input already (" + place->second +
                           ")");
     }
-  nameRecordings(plan.inputs);
+  nameRecordings(plan.inputs, keepNames(plan.inputs, folder));
   for (std::size_t i = 0; i < plan.inputs.size(); ++i)
     for (std::size_t v = 0; v < plan.variants.size(); ++v)
       plan.runs.push_back({plan.inputs[i].input.name + "--" + plan.variants[v].name, i, v, {}, {}});

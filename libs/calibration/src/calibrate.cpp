@@ -7,6 +7,7 @@
 #include "estimate_calibration.h"
 #include "read_evidence.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/geometry/degree.h"
 
 namespace roomgraph {
 namespace {
@@ -101,6 +102,20 @@ void addModelErrors(CalibrationEstimate& estimate) {
   }
 }
 
+constexpr double kSteepest_rad = 80 / kDegreesPerRadian;
+
+void requireUsable(const SensorsBefore& sensors, const std::filesystem::path& recording) {
+  const bool both = sensors.robot_from_camera && sensors.robot_from_lidar;
+  if (both && sensors.camera_label == sensors.lidar_label)
+    throw InputError(recording.string() + ": camera and lidar have one label, '" + sensors.camera_label +
+                     "', by which a calibration could not tell them apart");
+  if (!sensors.robot_from_camera) return;
+  const double ahead_z = sensors.robot_from_camera->linear()(2, 2);  // of the optical axis, seen from the robot
+  if (std::abs(ahead_z) > std::sin(kSteepest_rad))
+    throw InputError(recording.string() + ": the camera's recorded pose looks straight " + (ahead_z < 0 ? "down" : "up") +
+                     ", where yaw and roll are one: it cannot be calibrated");
+}
+
 }  // namespace
 
 CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings, const ReadOptions& read,
@@ -118,6 +133,7 @@ CalibrationReport calibrate(const std::vector<std::filesystem::path>& recordings
     throw InputError(recordings.front().string() + (recordings.size() > 1 ? " and the others" : "") +
                      ": no image shows a whole chessboard of " + std::to_string(board->columns) + " by " +
                      std::to_string(board->rows) + " inner corners, sharp and with a white edge around it");
+  requireUsable(out.sensors, recordings.front());
   task.before = startOf(out.sensors);
   task.held = heldOf(out.sensors);
   if (out.sensors.robot_from_lidar) task.lidar_z_m = out.sensors.robot_from_lidar->translation().z();

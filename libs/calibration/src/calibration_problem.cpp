@@ -238,15 +238,26 @@ ParameterMatrix CalibrationProblem::inverseInformation() {
   return out;
 }
 
+// The solver leaves out the columns of parameters that are held.
+CalibrationProblem::Jacobian CalibrationProblem::jacobianOf(const Block& block, std::array<double, 6>& residuals) const {
+  Jacobian out = Jacobian::Zero();
+  const auto free = static_cast<std::size_t>(kParameterCount) - task_.held.count();
+  if (free == 0) return out;
+  std::vector<double> told(6 * free);
+  double* rows = told.data();
+  problem_.EvaluateResidualBlock(block.id, true, nullptr, residuals.data(), &rows);
+  for (std::size_t row = 0; row < block.kinds.size(); ++row)
+    for (std::size_t i = 0, k = 0; i < static_cast<std::size_t>(kParameterCount); ++i)
+      if (!task_.held[i]) out(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) = told[row * free + k++];
+  return out;
+}
+
 ParameterMatrix CalibrationProblem::covariance() {
   const ParameterMatrix inverse = inverseInformation();
   std::map<std::pair<int, long>, ParameterVector> gradients;
   for (const Block& block : blocks_) {
     std::array<double, 6> residuals{};
-    Eigen::Matrix<double, 6, kParameterCount, Eigen::RowMajor> jacobian;
-    jacobian.setZero();
-    double* rows = jacobian.data();
-    problem_.EvaluateResidualBlock(block.id, true, nullptr, residuals.data(), &rows);
+    const auto jacobian = jacobianOf(block, residuals);
     auto [bin, is_new] =
         gradients.try_emplace({block.recording, std::lround(block.t / kBin_s)}, ParameterVector::Zero());
     bin->second += jacobian.transpose() * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(residuals.data());

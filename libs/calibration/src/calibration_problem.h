@@ -54,6 +54,8 @@ class CalibrationProblem {
     double t;                      ///< s
     std::vector<NoiseKind> kinds;  ///< of its residuals
   };
+  using Jacobian = Eigen::Matrix<double, 6, kParameterCount, Eigen::RowMajor>;
+  Jacobian jacobianOf(const Block& block, std::array<double, 6>& residuals) const;
   void addWheels(const RecordingEvidence& recording, int index);
   void addViews(const RecordingEvidence& recording, int index, const MatchGate& gate);
   void addSteps(const RecordingEvidence& recording, int index);

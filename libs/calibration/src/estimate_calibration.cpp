@@ -17,7 +17,7 @@ constexpr double kBeliefWidth = 15;  // of the former value, in units of what co
 constexpr double kFrozen = 1e-3;     // of a direction that is not fixed, in the same units
 constexpr double kFirstFactor = 15;  // what the wrong calibration misses must not look like an outlier
 constexpr double kLeastFactor = 0.1, kMostFactor = 50;  // on nominal standard deviations
-constexpr double kPartly = 0.15, kUnfixed = 0.5;        // share of a parameter's axis that is not fixed
+constexpr double kPartly = 0.15, kUnfixed = 0.5, kWholly = 0.999;  // share of a parameter's axis that is not fixed
 const std::vector<MatchGate> kGates{{0.35, 0.35}, {0.2, 0.3}, {0.12, 0.25}, {0.08, 0.2}, {0.08, 0.2}};
 
 ParameterVector unknownFrom() {
@@ -50,6 +50,14 @@ Eigen::MatrixXd unfixedDirections(const ParameterMatrix& covariance) {
 
 FormerBelief frozen(const Eigen::MatrixXd& directions) {
   return {directions.transpose() * unknownFrom().cwiseInverse().asDiagonal() / kFrozen};
+}
+
+// What only combinations of parameters tell stays told: a lidar and a camera that nothing places on the robot still have
+// their place to each other.
+void stayAlong(const Eigen::MatrixXd& directions, const ParameterVector& before, ParameterVector& after) {
+  const ParameterVector unit = unknownFrom();
+  const ParameterVector change = unit.cwiseInverse().asDiagonal() * (after - before);
+  after = before + unit.asDiagonal() * ParameterVector(change - directions * (directions.transpose() * change));
 }
 
 std::string inWords(const Eigen::VectorXd& direction) {
@@ -126,8 +134,9 @@ CalibrationEstimate estimateCalibration(const CalibrationTask& given,
   CalibrationProblem rest(task, noise, {weak, frozen(directions)}, problem.parameters(), kGates.back());
   rest.solve();
   out.after = rest.parameters();
+  stayAlong(directions, task.before, out.after);
   for (int i = 0; i < kParameterCount; ++i)
-    if (out.knowledge[static_cast<std::size_t>(i)] == Knowledge::kUnfixed) out.after[i] = task.before[i];
+    if (unknown[static_cast<std::size_t>(i)] || directions.row(i).squaredNorm() > kWholly) out.after[i] = task.before[i];
   if (progress) progress(1);
   return out;
 }

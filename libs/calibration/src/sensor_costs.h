@@ -78,14 +78,15 @@ struct WallCost {
   }
 };
 
-/// Height of a patch of floor, which is zero.
+/// Height of a patch of floor, which is zero; in metres as the camera measures them, so that no smaller scale makes it
+/// smaller.
 struct FloorCost {
   DepthPatch patch;
   double sigma_m;
 
   template <class T>
   bool operator()(const T* p, T* residuals) const {
-    residuals[0] = patchOnRobot(p, patch).z() / sigma_m;
+    residuals[0] = patchOnRobot(p, patch).z() / ((p[kDepthScale] + p[kDepthBias] / patch.point.z()) * sigma_m);
     return true;
   }
 };
@@ -113,8 +114,8 @@ void weigh(const Matrix3T<T>& turn, const Vector3T<T>& gap, const Eigen::Matrix3
 }
 
 /// Hand-eye equation A X = X B (Tsai and Lenz 1989): movement of the camera by visual odometry against that
-/// of the robot by the lidar. Turn (3), then movement (3), in the
-/// earlier camera's frame.
+/// of the robot by the lidar. Turn (3), then movement (3), in the earlier camera's frame and in metres as that measures
+/// them: its noise must not be scaled down.
 struct CameraStepCost {
   const PlanarPath* reference;
   CameraStep step;
@@ -131,7 +132,7 @@ struct CameraStepCost {
         step.a_from_b.linear().transpose().cast<T>() * mounted.transpose() * turn * mounted;
     const T scale = p[kDepthScale] + p[kDepthBias] / step.depth_m;
     const Vector3T<T> gap =
-        mounted.transpose() * (turn * place + moved - place) - scale * step.a_from_b.translation().cast<T>();
+        mounted.transpose() * (turn * place + moved - place) / scale - step.a_from_b.translation().cast<T>();
     const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
     weigh(off, gap, unit / sigma_rad, unit / sigma_m, residuals);
     return true;

@@ -39,7 +39,7 @@ void checkAperture(const ScanSummary& scans, Findings& out) {
   if (!scans.rotation_ratio) return;
   if (*scans.rotation_ratio < 0)
     out.warning("scans turn the same way as the robot: they are mirrored",
-                "check rightToLeft, or upside-down mounting");
+                "check rightToLeft, and whether it is mounted upside down as its recorded pose says");
   else if (std::abs(*scans.rotation_ratio - 1) > 0.15)
     out.warning(format("odometry turns %.2f times as much as the scans show", *scans.rotation_ratio),
                 format("if odometry is right, the aperture is %.1f deg instead of %.1f",

@@ -147,9 +147,13 @@ bool checkImages(const SensorReport& sensor, Findings& out) {
 
 void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Findings& out) {
   constexpr double kTiltRad = 0.045, kGapM = 0.05;  // more than the floor of a level flat scatters
-  constexpr double kWallsOffM = 0.05;
-  if (sensor.pose_changes)
-    out.note("the sensor's pose on the robot changes", "each record is used with its own");
+  constexpr double kWallsOffM = 0.05, kHandheldM = 0.05, kHandheldRad = 0.05;
+  const std::string changes = "the sensor's pose on the robot changes";
+  if (sensor.pose_changes && sensor.images)
+    out.warning(changes, "objects are seen with that of each record, but the camera's movement is taken for the robot's, as if it "
+                         "stood still on it");
+  else if (sensor.pose_changes)
+    out.note(changes, "each record is used with its own");
   if (!sensor.used || !sensor.robot_from_sensor || !(sensor.images || sensor.scans)) return;
   const bool at_origin = sensor.robot_from_sensor->isApprox(Pose3::Identity(), 1e-9);
   const auto* floor = sensor.images && sensor.images->floor ? &*sensor.images->floor : nullptr;
@@ -168,9 +172,16 @@ void checkPose(const SensorReport& sensor, bool on_robot, bool unit_is_right, Fi
                floor->sensor_height_m, floor->tilt_rad * kDegreesPerRadian, height_m),
         "place the sensor, e.g. " + option + formatPose(floor->fitting_pose) +
             " (m, deg), which puts the floor where it belongs" + calibrate);
+  else if (const auto& spread = sensor.images ? sensor.images->floor_spread : std::nullopt;
+           spread && unit_is_right && !on_robot && mountedHeight(sensor) > kLeastHeightM &&
+           (spread->direction_rad > kHandheldRad || spread->height_m > kHandheldM))
+    out.warning(format("the camera's pose gives it a height, as on a robot that drives on the floor, but it is held now "
+                       "higher, now lower: by %.2f m and %.1f deg (median)",
+                       spread->height_m, spread->direction_rad * kDegreesPerRadian),
+                "if it is carried by hand, give it no height: " + option + "0,0,0,0,0,0");
   else if (at_origin)
-    out.note("the sensor sits at the robot's origin, looking ahead",
-             "if this is not so, place it: " + option +
+    out.note(on_robot ? "the sensor sits at the robot's origin, looking ahead" : "the camera is taken for handheld",
+             "if this is not so, place it" + std::string(on_robot ? "" : " on its robot") + ": " + option +
                  "x,y,z,yaw,pitch,roll (m, deg); heights above the floor "
                  "depend on it");
 }

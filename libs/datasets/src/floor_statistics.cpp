@@ -32,7 +32,7 @@ void FloorStatistics::add(const PointGrid& grid, const Pose3& robot_from_sensor)
     by_image_.push_back({floor->normal, floor->offset});
 }
 
-std::optional<FloorStatistics::Sighting> FloorStatistics::agreed(const std::vector<Sighting>& sightings) {
+FloorStatistics::Sighting FloorStatistics::middleOf(const std::vector<Sighting>& sightings) {
   const auto medianOf = [&](const auto& value) {
     std::vector<double> values;
     for (const Sighting& s : sightings) values.push_back(value(s));
@@ -42,16 +42,38 @@ std::optional<FloorStatistics::Sighting> FloorStatistics::agreed(const std::vect
   for (int i = 0; i < 3; ++i) middle.up[i] = medianOf([i](const Sighting& s) { return s.up[i]; });
   middle.up.normalize();
   middle.height_m = medianOf([](const Sighting& s) { return s.height_m; });
-  const double spread_m = medianOf([&](const Sighting& s) { return std::abs(s.height_m - middle.height_m); });
-  const double spread_rad = medianOf([&](const Sighting& s) { return angleBetween(s.up, middle.up); });
-  if (spread_m > kSpreadM + kSpreadShare * middle.height_m || spread_rad > kSpreadRad) return std::nullopt;
   return middle;
+}
+
+FloorSpread FloorStatistics::spreadOf(const std::vector<Sighting>& sightings, const Sighting& middle) {
+  std::vector<double> heights_m, directions_rad;
+  for (const Sighting& s : sightings) {
+    heights_m.push_back(std::abs(s.height_m - middle.height_m));
+    directions_rad.push_back(angleBetween(s.up, middle.up));
+  }
+  return {median(heights_m), median(directions_rad)};
+}
+
+std::optional<FloorStatistics::Sighting> FloorStatistics::agreed(const std::vector<Sighting>& sightings) {
+  const Sighting middle = middleOf(sightings);
+  const FloorSpread spread = spreadOf(sightings, middle);
+  if (spread.height_m > kSpreadM + kSpreadShare * middle.height_m || spread.direction_rad > kSpreadRad) return std::nullopt;
+  return middle;
+}
+
+bool FloorStatistics::enough(const std::vector<Sighting>& sightings) const {
+  return sightings.size() >= kLeastSightings &&
+         static_cast<double>(sightings.size()) >= kLeastShareOfImages * images_;
+}
+
+std::optional<FloorSpread> FloorStatistics::spread() const {
+  if (report() || !enough(by_pose_)) return std::nullopt;
+  return spreadOf(by_pose_, middleOf(by_pose_));
 }
 
 std::optional<FloorSummary> FloorStatistics::report() const {
   for (const auto* sightings : {&by_pose_, &by_image_}) {
-    if (sightings->size() < kLeastSightings || static_cast<double>(sightings->size()) < kLeastShareOfImages * images_)
-      continue;
+    if (!enough(*sightings)) continue;
     const auto seen = agreed(*sightings);
     if (!seen) continue;
     FloorSummary out;

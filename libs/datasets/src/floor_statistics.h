@@ -16,13 +16,18 @@ class FloorStatistics {
  public:
   void add(const PointGrid& grid, const Pose3& robot_from_sensor);
   std::optional<FloorSummary> report() const;
+  /// When images that show the floor do not agree where it is: median deviations of height (m) and direction (rad).
+  std::optional<FloorSpread> spread() const;
 
  private:
   struct Sighting {
     Eigen::Vector3d up;  ///< of the floor, in the sensor's frame
     double height_m = 0;
   };
+  static Sighting middleOf(const std::vector<Sighting>& sightings);
+  static FloorSpread spreadOf(const std::vector<Sighting>& sightings, const Sighting& middle);
   static std::optional<Sighting> agreed(const std::vector<Sighting>& sightings);
+  bool enough(const std::vector<Sighting>& sightings) const;
   std::vector<Sighting> by_pose_,
       by_image_;  ///< floor sought where the pose, and where the image has its down
   std::optional<Pose3> robot_from_sensor_;

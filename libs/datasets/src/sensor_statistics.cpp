@@ -148,6 +148,7 @@ ImageSummary ImageStatistics::report() const {
   out.near_depth_m = depths_m_.quantile(0.05);
   out.far_depth_m = depths_m_.quantile(0.95);
   out.floor = floor_.report();
+  out.floor_spread = floor_.spread();
   out.noisy = roughness_.noisy();
   out.same = repetition_.longest();
   out.range_over_lidar = agreement_.ratio();
@@ -165,6 +166,7 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) 
     summary_.aperture_rad = observation.aperture;
     summary_.max_range_m = observation.maxRange;
     summary_.right_to_left = observation.rightToLeft;
+    summary_.upside_down = toPose3(observation.sensorPose).linear()(2, 2) < 0;
   }
   summary_.beams_change = summary_.beams_change || static_cast<int>(beams) != summary_.beams;
   scan.ranges_m.resize(beams);
@@ -178,7 +180,7 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) 
     scan.ranges_m[i] = valid ? range : 0.f;
   }
   beams_ += beams;
-  roughness_.add(scan.t, roughnessOf(scan.ranges_m));
+  roughness_.add(scan.t, roughnessOfScan(scan.ranges_m));
   repetition_.add(scan.t, contentOf(observation));
   if (scans_.size() < kMaxScans) scans_.push_back(std::move(scan));
 }
@@ -226,7 +228,7 @@ std::optional<double> ScanStatistics::rotationRatio(const Trajectory& odometry) 
   constexpr double kDiffers = 0.1, kAgrees = 0.08;
   if (odometry.size() < 2 || summary_.beams < 30 || !(summary_.aperture_rad > 0)) return std::nullopt;
   const double step = summary_.aperture_rad / (summary_.beams - 1);
-  const double direction = summary_.right_to_left ? 1 : -1;
+  const double direction = summary_.right_to_left != summary_.upside_down ? 1 : -1;
   std::vector<double> ratios;
   for (std::size_t i = 0, j = 1; j < scans_.size() && ratios.size() < kMostPairs; ++j) {
     const auto moved = odometry.between(scans_[i].t, scans_[j].t);

@@ -63,7 +63,8 @@ void RecordedDetector::feed(const CObservationDetections& recorded) {
 
 void RecordedDetector::take(const CObservationDetections& recorded) {
   records_.emplace(mrpt::Clock::toDouble(recorded.timestamp),
-                   RecordedBoxes{recorded.image_label, detectionsOf(recorded), recorded.unsought});
+                   RecordedBoxes{recorded.image_label, detectionsOf(recorded), recorded.unsought,
+                                 static_cast<int>(recorded.image_width), static_cast<int>(recorded.image_height)});
   const double recorded_threshold = static_cast<double>(recorded.score_threshold);
   identity_ = {recorded.model, recorded.model_hash, std::max(score_threshold_, recorded_threshold),
                static_cast<double>(recorded.nms_threshold)};
@@ -109,6 +110,24 @@ std::string RecordedDetector::mismatch() const {
   return text.str();
 }
 
+namespace {
+
+// From the recorded image to the frame's, along u and v; nothing when one is no smaller copy of the other.
+std::optional<Eigen::Vector2d> scaleOf(const RecordedBoxes& record, const PinholeCamera& camera) {
+  constexpr double kSameAspect = 0.02;
+  if (record.image_width <= 0 || record.image_height <= 0) return Eigen::Vector2d::Ones();
+  const Eigen::Vector2d scale(static_cast<double>(camera.width) / record.image_width,
+                              static_cast<double>(camera.height) / record.image_height);
+  if (std::abs(scale.x() / scale.y() - 1) > kSameAspect) return std::nullopt;
+  return scale;
+}
+
+Box2 scaled(const Box2& box, const Eigen::Vector2d& scale) {
+  return {box.u_min * scale.x(), box.v_min * scale.y(), box.u_max * scale.x(), box.v_max * scale.y()};
+}
+
+}  // namespace
+
 Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
   using Result = Outcome<std::vector<Detection>>;
   if (frames_++ == 0) first_frame_t_ = frame.t;
@@ -121,13 +140,17 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
     reason << "no recorded detections within " << tolerance_s_ << " s of the frame";
     return Result::failure(reason.str());
   }
+  const auto scale = scaleOf(*record, frame.camera);
+  if (!scale)
+    return Result::failure("recorded detections of an image of " + std::to_string(record->image_width) + "x" +
+                           std::to_string(record->image_height) + " px, which is not that of the frame");
   ++matched_;
   records_.erase(records_.begin(), records_.lower_bound(frame.t - kKept_s));
   std::vector<Detection> detections, others;
   for (Detection detection : record->boxes) {
     const ObjectModel* model = database_->byLabel(detection.label);
     if (!model) model = database_->find(detection.label);
-    detection.box = clipped(detection.box, frame.camera.width, frame.camera.height);
+    detection.box = clipped(scaled(detection.box, *scale), frame.camera.width, frame.camera.height);
     if (!(detection.score >= score_threshold_) || detection.box.empty()) continue;
     if (model) detection.class_name = model->class_name;
     // Boxes of such a class can only have been carried to the frame, and are carried again.

@@ -15,6 +15,7 @@ struct RecordedBoxes {
   std::string image_label;       ///< sensor label of the camera; empty: any
   std::vector<Detection> boxes;  ///< class_name is not filled in yet
   std::vector<std::string> unsought{};  ///< classes that were not looked for
+  int image_width = 0, image_height = 0;  ///< px; 0: not recorded
 };
 
 /// Recorded boxes by time, seconds.

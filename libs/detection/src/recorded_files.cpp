@@ -50,9 +50,12 @@ void readRival(const Json& rival, Detection& detection) {
     throw std::invalid_argument("score of a rival out of range");
 }
 
+// What was carried to a frame is carried to it again: a line of nothing else is no record of what a detector saw.
 void addJsonLine(const Json& json, const std::filesystem::path& folder, DetectionRecords& records) {
+  if (json.value("carried", false)) return;
   RecordedBoxes boxes;
   for (const Json& item : json.at("boxes")) {
+    if (item.value("carried", false)) continue;
     Detection detection;
     detection.label = item.at("class").get<std::string>();
     detection.score = item.at("score").get<double>();

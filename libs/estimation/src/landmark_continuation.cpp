@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -49,6 +50,27 @@ std::string likeliestClass(const Landmark& landmark) {
   return most == classes.end() ? landmark.class_name : most->first;
 }
 
+constexpr double kSessions_m = 0.1, kSessions_rad = 0.2;  // by which things are nudged between two sessions
+constexpr double kElsewhere2 = 9;                        // squared, in standard deviations
+
+// Whether both cannot be estimates of one place: it was moved, and stands where it was seen last.
+bool standsElsewhere(const Landmark& then, const Landmark& now) {
+  const Eigen::Vector2d gap = (now.position - then.position).head<2>();
+  Eigen::Matrix2d both = (then.covariance + now.covariance).topLeftCorner<2, 2>();
+  both.diagonal().array() += kSessions_m * kSessions_m;
+  if (gap.dot(both.inverse() * gap) > kElsewhere2) return true;
+  if (!then.has_yaw || !now.has_yaw) return false;
+  const double turn = std::abs(wrapAngle(now.yaw - then.yaw)), alike = std::min(turn, std::numbers::pi - turn);
+  return alike * alike > kElsewhere2 * (then.covariance(3, 3) + now.covariance(3, 3) + kSessions_rad * kSessions_rad);
+}
+
+// What another session says of a place now.
+Landmark nudged(Landmark landmark) {
+  landmark.covariance(0, 0) += kSessions_m * kSessions_m;
+  landmark.covariance(1, 1) += kSessions_m * kSessions_m;
+  return landmark;
+}
+
 // Of one object; when the classes differ the likelier one has shape and place.
 WeighedLandmark fusedOf(const WeighedLandmark& earlier, const WeighedLandmark& now) {
   WeighedLandmark out = earlier;
@@ -56,8 +78,8 @@ WeighedLandmark fusedOf(const WeighedLandmark& earlier, const WeighedLandmark& n
                                        now.landmark.class_posterior, now.weight);
   out.weight = earlier.weight + now.weight;
   if (earlier.landmark.class_name == now.landmark.class_name) {
-    const bool moved = now.landmark.stands_since.has_value();  // the map's place is a former one
-    out.landmark = moved ? now.landmark : fusedEstimates(earlier.landmark, now.landmark);
+    const bool moved = now.landmark.stands_since || standsElsewhere(earlier.landmark, now.landmark);
+    out.landmark = moved ? now.landmark : fusedEstimates(nudged(earlier.landmark), now.landmark);
   } else {
     Landmark either = earlier.landmark;
     either.class_posterior = classes;
@@ -114,6 +136,8 @@ ContinuedLandmarks continuedLandmarks(const std::vector<WeighedLandmark>& earlie
     const double before = std::min(kept.landmark.existence, kSurest);
     const double look = probabilityOf(logRatioOf(looks.at(i)));
     const WeighedLandmark* now = findIn(candidates, kept.landmark.id);
+    // A candidate that is no object is no sighting of this one either.
+    if (now && now->landmark.existence < rule.least_existence) now = nullptr;
     if (now) kept = fusedOf(earlier[i], *now);
     // Few sightings of what is known to be there do not speak against it.
     const double said = now ? std::max(look, now->landmark.existence) : look;

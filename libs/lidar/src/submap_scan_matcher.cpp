@@ -16,6 +16,7 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
+constexpr double kUsual_s = 0.2;  // over which a velocity is taken when nothing else leads
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
 constexpr double kLeastOfNoisy = 0.65;  // share of the returns that the map must explain of a scan much noisier than those before
@@ -105,7 +106,7 @@ void SubmapScanMatcher::prepare() {
   last_t_.reset();
   accepted_t_.reset();
   unled_ = false;
-  last_pose_ = velocity_ = kept_pose_ = Pose2();
+  last_pose_ = velocity_ = usual_velocity_ = kept_pose_ = Pose2();
 }
 
 ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
@@ -127,9 +128,11 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
-  GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted, has_prior);
+  const bool steadily = lost_scans_ == 0 && scan.t - *last_t_ <= kMaxExtrapolation;
+  GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted,
+                                 has_prior ? Led::kByOthers : steadily ? Led::kSteadily : Led::kNot);
   if (has_prior && jumps(scan.t, predicted)) {
-    const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), false);
+    const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), Led::kNot);
     if (steady.explained > found.explained + kClearlyBetter) found = steady;
   }
   if (noisy && has_prior && found.explained < kLeastOfNoisy) return ledOver(scan.t, predicted, "much noisier than the scans before");
@@ -157,13 +160,13 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
 
 Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_from_current) const {
   if (!last_t_) return {};
-  return previous_from_current ? last_pose_ * *previous_from_current : steadyPose(t);
+  return previous_from_current ? last_pose_ * *previous_from_current : goneOn(usual_velocity_, t);
 }
 
-Pose2 SubmapScanMatcher::steadyPose(double t) const {
+Pose2 SubmapScanMatcher::goneOn(const Pose2& velocity, double t) const {
   const double dt = t - *last_t_;
   if (dt > kMaxExtrapolation) return last_pose_;
-  return last_pose_ * Pose2{velocity_.x * dt, velocity_.y * dt, velocity_.yaw * dt};
+  return last_pose_ * Pose2{velocity.x * dt, velocity.y * dt, velocity.yaw * dt};
 }
 
 bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
@@ -173,7 +176,8 @@ bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
 }
 
 GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points,
-                                          const Pose2& predicted, bool has_prior) {
+                                          const Pose2& predicted, Led led) {
+  const bool has_prior = led == Led::kByOthers;
   if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kMatcherLevels);
   pyramid_stale_ = false;
   SearchWindow window;
@@ -187,7 +191,7 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
-  if (has_prior) {
+  if (led != Led::kNot) {
     const GridCost cost = gridCost(submap.grid, points, start_pose, {});
     prior.extra_weight_per_m2 = weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature),
                                                     weak_prior_per_m2_, weak_below_per_m2_);
@@ -213,6 +217,10 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
     const double dt = scan.t - *last_t_;
     const Pose2 step = last_pose_.inverse() * pose;
     velocity_ = {step.x / dt, step.y / dt, step.yaw / dt};
+    const double share = dt / (kUsual_s + dt);
+    usual_velocity_.x += share * (velocity_.x - usual_velocity_.x);
+    usual_velocity_.y += share * (velocity_.y - usual_velocity_.y);
+    usual_velocity_.yaw = velocity_.yaw;  // walls in view tell turns
   }
   last_t_ = accepted_t_ = scan.t;
   last_pose_ = pose;
@@ -231,7 +239,7 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
 }
 
 ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
-  velocity_ = {};
+  velocity_ = usual_velocity_ = {};
   lost_scans_ = 1;  // no movement can be derived from what came before
   accept(scan, planar, pose);
   ScanMatch out;
@@ -247,7 +255,7 @@ ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, c
 
 ScanMatch SubmapScanMatcher::lose(double t, const Pose2& predicted, bool has_prior, std::string reason) {
   ++lost_scans_;
-  if (!has_prior) velocity_ = {};
+  if (!has_prior) velocity_ = usual_velocity_ = {};
   return ledOver(t, predicted, std::move(reason));
 }
 

@@ -29,11 +29,15 @@ class SubmapScanMatcher : public ScanMatcher {
   void declareSearch(ParameterVisitor& v);
   Pose2 predict(double t, const std::optional<Pose2>& previous_from_current) const;
   /// If the robot goes on as it went between the last two scans.
-  Pose2 steadyPose(double t) const;
+  Pose2 steadyPose(double t) const { return goneOn(velocity_, t); }
+  Pose2 goneOn(const Pose2& velocity, double t) const;
   /// Whether the prediction lies beyond the search window around the steady pose.
   bool jumps(double t, const Pose2& predicted) const;
+  /// What tells how the robot moved where the scan does not: others; that it hardly goes another way than before;
+  /// nothing.
+  enum class Led { kByOthers, kSteadily, kNot };
   GridRefinement matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points, const Pose2& predicted,
-                         bool has_prior);
+                         Led led);
   /// Takes the scan over; returns the beams on what moves.
   std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   /// A scan that is not used: what others measured leads on.
@@ -66,6 +70,7 @@ class SubmapScanMatcher : public ScanMatcher {
   bool unled_ = false;                ///< nothing measured some of the movement since then
   Pose2 last_pose_;
   Pose2 velocity_;  ///< last movement per second, in the robot frame
+  Pose2 usual_velocity_;  ///< of some tenths of a second: one step that slid along a wall does not go on
   double kept_t_ = 0;
   Pose2 kept_pose_;
 };

@@ -16,7 +16,7 @@ bool UsualRoughness::standsOut(const Scan& scan) {
   std::vector<float> returns_m = scan.ranges_m;
   for (std::size_t i = 0; i < returns_m.size(); ++i)
     if (!scan.valid[i]) returns_m[i] = 0;
-  const double roughness_m = std::max(roughnessOf(returns_m), kSmoothest_m);
+  const double roughness_m = std::max(roughnessOfScan(returns_m), kSmoothest_m);
   if (!usual_m_) usual_m_ = roughness_m;
   const bool stands_out = roughness_m > roughnessLimit(*usual_m_);
   *usual_m_ *= roughness_m > *usual_m_ ? kStep : 1 / kStep;

@@ -14,6 +14,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kPoseHorizon_s = 0.1;  ///< a scan's stamp may be this far outside the trajectory's time span
+constexpr double kNearScan_s = 5;  // a lidar that says nothing for longer leaves the grid to depth images
 constexpr double kMargin_m = 0.5;       ///< unknown border around everything seen
 constexpr double kMaxCells = 4e8;       ///< 1 km x 1 km at 0.05 m
 
@@ -85,6 +86,8 @@ struct OccupancyMapper::PosedFan {
 
 void OccupancyMapper::add(const Scan& scan) {
   scans_.push_back(fanFromScan(scan, options_.no_return_free_m));
+  if (scanned_.empty() || scan.t > scanned_.back().second + 2 * kNearScan_s) scanned_.emplace_back(scan.t, scan.t);
+  scanned_.back().second = std::max(scanned_.back().second, scan.t);
 }
 
 void OccupancyMapper::add(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving) {
@@ -96,8 +99,14 @@ std::optional<RangeFan> OccupancyMapper::slice(const Frame& frame, const Plane& 
   return fanFromDepth(frame, ground, options_.slice, moving);
 }
 
-bool OccupancyMapper::drawsDepth() const {
-  return options_.source == "depth" || options_.source == "both" || (options_.source == "auto" && scans_.empty());
+bool OccupancyMapper::drawsDepth(double t) const {
+  return options_.source == "depth" || options_.source == "both" || (options_.source == "auto" && isFarFromScans(t));
+}
+
+bool OccupancyMapper::isFarFromScans(double t) const {
+  return std::none_of(scanned_.begin(), scanned_.end(), [t](const auto& span) {
+    return t > span.first - kNearScan_s && t < span.second + kNearScan_s;
+  });
 }
 
 void OccupancyMapper::giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot) {
@@ -110,6 +119,7 @@ void OccupancyMapper::select(const std::vector<RangeFan>& fans, const Trajectory
                              std::vector<PosedFan>& out) const {
   std::optional<StampedPose> last;
   for (const auto& fan : fans) {
+    if (&fans == &slices_ && !drawsDepth(fan.t)) continue;
     const auto pose = world_from_robot.at(fan.t, kPoseHorizon_s);
     if (!pose) continue;
     if (last) {
@@ -129,7 +139,7 @@ mrpt::maps::COccupancyGridMap2D::Ptr OccupancyMapper::build(
   const bool use_scans = source == "lidar" || source == "both" || (source == "auto" && !scans_.empty());
   std::vector<PosedFan> posed;
   if (use_scans) select(scans_, world_from_robot, posed);
-  if (drawsDepth()) select(slices_, world_from_robot, posed);
+  select(slices_, world_from_robot, posed);
   Eigen::AlignedBox2d area;
   for (const auto& fan : posed) {
     area.extend(fan.origin());

@@ -10,7 +10,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kEdge_m = 0.4, kPathStep_m = 0.05, kPathGap_m = 1, kFloorTolerance_m = 0.03;
+constexpr double kEdge_m = 0.4, kPathStep_m = 0.05, kPathGap_m = 1;
 
 }  // namespace
 
@@ -109,10 +109,10 @@ std::string SvgDrawing::finished() const {
 void drawFloor(const CSemanticMap& map, SvgDrawing& drawing) {
   if (!map.occupancy) return;
   drawing.beginGroup("free", "fill=\"#ffffff\"");
-  drawing.area(simplified(outlinesOf(*map.occupancy, isFreeCell), kFloorTolerance_m), "");
+  drawing.area(simplified(outlinesOf(*map.occupancy, isFreeCell), outlineTolerance(*map.occupancy)), "");
   drawing.endGroup();
   drawing.beginGroup("walls", "fill=\"#3a4657\"");
-  drawing.area(simplified(outlinesOf(*map.occupancy, isOccupiedCell), kFloorTolerance_m), "");
+  drawing.area(simplified(outlinesOf(*map.occupancy, isOccupiedCell), outlineTolerance(*map.occupancy)), "");
   drawing.endGroup();
 }
 

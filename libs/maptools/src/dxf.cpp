@@ -10,7 +10,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kPlanTolerance_m = 0.03, kLetterHeight_m = 0.12;
+constexpr double kLetterHeight_m = 0.12;
 constexpr int kWhite = 7, kGray = 8, kMagenta = 6, kFirstClassColor = 1, kClassColors = 5;
 
 /// Pairs of a group code and a value, one a line each.
@@ -82,7 +82,7 @@ std::string dxfText(const CSemanticMap& map) {
   addLayers(layers, dxf);
   dxf.add(0, "SECTION").add(2, "ENTITIES");
   if (map.occupancy)
-    for (const auto& wall : simplified(outlinesOf(*map.occupancy, isOccupiedCell), kPlanTolerance_m))
+    for (const auto& wall : simplified(outlinesOf(*map.occupancy, isOccupiedCell), outlineTolerance(*map.occupancy)))
       dxf.polyline(wall, "WALLS", true);
   for (const auto& landmark : map.landmarks) {
     dxf.polyline(footprintOf(landmark), layerName(landmark.class_name), true);

@@ -90,13 +90,21 @@ std::vector<Polygon2> outlinesOf(const mrpt::maps::COccupancyGridMap2D& grid,
   return out;
 }
 
+double outlineTolerance(const mrpt::maps::COccupancyGridMap2D& grid) {
+  constexpr double kMost_m = 0.03, kShareOfCell = 0.6;
+  return std::min(kMost_m, kShareOfCell * static_cast<double>(grid.getResolution()));
+}
+
 std::vector<Polygon2> simplified(const std::vector<Polygon2>& polygons, double tolerance_m) {
   std::vector<Polygon2> out;
   for (const auto& polygon : polygons) {
     std::vector<cv::Point2f> corners, kept;
     for (const auto& p : polygon) corners.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
     cv::approxPolyDP(corners, kept, tolerance_m, true);
-    if (kept.size() < 3) continue;
+    if (kept.size() < 3) {  // thinner than the tolerance
+      out.push_back(polygon);
+      continue;
+    }
     Polygon2 simple;
     for (const auto& p : kept) simple.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
     out.push_back(std::move(simple));

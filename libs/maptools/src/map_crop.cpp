@@ -36,7 +36,7 @@ COccupancyGridMap2D::Ptr cutGrid(const COccupancyGridMap2D& grid, const Polygon2
   out->fill(0.5f);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x)
-      if (contains(polygon, cellCentre(grid, x, y))) out->setCell(x - x0, y - y0, grid.getCell(x, y));
+      if (contains(polygon, cellCentre(grid, x, y))) out->getRow(y - y0)[x - x0] = grid.getRow(y)[x];
   return out;
 }
 

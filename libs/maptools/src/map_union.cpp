@@ -90,7 +90,7 @@ void uniteObjects(const CSemanticMap& a, const CSemanticMap& b,
     landmark.id = one.before ? one.before->id : LandmarkId{next++};
     if (one.change == ObjectChange::kVanished)
       landmark.existence = std::max(0.0, landmark.existence - one.probability);
-    if (landmark.existence < kLeastExistence) {
+    if (one.change == ObjectChange::kVanished && landmark.existence < kLeastExistence) {
       out.seen.erase(landmark.id);
       continue;
     }

@@ -39,7 +39,7 @@ COccupancyGridMap2D::Ptr resampled(const COccupancyGridMap2D& grid, const Pose2&
       const Eigen::Vector2d at = b_from_a * cellCentre(*out, x, y);
       const int i = grid.x2idx(at.x()), j = grid.y2idx(at.y());
       if (i >= 0 && j >= 0 && i < static_cast<int>(grid.getSizeX()) && j < static_cast<int>(grid.getSizeY()))
-        out->setCell(x, y, grid.getCell(i, j));
+        out->getRow(y)[x] = grid.getRow(j)[i];
     }
   return out;
 }

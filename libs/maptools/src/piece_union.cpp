@@ -12,6 +12,9 @@
 namespace roomgraph {
 namespace {
 
+// Pieces of one recording overlap in time: hardly anything was carried off between them.
+const MapDifferenceOptions kOneRecording{.moves = 0.01, .vanishes = 0.01, .appears = 0.01};
+
 constexpr double kSameInstant_s = 1e-6;
 constexpr std::size_t kLeastPoses = 5;
 constexpr double kMostApart_m = 0.5;
@@ -134,7 +137,7 @@ Outcome<PieceUnion> unitedPieces(const CSemanticMap& a, const CSemanticMap& b) {
   }
   out.a_from_b = alignment.a_from_b;
   const CSemanticMap next = movedMap(b, alignment, a.occupancy.get());
-  out.map = unitedMaps(a, next, differenceOf(a, next));
+  out.map = unitedMaps(a, next, differenceOf(a, next, kOneRecording));
   out.map.world_from_robot = joinedPaths(a.world_from_robot, next.world_from_robot);
   out.map.origin = a.origin;
   auto& history = out.map.provenance.history;

@@ -7,7 +7,7 @@
 namespace roomgraph {
 namespace {
 
-constexpr double kWallHeight_m = 1, kWallTolerance_m = 0.03;
+constexpr double kWallHeight_m = 1;
 const char* const kWallColor = "58 70 87";
 
 /// Vertices and faces as lines of text.
@@ -63,7 +63,7 @@ void addPrism(const Landmark& landmark, const std::string& color, MeshText& mesh
 
 std::string plyText(const CSemanticMap& map, const ObjectDatabase& database) {
   MeshText mesh;
-  for (const auto& wall : simplified(outlinesOf(gridOf(map), isOccupiedCell), kWallTolerance_m))
+  for (const auto& wall : simplified(outlinesOf(gridOf(map), isOccupiedCell), outlineTolerance(gridOf(map))))
     mesh.sides(wall, 0, kWallHeight_m, kWallColor);
   for (const auto& landmark : map.landmarks)
     addPrism(landmark, rgbOf(colorOf(database, landmark.class_name)), mesh);

@@ -145,7 +145,11 @@ ObjectDatabase ObjectDatabase::fromConfig(const Config& config) {
     if (database.find(entry.section)) continue;
     ObjectModel defaults;
     schema.add(entry.section, defaults);
-    database.models_.push_back(readModel(config, entry));
+    const ObjectModel model = readModel(config, entry);
+    for (const auto& label : model.labels)
+      if (const ObjectModel* other = database.byLabel(label))
+        throw ConfigError(model.place + " labels: '" + label + "' means [" + other->class_name + "] already");
+    database.models_.push_back(model);
   }
   schema.check(config);
   return database;

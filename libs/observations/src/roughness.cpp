@@ -9,14 +9,19 @@
 
 namespace roomgraph {
 
-double roughnessOf(const std::vector<float>& ranges_m) {
-  constexpr std::size_t kLeast = 20;
+double roughnessOf(const std::vector<float>& ranges_m, double share, std::size_t least) {
   std::vector<double> bends;
   for (std::size_t i = 1; i + 1 < ranges_m.size(); ++i) {
     const float a = ranges_m[i - 1], b = ranges_m[i], c = ranges_m[i + 1];
     if (a > 0 && b > 0 && c > 0) bends.push_back(std::abs(static_cast<double>(a) - 2.0 * b + c));
   }
-  return bends.size() < kLeast ? 0 : median(std::move(bends));
+  return bends.size() < least ? 0 : quantile(std::move(bends), share);
+}
+
+double roughnessOfScan(const std::vector<float>& ranges_m) {
+  constexpr double kShare = 0.2;
+  constexpr std::size_t kLeast = 40;
+  return roughnessOf(ranges_m, kShare, kLeast);
 }
 
 double roughnessLimit(double usual_m) {

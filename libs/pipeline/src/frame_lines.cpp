@@ -70,6 +70,7 @@ std::string detectionsLine(const StepReport& report) {
     if (!detection.rival_label.empty())
       line["boxes"].back()["rival"] = {{"label", detection.rival_label}, {"score", detection.rival_score}};
   }
+  if (report.detections.carried) line["carried"] = true;
   if (!report.detections.unsought.empty()) line["unsought"] = report.detections.unsought;
   return textOf(line);
 }

@@ -57,7 +57,7 @@ void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::
   if (tracks && !tracked.tracked && !placedByOthers(frame.t)) return;
   auto slice = mapper_.slice(frame, floor, people);
   if (!slice) return;
-  if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth() && (tracked.tracked || !tracks)) {
+  if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth(frame.t) && (tracked.tracked || !tracks)) {
     const Pose3 robot = tracks ? tracked.odom_from_camera * frame.robot_from_camera.inverse() : estimator_.poses().at(frame.t);
     counts_.returns_in_free_space += moving_->leaveOut(*slice, robot, tracked.segment);
   }

@@ -42,7 +42,8 @@ void addDoubt(PlacedShape& placed) {
 // Adjusts the height to the box's top side when it is not cut: the top of the door's nearer side is seen
 // there.
 void adjustHeight(PlacedShape& placed, const BoxEvidence& e) {
-  if (e.cut.top) return;
+  const Eigen::Vector3d up = e.camera_from_ground.linear().col(2);
+  if (e.cut.top || -up.y() <= std::abs(up.x())) return;  // of a camera on its side the image's top is a side of the door
   const Eigen::Vector2d half =
       0.5 * placed.shape.width * Eigen::Vector2d(-std::sin(placed.yaw), std::cos(placed.yaw));
   const Eigen::Vector2d center(placed.x, placed.y);

@@ -59,18 +59,11 @@ void Scene::setPath(const World& world) {
     robot_from_camera_ = poseFromYpr(at.x(), at.y(), at.z(), 0, world.camera->pitch_down_rad, 0);
     robot_from_camera_.linear() *= bodyFromOptical();
   }
-  if (world.handheld) {
-    // The "robot" of a hand-held camera is where it stands on the floor at first, moved rigidly with the
-    // camera.
-    Pose3 body_from_optical = Pose3::Identity();
-    body_from_optical.linear() = bodyFromOptical();
-    body_from_robot_ = (world_from_plan_ * first).inverse();
-    robot_from_camera_ = body_from_robot_.inverse() * body_from_optical;
-  }
+  if (world.handheld) robot_from_camera_ = Pose3(Eigen::Isometry3d(bodyFromOptical()));  // the camera is its own robot
 }
 
 Pose3 Scene::worldFromRobot(double seconds) const {
-  return world_from_plan_ * path_[0].at(seconds) * body_from_robot_;
+  return world_from_plan_ * path_[0].at(seconds);
 }
 
 void Scene::addPart(Mesh mesh, int object, int person) {

@@ -47,8 +47,7 @@ class Scene {
   const Pose3& worldFromObject(int object, double seconds) const;
   /// (object index, world_from_person) of everybody.
   std::vector<std::pair<int, Pose2>> persons(double seconds) const;
-  /// Robot base in the world; for a hand-held camera a frame fixed to it that is level on the floor below it
-  /// at first.
+  /// Robot base in the world; for a hand-held camera: the camera, x ahead and z up in the image.
   Pose3 worldFromRobot(double seconds) const;
   Pose3 worldFromCamera(double seconds) const { return worldFromRobot(seconds) * robot_from_camera_; }
   /// Optical frame.
@@ -71,7 +70,6 @@ class Scene {
   std::vector<int> person_objects_;
   std::vector<SensorPath> path_;  ///< one
   Pose3 world_from_plan_ = Pose3::Identity(), robot_from_camera_ = Pose3::Identity();
-  Pose3 body_from_robot_ = Pose3::Identity();
   double duration_s_ = 0;
 };
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames that features do not place: by dense alignment since the last one that they did.
+#include <cmath>
+
 #include "roomgraph/geometry/covariance.h"
 #include "tracker.h"
 
 namespace roomgraph::tracking {
 namespace {
-constexpr double kGoesOn = 0.8;  // share of a velocity that the next step is taken to have
+constexpr double kGoesOn = 0.6;  // share of a velocity that is taken to be left after a second
 constexpr double kLearnt_m = 0.15, kLearnt_rad = 0.3, kLongest_s = 6;  // of movements that habits are learnt from
 }  // namespace
 
@@ -49,7 +51,7 @@ void Tracker::acceptDense(const Frame& frame, TrackingResult& result) {
     result.reason = "by depth and brightness: " + result.reason;
     blind_frames_ = 0;
     // Where nothing is seen of a movement, it ends rather than goes on.
-    velocity_ = {interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), kGoesOn), step_s_};
+    velocity_ = {interpolate(Pose3::Identity(), normalized(dead_reckoned_before_.inverse() * dead_reckoned_), std::pow(kGoesOn, step_s_)), step_s_};
   }
   result.segment = placed_.segment;
   result.odom_from_camera = lastPose() * dead_reckoned_;

@@ -37,6 +37,11 @@ struct FloorSummary {
       Pose3::Identity();  ///< robot_from_sensor that would put it at z = 0; x and y as recorded
 };
 
+/// By how much the floor is now here, now there in the images of a camera: median deviations.
+struct FloorSpread {
+  double height_m = 0, direction_rad = 0;
+};
+
 /// Stamps of a sensor minus those of a reference sensor between whose records its own stand in the file, s.
 struct ClockOffset {
   double first_s = 0, last_s = 0;    ///< at the beginning and at the end
@@ -76,6 +81,7 @@ struct ImageSummary {
   PoorRecords without_depth;          ///< depth images without a valid pixel
   SameRecords same;                   ///< colour and depth
   std::optional<FloorSummary> floor;  ///< nothing when it is not seen, or not always at one place
+  std::optional<FloorSpread> floor_spread;  ///< when it is seen, and not at one place
   std::optional<double> walls_off_m;  ///< median distance of surfaces at the lidar's height from its own
   std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
 };
@@ -86,6 +92,7 @@ struct ScanSummary {
   double aperture_rad = 0;
   double max_range_m = 0;
   bool right_to_left = true;
+  bool upside_down = false;  ///< by its pose on the robot
   double valid_share = 0;      ///< returns among all beams
   double at_max_share = 0;     ///< beams at the maximum range among all
   std::size_t not_finite = 0;  ///< ranges that are marked valid and are NaN or infinite

@@ -13,7 +13,7 @@
 
 namespace roomgraph {
 
-/// Occupancy grid from posed scans, or, where there is no lidar, from posed depth images (a virtual scan over
+/// Occupancy grid from posed scans, or, where and when there is no lidar, from posed depth images (a virtual scan over
 /// a band of heights above the ground).
 class OccupancyMapper {
  public:
@@ -26,8 +26,9 @@ class OccupancyMapper {
   /// What add() of a frame stores, and such a slice.
   std::optional<RangeFan> slice(const Frame& frame, const Plane& ground, const std::vector<Box2>& moving = {}) const;
   void add(RangeFan slice) { slices_.push_back(std::move(slice)); }
-  /// Whether the grid would be drawn from depth images, as far as is known.
-  bool drawsDepth() const;
+  /// Whether the grid would be drawn from depth images of this time, as far as is known: with `auto`, where no scan
+  /// is near in time.
+  bool drawsDepth(double t) const;
   /// Gives up scans and images that repeat others from that place in that direction, when there are more than `kept` of a kind.
   void giveUpRepeated(std::size_t kept, const Trajectory& world_from_robot);
   /// Grid in world from all kept scans, posed by the trajectory (scans without a pose are left out); null
@@ -41,9 +42,11 @@ class OccupancyMapper {
   struct PosedFan;
   void select(const std::vector<RangeFan>& fans, const Trajectory& world_from_robot,
               std::vector<PosedFan>& out) const;
+  bool isFarFromScans(double t) const;
 
   OccupancyOptions options_;
   std::vector<RangeFan> scans_, slices_;
+  std::vector<std::pair<double, double>> scanned_;  ///< spans of time with scans, s
   GrowthWatch scans_watch_, slices_watch_;
 };
 

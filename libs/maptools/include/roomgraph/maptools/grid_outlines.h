@@ -12,7 +12,8 @@ namespace roomgraph {
 
 using Polygon2 = std::vector<Eigen::Vector2d>;
 
-/// Cells hold the probability of being free. The limits are map_server's.
+/// Cells hold the probability of being free. The limit of occupied ones is map_server's; free ones of map_server are
+/// surer (.804).
 inline bool isOccupiedCell(float p_free) {
   return p_free < 0.35f;
 }
@@ -25,8 +26,10 @@ inline bool isFreeCell(float p_free) {
 std::vector<Polygon2> outlinesOf(const mrpt::maps::COccupancyGridMap2D& grid,
                                  const std::function<bool(float p_free)>& chosen);
 
+/// Distance that straightens the steps of oblique walls and keeps walls of one cell, m.
+double outlineTolerance(const mrpt::maps::COccupancyGridMap2D& grid);
 /// Closed polygons without corners that lie within `tolerance_m` of what remains (Douglas and Peucker); those
-/// that shrink to a line are left out.
+/// that would shrink to a line stay as they are.
 std::vector<Polygon2> simplified(const std::vector<Polygon2>& polygons, double tolerance_m);
 
 }  // namespace roomgraph

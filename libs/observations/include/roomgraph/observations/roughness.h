@@ -6,10 +6,12 @@
 
 namespace roomgraph {
 
-/// Roughness of a line of ranges (m; 0: no return): median of |a - 2 b + c| over neighbours a, b, c. Walls
-/// and furniture are straight lines or smooth curves for most of them, noise is not. 0 when there are too
-/// few.
-double roughnessOf(const std::vector<float>& ranges_m);
+/// Roughness of a line of ranges (m; 0: no return): the median, or another quantile, of |a - 2 b + c| over neighbours a, b,
+/// c. Walls and furniture are straight lines or smooth curves for most of them, noise is not. 0 when there are fewer than
+/// `least`.
+double roughnessOf(const std::vector<float>& ranges_m, double share = 0.5, std::size_t least = 20);
+/// Of a lidar's scan: a quantile that edges leave alone, which are most of what a narrow or sparse one sees among furniture.
+double roughnessOfScan(const std::vector<float>& ranges_m);
 
 /// What is rougher, m, stands out where `usual_m` is usual: several times that, and more than sensors differ from wall to wall.
 double roughnessLimit(double usual_m);
