@@ -65,7 +65,8 @@ void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
          .min = 0,
          .max = 1e+06});
   v.add("weak_prior_per_m2", weak_prior_per_m2_,
-        {.doc = "Further weight of a measured movement along a direction that the scan does not constrain.",
+        {.doc = "Further weight, along a direction that the scan does not constrain, of a measured movement, or where nothing "
+                "measures one of the velocity of the last tenths of a second.",
          .unit = "1/m^2",
          .min = 0,
          .max = 1e+06});

@@ -31,7 +31,7 @@ void declare(DepthSlice& slice, ParameterVisitor& v) {
 
 void OccupancyOptions::declareParameters(ParameterVisitor& v) {
   v.add("source", source,
-        {.doc = "Sensor that fills the grid. auto: the lidar when there is one, else the depth camera.",
+        {.doc = "Sensor that fills the grid. auto: the lidar; the depth camera where no scan is within 5 s.",
          .choices = {"auto", "lidar", "depth", "both"}});
   v.add("resolution_m", resolution_m, {.doc = "Size of a cell.", .unit = "m", .min = 0.005, .max = 1});
   v.add("max_range_m", max_range_m,
