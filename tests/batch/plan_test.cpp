@@ -95,6 +95,13 @@ TEST_F(Plans, ANameInTheFolderStaysWithItsRecording) {
   EXPECT_THAT(inputNames({"b/lab.rawlog", "a/lab.rawlog"}), ElementsAre("b_lab", "lab"));
   std::filesystem::remove(folder.file("a/lab.rawlog"));
   EXPECT_THAT(inputNames({"b/lab.rawlog"}), ElementsAre("lab")) << "it may have been moved";
+  for (const char* name : {"c/hall.rawlog", "d/hall.rawlog"}) touch(name);
+  done.input = {};
+  done.input.name = "c_hall";
+  done.input.path = folder.file("c/hall.rawlog").string();
+  std::filesystem::create_directories(folder.file("out/runs/c_hall--default"));
+  writeRunResult(done, folder.file("out/runs/c_hall--default/result.json"));
+  EXPECT_THAT(inputNames({"c/hall.rawlog", "d/hall.rawlog"}), ElementsAre("c_hall", "d_hall")) << "as when none was done";
 }
 
 TEST_F(Plans, RecordingsThatNoFolderTellsApartAreNumbered) {

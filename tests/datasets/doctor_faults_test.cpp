@@ -211,7 +211,7 @@ TEST(Roughness, OfNormalNoiseIsThatOfASumOfThree) {
   for (auto& range : ranges) range = static_cast<float>(10 + random.normal(0, 0.2));
   // a - 2 b + c has the variance 6; half of a normal distribution lies within 0.6745 of its sigma.
   EXPECT_NEAR(roughnessOf(ranges), 0.6745 * std::sqrt(6.0) * 0.2, 0.005);
-  EXPECT_NEAR(roughnessOfScan(ranges), 0.2533 * std::sqrt(6.0) * 0.2, 0.005) << "a fifth within .2533 sigma";
+  EXPECT_NEAR(roughnessOfScan(ranges), 0.6745 * std::sqrt(6.0) * 0.2, 0.01) << "likewise";
 }
 
 TEST(Repetition, FindsTheLongestRunByTime) {

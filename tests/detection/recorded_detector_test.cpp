@@ -251,6 +251,13 @@ TEST_F(RecordedDetectorTest, BoxesOfALargerImageAreScaled) {
   EXPECT_THAT(refused.reason(), HasSubstr("an image of 1280x720 px"));
 }
 
+TEST_F(RecordedDetectorTest, ImagesThatNoDetectorLookedAtAreNotAsked) {
+  prepare("file = " + write(R"({"timestamp": 1, "boxes": []})" "\n" R"({"timestamp": 2, "boxes": [], "carried": true})" "\n"));
+  EXPECT_TRUE(detector_.due(frameAt(1)));
+  EXPECT_FALSE(detector_.due(frameAt(2)));
+  EXPECT_TRUE(detector_.due(frameAt(3)));
+}
+
 // A run's own detections.jsonl, read again.
 TEST_F(RecordedDetectorTest, WhatWasCarriedIsNoRecord) {
   const std::string box = R"({"class": "chair", "score": 0.9, "bbox": [1, 1, 9, 9]})";
@@ -262,7 +269,10 @@ TEST_F(RecordedDetectorTest, WhatWasCarriedIsNoRecord) {
                                                "], \"unsought\": [\"sofa\"]}\n" + R"({"timestamp": 5, "boxes": []})" + "\n"));
   std::vector<double> times;
   for (const auto& [t, record] : records) times.push_back(t);
-  EXPECT_EQ(times, (std::vector<double>{1, 4, 5}));
+  EXPECT_EQ(times, (std::vector<double>{1, 2, 3, 4, 5}));
+  EXPECT_TRUE(records.find(2)->second.carried && records.find(3)->second.carried);
+  EXPECT_TRUE(records.find(2)->second.boxes.empty());
+  EXPECT_FALSE(records.find(4)->second.carried || records.find(5)->second.carried);
   EXPECT_EQ(records.find(4)->second.boxes.size(), 1u);
 }
 

@@ -99,9 +99,13 @@ void nameRecordings(std::vector<PlannedInput>& inputs, std::set<std::string> tak
   for (int folders = 0;; ++folders) {
     std::map<std::string, int> counts;
     const auto nameOf = [&](const PlannedInput& input) { return nameWithFolders(input.input.path, folders); };
-    for (const auto& input : inputs)
-      if (input.simulate.empty() && input.input.name.empty()) ++counts[nameOf(input)];
-    if (counts.empty()) return;
+    bool all_named = true;
+    for (const auto& input : inputs) {
+      if (!input.simulate.empty()) continue;
+      ++counts[nameOf(input)];
+      all_named = all_named && !input.input.name.empty();
+    }
+    if (all_named) return;
     for (auto& input : inputs) {
       if (!input.simulate.empty() || !input.input.name.empty()) continue;
       const std::string name = nameOf(input);

@@ -43,7 +43,8 @@ std::string sigmas(const CalibrationEstimate& estimate, std::initializer_list<in
     if (known && isAngle(i)) out += " +-" + number(estimate.sigma(i) * kDegreesPerRadian, "%.2g") + " deg";
     if (known && !isAngle(i))
       out += " +-" + number(estimate.sigma(i), "%.2g") + (*traits.unit ? " " + std::string(traits.unit) : "");
-    out += knowledgeText(knowledge);
+    const bool moved = knowledge == Knowledge::kUnfixed && estimate.after[i] != estimate.before[i];
+    out += moved ? " (not fixed by this motion but together with others)" : knowledgeText(knowledge);
   }
   return out + "\n";
 }

@@ -97,6 +97,7 @@ std::string RecordedDetector::warning() const {
 // Why no frame had a record, although there were frames.
 std::string RecordedDetector::mismatch() const {
   if (frames_ == 0 || matched_ > 0) return "";
+  if (!other_size_.empty()) return other_size_ + "; objects are not mapped";
   if (records_.empty())
     return "no recorded boxes: the rawlog holds none, and [detection] file names none; objects are not "
            "mapped";
@@ -141,9 +142,11 @@ Outcome<std::vector<Detection>> RecordedDetector::detect(const Frame& frame) {
     return Result::failure(reason.str());
   }
   const auto scale = scaleOf(*record, frame.camera);
-  if (!scale)
-    return Result::failure("recorded detections of an image of " + std::to_string(record->image_width) + "x" +
-                           std::to_string(record->image_height) + " px, which is not that of the frame");
+  if (!scale) {
+    other_size_ = "recorded detections are of an image of " + std::to_string(record->image_width) + "x" +
+                  std::to_string(record->image_height) + " px, which is not that of the frame";
+    return Result::failure(other_size_);
+  }
   ++matched_;
   records_.erase(records_.begin(), records_.lower_bound(frame.t - kKept_s));
   std::vector<Detection> detections, others;

@@ -16,6 +16,7 @@ struct RecordedBoxes {
   std::vector<Detection> boxes;  ///< class_name is not filled in yet
   std::vector<std::string> unsought{};  ///< classes that were not looked for
   int image_width = 0, image_height = 0;  ///< px; 0: not recorded
+  bool carried = false;                   ///< no detector looked at this image: boxes of others are carried to it
 };
 
 /// Recorded boxes by time, seconds.
@@ -46,6 +47,11 @@ class RecordedDetector : public Detector {
   /// The records nearest in time to the frame (and of its camera), when within the tolerance; also those that follow
   /// the frame in the rawlog, when they were fed before this call.
   Outcome<std::vector<Detection>> detect(const Frame& frame) override;
+  /// False on images of which it is recorded that no detector looked at them.
+  bool due(const Frame& frame) override {
+    const RecordedBoxes* record = nearest(frame);
+    return !record || !record->carried;
+  }
   /// Of the records read last: the file's name and hash, or the origin stored in the rawlog.
   std::vector<std::string> unsought() const override { return unsought_; }
   DetectorIdentity identity() const override { return identity_; }
@@ -59,6 +65,7 @@ class RecordedDetector : public Detector {
   const RecordedBoxes* nearest(const Frame& frame) const;
   std::string mismatch() const;
 
+  std::string other_size_;  ///< of the images that boxes were recorded of, in words
   std::string file_;
   double tolerance_s_ = 0.02;
   double score_threshold_ = 0.35;

@@ -52,8 +52,8 @@ void readRival(const Json& rival, Detection& detection) {
 
 // What was carried to a frame is carried to it again: a line of nothing else is no record of what a detector saw.
 void addJsonLine(const Json& json, const std::filesystem::path& folder, DetectionRecords& records) {
-  if (json.value("carried", false)) return;
   RecordedBoxes boxes;
+  boxes.carried = json.value("carried", false);
   for (const Json& item : json.at("boxes")) {
     if (item.value("carried", false)) continue;
     Detection detection;

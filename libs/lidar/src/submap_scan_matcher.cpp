@@ -16,6 +16,7 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
+constexpr double kSteady_s = 0.15;  // from scan to scan, for which a robot goes on as it went
 constexpr double kUsual_s = 0.2;  // over which a velocity is taken when nothing else leads
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
@@ -131,7 +132,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
 
   const bool steadily = lost_scans_ == 0 && scan.t - *last_t_ <= kMaxExtrapolation;
   GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted,
-                                 has_prior ? Led::kByOthers : steadily ? Led::kSteadily : Led::kNot);
+                                 has_prior ? Led::kByOthers : steadily ? Led::kSteadily : Led::kNot, scan.t - *last_t_);
   if (has_prior && jumps(scan.t, predicted)) {
     const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), Led::kNot);
     if (steady.explained > found.explained + kClearlyBetter) found = steady;
@@ -177,7 +178,7 @@ bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
 }
 
 GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points,
-                                          const Pose2& predicted, Led led) {
+                                          const Pose2& predicted, Led led, double since_s) {
   const bool has_prior = led == Led::kByOthers;
   if (pyramid_stale_) pyramid_ = ScorePyramid(submap.grid, kMatcherLevels);
   pyramid_stale_ = false;
@@ -193,9 +194,11 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
   if (led != Led::kNot) {
+    // How a velocity changes is known for as long as a robot takes to change it.
+    const double steady = led == Led::kSteadily ? std::min(1.0, std::pow(kSteady_s / since_s, 2)) : 1;
     const GridCost cost = gridCost(submap.grid, points, start_pose, {});
     prior.extra_weight_per_m2 = weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature),
-                                                    weak_prior_per_m2_, weak_below_per_m2_);
+                                                    steady * weak_prior_per_m2_, weak_below_per_m2_);
   }
   GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
   refineFurther(submap.surfaces, faced(planar), prior, fine);
@@ -240,7 +243,7 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
 }
 
 ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
-  velocity_ = usual_velocity_ = {};
+  velocity_ = usual_velocity_ = {};  // that of robots when a recording begins
   lost_scans_ = 1;  // no movement can be derived from what came before
   accept(scan, planar, pose);
   ScanMatch out;

@@ -37,7 +37,7 @@ class SubmapScanMatcher : public ScanMatcher {
   /// nothing.
   enum class Led { kByOthers, kSteadily, kNot };
   GridRefinement matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points, const Pose2& predicted,
-                         Led led);
+                         Led led, double since_s = 0);
   /// Takes the scan over; returns the beams on what moves.
   std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   /// A scan that is not used: what others measured leads on.

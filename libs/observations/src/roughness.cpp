@@ -19,9 +19,9 @@ double roughnessOf(const std::vector<float>& ranges_m, double share, std::size_t
 }
 
 double roughnessOfScan(const std::vector<float>& ranges_m) {
-  constexpr double kShare = 0.2;
+  constexpr double kShare = 0.2, kMedianOfNormal = 0.6745, kShareOfNormal = 0.2533;
   constexpr std::size_t kLeast = 40;
-  return roughnessOf(ranges_m, kShare, kLeast);
+  return roughnessOf(ranges_m, kShare, kLeast) * (kMedianOfNormal / kShareOfNormal);
 }
 
 double roughnessLimit(double usual_m) {

@@ -15,7 +15,7 @@ namespace roomgraph {
 namespace {
 
 constexpr double kMargin = 3, kSwatch = 1.3, kPathSwatch = 3, kAfterSwatch = 0.7, kAfterWord = 2, kGroup = 1.2;  // all in units
-constexpr double kMostOfHeight = 0.5;
+constexpr double kMostOfHeight = 0.5, kBesideRows = 20;  // title, scale and some map, in units
 
 TextStyle wordStyle(double unit_px) {
   return {0.9 * unit_px, palette::kInk, 2};
@@ -70,7 +70,8 @@ PictureLegend::PictureLegend(const MapPicture& picture, const ObjectDatabase& da
     : unit_px(unit), entries(entriesOf(picture, database)) {
   if (entries.empty()) return;
   const double right_px = size.width - 2 * kMargin * unit_px - roomOfScale(picture.whole, size, unit_px);
-  const auto most = static_cast<std::size_t>(std::max(1.0, kMostOfHeight * size.height / (kLegendRow * unit_px)));
+  const double room_px = std::min(kMostOfHeight * size.height, size.height - kBesideRows * unit_px);
+  const auto most = static_cast<std::size_t>(std::max(1.0, room_px / (kLegendRow * unit_px)));
   const std::size_t all = entries.size();
   breakIntoRows(entries, right_px, unit_px);
   while (entries.back().row >= most) {

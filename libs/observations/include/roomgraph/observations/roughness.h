@@ -10,7 +10,8 @@ namespace roomgraph {
 /// c. Walls and furniture are straight lines or smooth curves for most of them, noise is not. 0 when there are fewer than
 /// `least`.
 double roughnessOf(const std::vector<float>& ranges_m, double share = 0.5, std::size_t least = 20);
-/// Of a lidar's scan: a quantile that edges leave alone, which are most of what a narrow or sparse one sees among furniture.
+/// Of a lidar's scan: the median that normal noise has by a quantile that edges leave alone, which are most of what a narrow
+/// or sparse lidar sees among furniture.
 double roughnessOfScan(const std::vector<float>& ranges_m);
 
 /// What is rougher, m, stands out where `usual_m` is usual: several times that, and more than sensors differ from wall to wall.
