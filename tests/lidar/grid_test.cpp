@@ -140,7 +140,7 @@ TEST(GridRefinement, CorridorIsUncertainAlongItsAxis) {
 
 TEST(WeakDirectionWeight, ActsAlongTheWeakAxisOnly) {
   const Eigen::Matrix3d curvature = Eigen::Vector3d(2, 30, 5).asDiagonal();
-  const Eigen::Matrix2d weight = weakDirectionWeight(curvature, 100, 20);
+  const Eigen::Matrix2d weight = weakDirectionWeight(curvature, 100 * Eigen::Matrix2d::Identity(), 20);
   EXPECT_NEAR(weight(0, 0), 90, 1e-9);
   EXPECT_NEAR(weight(1, 1), 0, 1e-9);
 }

@@ -73,6 +73,8 @@ TEST(GridOutlines, SimplifiedStaysNear) {
   ASSERT_EQ(simple.size(), 1u);
   EXPECT_EQ(simple[0].size(), 4u);
   for (const auto& corner : steps[0]) EXPECT_LT(std::abs(distanceTo(simple[0], corner)), 0.03);
+  const std::vector<Polygon2> pole{{{0, 0}, {0.02, 0}, {0.02, 0.02}, {0, 0.02}}};
+  EXPECT_EQ(simplified(pole, 0.03), pole) << "what is thinner than the tolerance stays";
 }
 
 }  // namespace

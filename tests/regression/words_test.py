@@ -6,6 +6,7 @@
 Usage: words_test.py PROGRAM
 Needs bash, zsh, fish and man (test.sh installs them).
 """
+import functools
 import pathlib
 import re
 import subprocess
@@ -20,10 +21,14 @@ def output(*command, **more):
     return subprocess.run(command, check=True, capture_output=True, text=True, **more).stdout
 
 
+@functools.lru_cache(maxsize=None)
+def help_of(path):
+    return output(PROGRAM, *path, "--help")
+
+
 def in_help(path, heading):
     """First words of the indented lines below a heading of --help."""
-    text = output(PROGRAM, *path, "--help")
-    part = re.search(rf"^{heading}:\n((?:  .*\n)+)", text, re.MULTILINE)
+    part = re.search(rf"^{heading}:\n((?:  .*\n)+)", help_of(path), re.MULTILINE)
     return re.findall(r"^  (\S+)", part.group(1), re.MULTILINE) if part else []
 
 

@@ -66,6 +66,8 @@ TEST(ReportThinning, StopsAndGapsStay) {
   EXPECT_THAT(keptPoints(path, 0.01, 1), ElementsAre(0, 50, 150, 250));
   for (std::size_t i = 200; i < path.size(); ++i) path[i].t += 20.0044;
   EXPECT_THAT(keptPoints(path, 0.01, 1), ElementsAre(0, 50, 150, 199, 200, 250));
+  for (std::size_t i = 200; i < path.size(); ++i) path[i].x += 0.5 * 20.0044;
+  EXPECT_THAT(keptPoints(path, 0.01, 1), ElementsAre(0, 50, 150, 199, 200, 250)) << "as if it had gone on all the time";
 }
 
 TEST(ReportThinning, LongPathsKeepTheirEndsAndTheLimit) {

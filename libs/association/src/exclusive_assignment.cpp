@@ -62,15 +62,25 @@ bool cutWeakest(Eigen::MatrixXd& ratios) {
   return cut;
 }
 
+// Columns that a row may take, as most could not: in order, for each row.
+std::vector<std::vector<Eigen::Index>> linksOf(const Eigen::MatrixXd& w) {
+  std::vector<std::vector<Eigen::Index>> out(static_cast<std::size_t>(w.rows()));
+  for (Eigen::Index r = 0; r < w.rows(); ++r)
+    for (Eigen::Index c = 0; c < w.cols(); ++c)
+      if (w(r, c) > 0) out[static_cast<std::size_t>(r)].push_back(c);
+  return out;
+}
+
 // values[r][used]: sum or maximum over the assignments of the rows from r on when the columns in `used` are taken.
 std::vector<std::vector<double>> completions(const Eigen::MatrixXd& w, bool maximum) {
   const auto rows = static_cast<std::size_t>(w.rows());
+  const auto links = linksOf(w);
   const std::size_t masks = std::size_t{1} << w.cols();
   std::vector<std::vector<double>> values(rows + 1, std::vector<double>(masks, 1.0));
   for (std::size_t r = rows; r-- > 0;) {
     for (std::size_t used = 0; used < masks; ++used) {
       double value = values[r + 1][used];
-      for (Eigen::Index c = 0; c < w.cols(); ++c) {
+      for (const Eigen::Index c : links[r]) {
         const std::size_t bit = std::size_t{1} << c;
         if (used & bit) continue;
         const double with = w(static_cast<Eigen::Index>(r), c) * values[r + 1][used | bit];
@@ -84,6 +94,7 @@ std::vector<std::vector<double>> completions(const Eigen::MatrixXd& w, bool maxi
 
 Eigen::MatrixXd marginals(const Eigen::MatrixXd& w) {
   const auto after = completions(w, false);
+  const auto links = linksOf(w);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(w.rows(), w.cols());
   std::vector<double> before(after[0].size(), 0.0), next;  // by the columns taken so far
   before[0] = 1;
@@ -91,7 +102,7 @@ Eigen::MatrixXd marginals(const Eigen::MatrixXd& w) {
     next = before;
     for (std::size_t used = 0; used < before.size(); ++used) {
       if (before[used] <= 0) continue;
-      for (Eigen::Index c = 0; c < w.cols(); ++c) {
+      for (const Eigen::Index c : links[static_cast<std::size_t>(r)]) {
         const std::size_t bit = std::size_t{1} << c;
         if (used & bit) continue;
         const double with = before[used] * w(r, c);

@@ -109,15 +109,18 @@ Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& pose,
   return sum * ((grid_curvature(0, 0) + grid_curvature(1, 1)) / size);
 }
 
-Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& curvature, double most_per_m2,
-                                    double enough_per_m2) {
+Eigen::Matrix2d placeCurvature(const Eigen::Matrix3d& curvature) {
   const Eigen::Vector2d mixed = curvature.topRightCorner<2, 1>();
-  const Eigen::Matrix2d free_yaw =
-      curvature.topLeftCorner<2, 2>() - mixed * mixed.transpose() / std::max(1e-9, curvature(2, 2));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions(free_yaw);
+  return curvature.topLeftCorner<2, 2>() - mixed * mixed.transpose() / std::max(1e-9, curvature(2, 2));
+}
+
+Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& curvature, const Eigen::Matrix2d& most_per_m2,
+                                    double enough_per_m2) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions(placeCurvature(curvature));
   const Eigen::Array2d lack = (1 - directions.eigenvalues().array() / enough_per_m2).cwiseMax(0.0);
-  return most_per_m2 * directions.eigenvectors() * lack.matrix().asDiagonal() *
-         directions.eigenvectors().transpose();
+  const Eigen::Matrix2d root =
+      directions.eigenvectors() * lack.sqrt().matrix().asDiagonal() * directions.eigenvectors().transpose();
+  return root * most_per_m2 * root;
 }
 
 GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,

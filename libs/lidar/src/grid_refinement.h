@@ -12,6 +12,8 @@ struct PosePrior {
   double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
   /// Additional weight along directions that the scan constrains badly; x, y only.
   Eigen::Matrix2d extra_weight_per_m2 = Eigen::Matrix2d::Zero();
+  /// Inverse covariance of x, y where it is known: on surfaces, whose lines have one, too. Not used on grids.
+  Eigen::Matrix2d information_per_m2 = Eigen::Matrix2d::Zero();
 };
 
 struct GridRefinement {
@@ -44,9 +46,12 @@ GridCost gridCost(const ProbabilityGrid& grid, const Points2& points, const Pose
 Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_scan,
                                  const Eigen::Matrix3d& grid_curvature);
 
-/// Prior weight for unobservable directions: `most_per_m2` along eigenvectors of the translational
-/// curvature (yaw marginalised) with eigenvalue 0, falling linearly to nothing at `enough_per_m2`.
-Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, double most_per_m2,
+/// Of x and y whatever the yaw: the Schur complement.
+Eigen::Matrix2d placeCurvature(const Eigen::Matrix3d& curvature);
+
+/// Prior weight for unobservable directions: `most_per_m2` along eigenvectors of the placeCurvature() with eigenvalue 0, falling
+/// linearly to nothing at `enough_per_m2`.
+Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, const Eigen::Matrix2d& most_per_m2,
                                     double enough_per_m2);
 
 /// Levenberg-Marquardt on the interpolated grid (Hess et al. 2016, Eq. CS) with a prior on the pose.

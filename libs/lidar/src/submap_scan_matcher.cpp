@@ -2,6 +2,7 @@
 // Prediction, correlative search, grid refinement and loss handling of the scan matcher.
 #include "submap_scan_matcher.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -16,12 +17,18 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
-constexpr double kSteady_s = 0.15;  // from scan to scan, for which a robot goes on as it went
-constexpr double kUsual_s = 0.2;  // over which a velocity is taken when nothing else leads
+constexpr double kSharedErrors = 5 * 5;  // variance of a match by what its returns tell: neighbours err alike
+constexpr double kLedSigma_m = 0.01;       // of a step that others measured
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
 constexpr double kLeastOfNoisy = 0.65;  // share of the returns that the map must explain of a scan much noisier than those before
 constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
+
+Eigen::Matrix2d rotated(const Eigen::Matrix2d& information, double yaw) {
+  const Eigen::Rotation2Dd turn(yaw);
+  return turn * information * turn.inverse();
+}
+
 }  // namespace
 
 void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
@@ -66,13 +73,13 @@ void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
          .min = 0,
          .max = 1e+06});
   v.add("weak_prior_per_m2", weak_prior_per_m2_,
-        {.doc = "Further weight, along a direction that the scan does not constrain, of a measured movement, or where nothing "
-                "measures one of the velocity of the last tenths of a second.",
+        {.doc = "Further weight, along a direction that the scan does not constrain, of a measured movement.",
          .unit = "1/m^2",
          .min = 0,
          .max = 1e+06});
   v.add("weak_below_per_m2", weak_below_per_m2_,
-        {.doc = "A direction is constrained by the scan from this curvature of the mean squared residual on.",
+        {.doc = "A direction is constrained by the scan from this curvature of the mean squared residual on: neither a "
+                "measured movement nor the usual velocity counts more there.",
          .unit = "1/m^2",
          .min = 0.1,
          .max = 1e+06});
@@ -108,7 +115,8 @@ void SubmapScanMatcher::prepare() {
   last_t_.reset();
   accepted_t_.reset();
   unled_ = false;
-  last_pose_ = velocity_ = usual_velocity_ = kept_pose_ = Pose2();
+  last_pose_ = kept_pose_ = Pose2();
+  motion_ = {};
 }
 
 ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
@@ -156,19 +164,19 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   out.segment = segment_;
   out.score = found.explained;
   out.step_covariance = stepCovariance(found);
-  out.moving = accept(scan, planar, found.grid_from_scan);
+  const Eigen::Matrix2d others = (has_prior ? 1 / (kLedSigma_m * kLedSigma_m) : 0) * Eigen::Matrix2d::Identity();
+  out.moving = accept(scan, planar, found.grid_from_scan, others + stepInformation(found));
   return out;
 }
 
 Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_from_current) const {
   if (!last_t_) return {};
-  return previous_from_current ? last_pose_ * *previous_from_current : goneOn(usual_velocity_, t);
+  return previous_from_current ? last_pose_ * *previous_from_current : steadyPose(t);
 }
 
-Pose2 SubmapScanMatcher::goneOn(const Pose2& velocity, double t) const {
+Pose2 SubmapScanMatcher::steadyPose(double t) const {
   const double dt = t - *last_t_;
-  if (dt > kMaxExtrapolation) return last_pose_;
-  return last_pose_ * Pose2{velocity.x * dt, velocity.y * dt, velocity.yaw * dt};
+  return dt > kMaxExtrapolation ? last_pose_ : last_pose_ * motion_.step(dt);
 }
 
 bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
@@ -193,14 +201,24 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
+  Eigen::Matrix2d steady = Eigen::Matrix2d::Zero();  // in units of what the returns tell
   if (led != Led::kNot) {
-    // How a velocity changes is known for as long as a robot takes to change it.
-    const double steady = led == Led::kSteadily ? std::min(1.0, std::pow(kSteady_s / since_s, 2)) : 1;
     const GridCost cost = gridCost(submap.grid, points, start_pose, {});
-    prior.extra_weight_per_m2 = weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature),
-                                                    steady * weak_prior_per_m2_, weak_below_per_m2_);
+    const auto whereWeak = [&](const Eigen::Matrix2d& most) {
+      return weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature), most, weak_below_per_m2_);
+    };
+    if (led == Led::kSteadily) {
+      steady = whereWeak(kSharedErrors * rotated(motion_.stepInformation(since_s), last_pose_.yaw));
+      prior.extra_weight_per_m2 = cost.residual / static_cast<double>(points.size()) * steady;
+    } else {
+      prior.extra_weight_per_m2 = whereWeak(weak_prior_per_m2_ * Eigen::Matrix2d::Identity());
+    }
   }
   GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
+  if (led == Led::kSteadily) {
+    prior.extra_weight_per_m2.setZero();
+    prior.information_per_m2 = steady;
+  }
   refineFurther(submap.surfaces, faced(planar), prior, fine);
   return fine;
 }
@@ -215,17 +233,14 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   return rotateCovariance(in_odom, -last_pose_.yaw);
 }
 
-std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar,
-                                                   const Pose2& pose) {
-  if (last_t_ && lost_scans_ == 0) {
-    const double dt = scan.t - *last_t_;
-    const Pose2 step = last_pose_.inverse() * pose;
-    velocity_ = {step.x / dt, step.y / dt, step.yaw / dt};
-    const double share = dt / (kUsual_s + dt);
-    usual_velocity_.x += share * (velocity_.x - usual_velocity_.x);
-    usual_velocity_.y += share * (velocity_.y - usual_velocity_.y);
-    usual_velocity_.yaw = velocity_.yaw;  // walls in view tell turns
-  }
+Eigen::Matrix2d SubmapScanMatcher::stepInformation(const GridRefinement& found) const {
+  const double variance = kSharedErrors * std::max(1e-6, found.residual_variance);
+  return rotated(placeCurvature(found.curvature) / variance, -last_pose_.yaw);
+}
+
+std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose,
+                                                   const Eigen::Matrix2d& step_per_m2) {
+  if (last_t_ && lost_scans_ == 0) motion_.observe(last_pose_.inverse() * pose, step_per_m2, scan.t - *last_t_);
   last_t_ = accepted_t_ = scan.t;
   last_pose_ = pose;
   unled_ = false;
@@ -243,9 +258,9 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
 }
 
 ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
-  velocity_ = usual_velocity_ = {};  // that of robots when a recording begins
+  motion_ = {};
   lost_scans_ = 1;  // no movement can be derived from what came before
-  accept(scan, planar, pose);
+  accept(scan, planar, pose, Eigen::Matrix2d::Zero());
   ScanMatch out;
   out.matched = true;
   out.odom_from_robot = pose;
@@ -259,7 +274,7 @@ ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, c
 
 ScanMatch SubmapScanMatcher::lose(double t, const Pose2& predicted, bool has_prior, std::string reason) {
   ++lost_scans_;
-  if (!has_prior) velocity_ = usual_velocity_ = {};
+  if (!has_prior) motion_ = {};
   return ledOver(t, predicted, std::move(reason));
 }
 

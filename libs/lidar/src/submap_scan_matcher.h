@@ -8,6 +8,7 @@
 #include "roomgraph/lidar/free_space_memory.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
+#include "steady_motion.h"
 #include "submap_settings.h"
 #include "usual_roughness.h"
 
@@ -28,9 +29,8 @@ class SubmapScanMatcher : public ScanMatcher {
  private:
   void declareSearch(ParameterVisitor& v);
   Pose2 predict(double t, const std::optional<Pose2>& previous_from_current) const;
-  /// If the robot goes on as it went between the last two scans.
-  Pose2 steadyPose(double t) const { return goneOn(velocity_, t); }
-  Pose2 goneOn(const Pose2& velocity, double t) const;
+  /// If the robot goes on as it went.
+  Pose2 steadyPose(double t) const;
   /// Whether the prediction lies beyond the search window around the steady pose.
   bool jumps(double t, const Pose2& predicted) const;
   /// What tells how the robot moved where the scan does not: others; that it hardly goes another way than before;
@@ -38,8 +38,11 @@ class SubmapScanMatcher : public ScanMatcher {
   enum class Led { kByOthers, kSteadily, kNot };
   GridRefinement matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points, const Pose2& predicted,
                          Led led, double since_s = 0);
-  /// Takes the scan over; returns the beams on what moves.
-  std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
+  /// Takes the scan over; returns the beams on what moves. `step_per_m2`: what tells of the step, besides that the robot goes on as it
+  /// went.
+  std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose, const Eigen::Matrix2d& step_per_m2);
+  /// What a match alone tells of the place, in the frame of the robot at the scan before.
+  Eigen::Matrix2d stepInformation(const GridRefinement& found) const;
   /// A scan that is not used: what others measured leads on.
   ScanMatch ledOver(double t, const Pose2& predicted, std::string reason);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
@@ -69,8 +72,7 @@ class SubmapScanMatcher : public ScanMatcher {
   std::optional<double> accepted_t_;  ///< of the last scan that was matched
   bool unled_ = false;                ///< nothing measured some of the movement since then
   Pose2 last_pose_;
-  Pose2 velocity_;  ///< last movement per second, in the robot frame
-  Pose2 usual_velocity_;  ///< of some tenths of a second: one step that slid along a wall does not go on
+  SteadyMotion motion_;
   double kept_t_ = 0;
   Pose2 kept_pose_;
 };

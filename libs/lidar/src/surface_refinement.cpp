@@ -75,7 +75,8 @@ std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const Face
     fit.information = scan_only.information;
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
     const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y, wrapAngle(pose.yaw - prior.pose.yaw));
-    const Eigen::Matrix3d weight = std::max(0.0, scale) * unscaled + 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d weight = std::max(0.0, scale) * unscaled + 1e-6 * Eigen::Matrix3d::Identity();
+    weight.topLeftCorner<2, 2>() += prior.information_per_m2;
     const Eigen::Vector3d step =
         -(scan_only.information + weight).ldlt().solve(scan_only.gradient + weight * shift);
     pose = {pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};

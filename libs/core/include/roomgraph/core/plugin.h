@@ -7,7 +7,7 @@ namespace roomgraph {
 /// Version of the interfaces that plug-ins implement and of the structs they exchange. To be raised whenever
 /// a public header changes the layout of a struct or the virtual functions of a class: a plug-in compiled
 /// with the old header would read wrong memory without any error.
-inline constexpr int kPluginInterfaceVersion = 3;
+inline constexpr int kPluginInterfaceVersion = 4;
 
 /// Signature and name of the function that a plug-in exports (ROOMGRAPH_PLUGIN).
 using PluginInterfaceVersion = int();
