@@ -114,6 +114,9 @@ TEST_P(EveryStorage, GivesTheGroundTruthOfTf) {
   const Imported bag(GetParam());
   EXPECT_EQ(bag.result.truth, "tf mocap -> base_footprint");
   std::istringstream truth(bag.folder.read("x.groundtruth.txt"));
+  std::string comment;
+  std::getline(truth, comment);
+  EXPECT_EQ(comment, "# poses of the robot");
   for (int k = 0; k < kFrames; ++k) {
     double t, x, y, z, qx, qy, qz, qw;
     ASSERT_TRUE(truth >> t >> x >> y >> z >> qx >> qy >> qz >> qw) << k;

@@ -10,6 +10,7 @@
 #include "roomgraph/bags/bag_export.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/rawlog_reader.h"
+#include "roomgraph/datasets/truth_file.h"
 #include "roomgraph/datasets/tum_export.h"
 #include "roomgraph/datasets/tum_import.h"
 #include "roomgraph/mapping/map_files.h"
@@ -186,7 +187,7 @@ TEST(BagRoundTrip, GroundTruthBesideTheRawlog) {
   exportRecording(folder.file("in.rawlog"), folder.file("x.bag"));
   const auto result = importBag(folder.file("x.bag"), folder.file("out.rawlog"));
   EXPECT_EQ(result.truth, "/ground_truth");
-  EXPECT_EQ(folder.read("out.groundtruth.txt"), line);
+  EXPECT_EQ(folder.read("out.groundtruth.txt"), truthComment(TruthOf::kCamera) + line);
 }
 
 // read_bag.py compares types, checksums and definitions with Debian's message packages, and looks each
@@ -251,7 +252,7 @@ TEST(TumExport, DepthOfAnotherCameraIsProjected) {
   RawlogWriter writer(folder.file("in.rawlog"));
   for (const auto& record : oddRecords()) writer.write(*record);
   writer.finish();
-  folder.write("in.groundtruth.txt", "1 0 0 0 0 0 0 1\n");
+  folder.write("in.groundtruth.txt", truthComment(TruthOf::kCamera) + "1 0 0 0 0 0 0 1\n");
   const auto exported = exportTum(folder.file("in.rawlog"), folder.file("tum"));
   EXPECT_EQ(exported.registered, 30);
   EXPECT_TRUE(exported.ground_truth);

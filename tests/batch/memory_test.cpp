@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "temporary_folder.h"
+
 namespace roomgraph::test {
 namespace {
 
@@ -33,6 +37,18 @@ TEST(MemoryForecasts, ElseAGuessThatGrowsWithTheRecording) {
 TEST(AvailableMemory, IsThatOfAMachine) {
   EXPECT_GT(availableMemory(), 10);
   EXPECT_LT(availableMemory(), 1e9);
+}
+
+TEST(AvailableMemory, WhatAContainerHoldsOfFilesIsRoom) {
+  const TemporaryFolder group;
+  EXPECT_TRUE(std::isinf(controlGroupRoom(group.path())));
+  group.write("memory.max", "max\n");
+  group.write("memory.current", "7000000000\n");
+  EXPECT_TRUE(std::isinf(controlGroupRoom(group.path())));
+  group.write("memory.max", "8000000000\n");
+  EXPECT_DOUBLE_EQ(controlGroupRoom(group.path()), 1000);
+  group.write("memory.stat", "anon 2000000000\nfile 5000000000\nkernel 1000\ninactive_file 3000000000\nactive_file 1500000000\n");
+  EXPECT_DOUBLE_EQ(controlGroupRoom(group.path()), 5500);
 }
 
 }  // namespace

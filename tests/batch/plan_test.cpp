@@ -4,12 +4,14 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <random>
 #include <set>
 
 #include "errors_of.h"
 #include "roomgraph/catalogue/run_result.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/truth_file.h"
 #include "temporary_folder.h"
 
 namespace roomgraph::test {
@@ -162,6 +164,20 @@ TEST_F(Plans, TruthIsFoundBesideTheOnlyRecording) {
   EXPECT_EQ(truthBeside(folder.file("a/other.rawlog")).at("relations"), folder.file("a/other.relations"));
   EXPECT_EQ(truthBeside(folder.file("a/other.rawlog")).at("trajectory"),
             folder.file("a/other.rawlog.GT.txt"));
+}
+
+// An import may have mirrored or moved it.
+TEST_F(Plans, TruthOfAnImportStandsForThatOfItsFolder) {
+  for (const char* name : {"a/lab.rawlog", "a/groundtruth.txt", "a/objects.json", "b/x.rawlog"}) touch(name);
+  const auto write = [&](const char* name, TruthOf whose) { std::ofstream(folder.file(name)) << truthComment(whose) << "1 0 0 0 0 0 0 1\n"; };
+  write("a/lab.groundtruth.txt", TruthOf::kCamera);
+  write("b/x.groundtruth.txt", TruthOf::kRobot);
+  const TruthFiles camera = truthBeside(folder.file("a/lab.rawlog"));
+  EXPECT_EQ(camera.at("camera_trajectory"), folder.file("a/lab.groundtruth.txt"));
+  EXPECT_EQ(camera.size(), 2u) << "and the objects";
+  const TruthFiles robot = truthBeside(folder.file("b/x.rawlog"));
+  EXPECT_EQ(robot.at("trajectory"), folder.file("b/x.groundtruth.txt"));
+  EXPECT_FALSE(robot.contains("camera_trajectory"));
 }
 
 TEST_F(Plans, NamedTruthIsFilledIn) {

@@ -198,5 +198,47 @@ TEST_F(FrameConversion, ExternalImagesAreReadAndMissingOnesCounted) {
   EXPECT_THAT(reason, testing::HasSubstr("KINECT_0_color.png"));
 }
 
+// Where a pixel of a pinhole camera lies in the image of the lens; formulas of OpenCV's documentation.
+Eigen::Vector2d throughFisheye(const Eigen::Vector2d& ray, const std::array<double, 4>& k) {
+  const double r = ray.norm(), a = std::atan(r), a2 = a * a;
+  return r < 1e-12 ? ray : Eigen::Vector2d(ray / r * a * (1 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3])))));
+}
+Eigen::Vector2d throughRational(const Eigen::Vector2d& ray, const std::array<double, 8>& d) {
+  const double r2 = ray.squaredNorm();
+  const double scale = (1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]))) / (1 + r2 * (d[5] + r2 * (d[6] + r2 * d[7])));
+  const double x = ray.x(), y = ray.y();
+  return {x * scale + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x), y * scale + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y};
+}
+
+// Depth, 1 m and a centimetre more for each column, tells from which column a pixel was taken.
+TEST_F(FrameConversion, LensesOfOtherModelsAreTakenOutOfTheImages) {
+  const std::array<double, 4> fisheye{-0.05, 0.02, -0.01, 0.004};
+  const std::array<double, 8> rational{0.5, -0.27, 0.01, -0.02, 0.16, 0.38, -0.25, 0.15};
+  for (const bool is_fisheye : {true, false}) {
+    auto images = makeImages(5, 64, 48);
+    auto& camera = images->cameraParams;
+    camera.setIntrinsicParamsFromValues(50, 50, 31.5, 23.5);
+    if (is_fisheye) {
+      camera.setDistortionKannalaBrandt(fisheye[0], fisheye[1], fisheye[2], fisheye[3]);
+    } else {
+      camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+      std::copy(rational.begin(), rational.end(), camera.dist.begin());
+    }
+    images->cameraParamsIntensity = camera;
+    const Frame frame = readBack(images);
+    EXPECT_EQ(frame.camera.distortion, (std::array<double, 5>{}));
+    int moved = 0;
+    for (int v = 0; v < 48; v += 3)
+      for (int u = 0; u < 64; u += 3) {
+        const Eigen::Vector2d ray((u - 31.5) / 50, (v - 23.5) / 50);
+        const Eigen::Vector2d there = 50 * (is_fisheye ? throughFisheye(ray, fisheye) : throughRational(ray, rational)) + Eigen::Vector2d(31.5, 23.5);
+        if (there.x() < 1 || there.x() > 62 || there.y() < 1 || there.y() > 46) continue;
+        EXPECT_NEAR(frame.depth.at<float>(v, u), 1 + 0.01 * there.x(), 0.0056) << is_fisheye << ' ' << u << ' ' << v;
+        moved += std::abs(there.x() - u) > 1;
+      }
+    EXPECT_GT(moved, 30) << is_fisheye;
+  }
+}
+
 }  // namespace
 }  // namespace roomgraph

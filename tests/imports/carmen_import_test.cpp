@@ -185,6 +185,9 @@ TEST(CarmenImport, TruthOfTheSimulatorAndCorrectedPoses) {
   EXPECT_EQ(simulated.result.truth, "TRUEPOS, the simulator's");
   double t, x, y, z, qx, qy, qz, qw;
   std::istringstream truth(simulated.folder.read("x.groundtruth.txt"));
+  std::string comment;
+  std::getline(truth, comment);
+  EXPECT_EQ(comment, "# poses of the robot");
   ASSERT_TRUE(truth >> t >> x >> y >> z >> qx >> qy >> qz >> qw);
   EXPECT_DOUBLE_EQ(t, 100);
   EXPECT_DOUBLE_EQ(y, 2);

@@ -229,6 +229,9 @@ TEST(RtabmapImport, TruthIsOfTheRobotOrOfTheCameraInAHand) {
   EXPECT_EQ(held.result.truth, "ground_truth_pose, of the camera (optical frame)");
   double t, x, y, z, qx, qy, qz, qw;
   std::istringstream in(held.folder.read("x.groundtruth.txt"));
+  std::string comment;
+  std::getline(in, comment);
+  EXPECT_EQ(comment, "# poses of the camera (optical frame)");
   ASSERT_TRUE(in >> t >> x >> y >> z >> qx >> qy >> qz >> qw);
   EXPECT_NEAR(y, 2.05, 1e-6) << "5 cm ahead, and ahead is y";
   const Eigen::Vector3d optical_axis = Eigen::Quaterniond(qw, qx, qy, qz) * Eigen::Vector3d::UnitZ();

@@ -46,6 +46,35 @@ TEST(People, BoxesAreThoseOfClassesThatAreNoLandmarks) {
   EXPECT_EQ(boxes[0].v_max, 4);
 }
 
+// A scan .2 s after the image, of a robot that drives and turns meanwhile: the wedge is where the person stands.
+TEST(People, WedgesStayWithThePersonWhileTheRobotMoves) {
+  FrameProposals proposals;
+  proposals.t = 7;
+  proposals.proposals = {standingAt("person", 2.5, 0.3)};
+  const auto people = peopleInView(proposals, Drive::robotFromCamera(), chairsAndPeople());
+  const Pose2 before_from_after{0.2, 0.05, 0.3};
+  const auto moved = seenAfter(people, before_from_after);
+  EXPECT_EQ(moved.t, people.t);
+  const auto returnsAt = [&](const Eigen::Vector2d& in_before) {
+    const Eigen::Vector2d place = before_from_after.inverse() * in_before;
+    Scan scan = roundScan(7.2);
+    scan.angle_min_rad = std::atan2(place.y(), place.x());
+    scan.ranges_m.assign(1, static_cast<float>(place.norm()));
+    scan.valid.assign(1, true);
+    return scan;
+  };
+  for (const double y : {0.0, 0.3, 0.6}) {
+    Scan scan = returnsAt({2.5, y});
+    EXPECT_EQ(removePeople(scan, moved), 1) << y;
+  }
+  for (const double y : {-0.4, 1.0}) {
+    Scan scan = returnsAt({2.5, y});
+    EXPECT_EQ(removePeople(scan, moved), 0) << y;
+  }
+  Scan unmoved = returnsAt({2.5, 0.3});
+  EXPECT_EQ(removePeople(unmoved, people), 0) << "as the wedge has another direction by then";
+}
+
 TEST(People, WedgeHoldsThePersonAndNoMore) {
   FrameProposals proposals;
   proposals.t = 7;

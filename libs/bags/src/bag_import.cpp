@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSurveyShare = 0.3;  // of the time that both readings take
+constexpr double kHeld_m = 0.1;        // a camera this low above the robot has no place on it
 
 std::function<void(double)> partOf(const std::function<void(double)>& progress, double from, double to) {
   if (!progress) return nullptr;
@@ -93,10 +94,12 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
   tellUsed(survey, plan, result);
   ImportOutput output(places, options.external_images);
   const EmbeddedImages embedded(options.jpeg_quality);
+  bool held = plan.robot.empty();
   bags::Conversion conversion(std::move(survey), plan, options,
                               [&](mrpt::obs::CObservation& record, const std::vector<std::uint8_t>& picture) {
                                 auto* images = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&record);
                                 if (images && options.external_images) storeOutside(*images, picture, output);
+                                if (images) held = images->sensorPose.z() <= kHeld_m;
                                 output.rawlog().write(record);
                               });
   const auto reader = bags::openBag(bag);
@@ -117,7 +120,7 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
   if (!conversion.truth().empty()) {
     result.ground_truth = places.ground_truth;
     result.truth = plan.truth.name;
-    output.setGroundTruth(conversion.truth());
+    output.setGroundTruth(conversion.truth(), held ? TruthOf::kCamera : TruthOf::kRobot);
   }
   for (const auto& removed : output.commit(inputs))
     result.warnings.push_back(removed.string() + " of the former import was removed: this one has none");

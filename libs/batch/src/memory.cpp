@@ -23,20 +23,25 @@ double meminfo(const std::string& key) {
   return std::numeric_limits<double>::infinity();
 }
 
-// The limit of a container, version 2 of control groups; none without one.
-double controlGroupRoom() {
-  double most = 0, used = 0;
-  if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> most) ||
-      !(std::ifstream("/sys/fs/cgroup/memory.current") >> used))
-    return std::numeric_limits<double>::infinity();
-  return (most - used) / 1e6;
+// Copies of files, which the kernel gives up for programs.
+double bytesOfFiles(const std::filesystem::path& group) {
+  std::ifstream in(group / "memory.stat");
+  double sum = 0, bytes = 0;
+  for (std::string name; in >> name >> bytes;)
+    if (name == "active_file" || name == "inactive_file") sum += bytes;
+  return sum;
 }
 
 }  // namespace
 
-double availableMemory() {
-  return std::min(meminfo("MemAvailable"), controlGroupRoom());
+double controlGroupRoom(const std::filesystem::path& group) {
+  double most = 0, used = 0;
+  if (!(std::ifstream(group / "memory.max") >> most) || !(std::ifstream(group / "memory.current") >> used))
+    return std::numeric_limits<double>::infinity();
+  return (most - used + bytesOfFiles(group)) / 1e6;
 }
+
+double availableMemory() { return std::min(meminfo("MemAvailable"), controlGroupRoom("/sys/fs/cgroup")); }
 
 double MemoryForecast::expected(const std::string& sha256, std::int64_t bytes) const {
   const double size = std::max(1.0, static_cast<double>(bytes));

@@ -2,6 +2,7 @@
 // Memory that is there, and memory that a run is expected to need.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace roomgraph {
 
 /// What programs may still take, MB: MemAvailable, or less where a control group limits this process.
 double availableMemory();
+/// Room within the limit of a container, MB: a folder of control groups, version 2. What it holds of files counts as room.
+/// Infinite without a limit.
+double controlGroupRoom(const std::filesystem::path& group);
 
 /// What runs are expected to need, from what earlier ones took.
 class MemoryForecast {

@@ -3,6 +3,7 @@
 #include "truth_files.h"
 
 #include "roomgraph/core/errors.h"
+#include "roomgraph/datasets/truth_file.h"
 
 namespace roomgraph {
 namespace {
@@ -52,6 +53,12 @@ TruthFiles truthBeside(const fs::path& rawlog) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) recordings += isRecording(entry.path());
   TruthFiles truth = recordings == 1 ? truthInFolder(folder) : TruthFiles();
+  // What an import wrote counts, not what it read: that may be in another frame.
+  if (const fs::path imported = folder / (recordingName(rawlog) + ".groundtruth.txt"); const auto whose = whoseTruth(imported)) {
+    truth.erase("trajectory");
+    truth.erase("camera_trajectory");
+    truth.emplace(*whose == TruthOf::kRobot ? "trajectory" : "camera_trajectory", imported);
+  }
   addIfThere(truth, "trajectory", rawlog.string() + ".GT.txt");
   addIfThere(truth, "relations", folder / (recordingName(rawlog) + ".relations"));
   return truth;

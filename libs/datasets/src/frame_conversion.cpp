@@ -14,6 +14,7 @@
 #include "depth_registration.h"
 #include "flag_repair.h"
 #include "image_memory.h"
+#include "lens_removal.h"
 #include "record_source.h"
 #include "roomgraph/core/unexpected.h"
 #include "roomgraph/observations/mrpt_camera.h"
@@ -43,7 +44,7 @@ cv::Mat undistorted(const cv::Mat& image, const PinholeCamera& camera, int inter
   return out;
 }
 
-void setColor(Frame& frame, const mrpt::img::CImage& image) {
+void setColor(Frame& frame, const mrpt::img::CImage& image, const std::optional<OtherLens>& lens) {
   const cv::Mat pixels = image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
   if (pixels.channels() == 1) {
     frame.gray = pixels;
@@ -51,8 +52,8 @@ void setColor(Frame& frame, const mrpt::img::CImage& image) {
   } else {
     frame.color = pixels;  // MRPT has BGR only
   }
-  if (isDistorted(frame.camera)) {
-    frame.color = undistorted(frame.color, frame.camera, cv::INTER_LINEAR);
+  if (lens || isDistorted(frame.camera)) {
+    frame.color = lens ? withoutLens(frame.color, frame.camera, *lens, cv::INTER_LINEAR) : undistorted(frame.color, frame.camera, cv::INTER_LINEAR);
     frame.gray.release();
   }
   if (frame.gray.empty()) cv::cvtColor(frame.color, frame.gray, cv::COLOR_BGR2GRAY);
@@ -67,8 +68,10 @@ cv::Mat rangesInMetres(const CObservation3DRangeScan& observation) {
   return metres;
 }
 
-void setDepth(Frame& frame, const CObservation3DRangeScan& observation, const PinholeCamera& depth_camera) {
+void setDepth(Frame& frame, const CObservation3DRangeScan& observation, const PinholeCamera& depth_camera,
+              const std::optional<OtherLens>& lens) {
   cv::Mat depth = rangesInMetres(observation);
+  if (lens) depth = withoutLens(depth, depth_camera, *lens, cv::INTER_NEAREST);
   const bool registered = depthIsRegistered(observation, frame.camera, depth_camera);
   cv::Mat rays;
   if (!observation.range_is_depth || !registered) rays = pixelRays(depth_camera);
@@ -99,12 +102,17 @@ Outcome<Frame> convert(CObservation3DRangeScan& observation, const std::string& 
   frame.t = mrpt::Clock::toDouble(observation.timestamp);
   frame.sensor_label = observation.sensorLabel;
   const Pose3 robot_from_depth = toPose3(observation.sensorPose);
-  const PinholeCamera depth_camera = cameraForImage(observation.cameraParams, static_cast<int>(ranges.cols()),
-                                                    static_cast<int>(ranges.rows()));
+  PinholeCamera depth_camera = cameraForImage(observation.cameraParams, static_cast<int>(ranges.cols()),
+                                              static_cast<int>(ranges.rows()));
+  // What these lenses did is taken out of the images first.
+  const auto depth_lens = has_depth ? otherLensOf(observation.cameraParams) : std::nullopt;
+  const auto color_lens = has_color ? otherLensOf(observation.cameraParamsIntensity) : std::nullopt;
+  if (depth_lens) depth_camera.distortion = {};
   if (has_color) {
     const auto& image = observation.intensityImage;
     frame.camera = cameraForImage(observation.cameraParamsIntensity, static_cast<int>(image.getWidth()),
                                   static_cast<int>(image.getHeight()));
+    if (color_lens) frame.camera.distortion = {};
     frame.robot_from_camera = robot_from_depth * toPose3(observation.relativePoseIntensityWRTDepth);
   } else {
     frame.camera = depth_camera;
@@ -112,8 +120,8 @@ Outcome<Frame> convert(CObservation3DRangeScan& observation, const std::string& 
   }
   if (!frame.camera.valid() || (has_depth && !depth_camera.valid()))
     return Result::failure("CObservation3DRangeScan: no camera intrinsics that fit the image size");
-  if (has_color) setColor(frame, observation.intensityImage);
-  if (has_depth) setDepth(frame, observation, depth_camera);
+  if (has_color) setColor(frame, observation.intensityImage, color_lens);
+  if (has_depth) setDepth(frame, observation, depth_camera, depth_lens);
   frame.camera.distortion = {};
   return frame;
 }

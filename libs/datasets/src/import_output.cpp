@@ -130,10 +130,11 @@ ImportOutput::~ImportOutput() {
   if (!pending_.empty() && !keeps_old) fs::remove_all(pending_, ignored);
 }
 
-void ImportOutput::setGroundTruth(const std::string& text) {
+void ImportOutput::setGroundTruth(const std::string& text, TruthOf whose) {
   ground_truth_.emplace(places_.ground_truth);
   OutputFile out(ground_truth_->path());
-  out << text;
+  const std::string comment = truthComment(whose);
+  out << (text.starts_with(comment) ? "" : comment) << text;
   out.finish();
 }
 

@@ -51,7 +51,7 @@ std::string problemOfCamera(const mrpt::img::TCamera& camera) {
   const auto within = [](double value, double limit) { return std::abs(value) < limit; };
   for (const double value : {camera.fx(), camera.fy(), camera.cx(), camera.cy()})
     if (!within(value, kLargestCoordinate_px)) return "camera intrinsics are not finite or too large";
-  for (const double value : {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3()})
+  for (const double value : camera.dist)
     if (!within(value, kLargestDistortion)) return "lens distortion is not finite or too large";
   return "";
 }

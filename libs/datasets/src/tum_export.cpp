@@ -14,10 +14,12 @@
 
 #include "frame_conversion.h"
 #include "image_folder.h"
+#include "lens_removal.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/datasets/observation_reader.h"
+#include "roomgraph/datasets/truth_file.h"
 
 namespace roomgraph {
 namespace {
@@ -26,6 +28,8 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservation3DRangeScan;
 
 constexpr double kScaleOfRegistered = 5000;  // the benchmark's own
+constexpr double kLowestMount_m = 0.1;       // above a robot's origin; a handheld camera has no place
+constexpr double kSameMount = 1e-4;
 
 struct ImagePair {
   cv::Mat color, depth;  ///< CV_8UC3 or CV_8UC1; CV_16UC1
@@ -99,7 +103,8 @@ cv::Mat inUnits(const cv::Mat& depth, double scale) {
 }
 
 Outcome<ImagePair> pairOf(CObservation3DRangeScan& record, const ObservationReader& reader) {
-  if (ObservationReader::isRegistered(record) && record.range_is_depth && record.rangeUnits > 0)
+  const bool simple_lens = !otherLensOf(record.cameraParamsIntensity) && !otherLensOf(record.cameraParams);
+  if (simple_lens && ObservationReader::isRegistered(record) && record.range_is_depth && record.rangeUnits > 0)
     return pairAsItIs(record);
   const auto frame = reader.frameOf(record);
   if (!frame) return Outcome<ImagePair>::failure(frame.reason());
@@ -139,6 +144,7 @@ class TumFolderWriter {
     if (!pair) return leaveOut(pair.reason());
     if (result_.written == 0) begin(*pair, record);
     if (!(pair->camera == result_.camera)) return leaveOut("its camera is not that of the first image");
+    camera_moves_ = camera_moves_ || !mountOf(*pair, record).isApprox(result_.robot_from_camera, kSameMount);
     if (pair->depth_scale != depth_scale_)
       pair->depth = inUnits(pair->depth, depth_scale_ / pair->depth_scale);
     char stamp[48];
@@ -159,8 +165,7 @@ class TumFolderWriter {
     writeFileAtomically(folder_.file("depth.txt"), depth_);
     writeFileAtomically(folder_.file("associations.txt"), both_);
     writeFileAtomically(folder_.file("camera.json"), cameraJson(result_.camera, depth_scale_));
-    std::error_code error;
-    result_.ground_truth = fs::copy_file(ground_truth, folder_.file("groundtruth.txt"), error);
+    writeTruth(ground_truth);
     folder_.commit();
     for (const auto& [reason, count] : left_out_)
       result_.warnings.push_back(std::to_string(count) + " records left out: " + reason);
@@ -169,9 +174,33 @@ class TumFolderWriter {
   const TumExportResult& result() const { return result_; }
 
  private:
+  // In that format it is the camera's.
+  void writeTruth(const fs::path& ground_truth) {
+    const bool mounted = result_.robot_from_camera.translation().z() > kLowestMount_m;
+    const TruthOf whose = whoseTruth(ground_truth).value_or(mounted ? TruthOf::kRobot : TruthOf::kCamera);
+    if (whose == TruthOf::kCamera) {
+      std::error_code error;
+      result_.ground_truth = fs::copy_file(ground_truth, folder_.file("groundtruth.txt"), error);
+      return;
+    }
+    if (!fs::is_regular_file(ground_truth)) return;
+    if (camera_moves_) {
+      result_.warnings.push_back(ground_truth.string() + ": left out: it is the robot's, on which this camera moves");
+      return;
+    }
+    Pose3 robot_from_optical = result_.robot_from_camera;
+    robot_from_optical.linear() = robot_from_optical.linear() * bodyFromOptical();
+    writeFileAtomically(folder_.file("groundtruth.txt"),
+                        truthComment(TruthOf::kCamera) + truthOnRobot(ground_truth, robot_from_optical));
+    result_.ground_truth = true;
+  }
+
+  static Pose3 mountOf(const ImagePair& pair, const CObservation3DRangeScan& record) {
+    return pair.robot_from_camera.value_or(toPose3(record.sensorPose));
+  }
   void begin(const ImagePair& pair, const CObservation3DRangeScan& record) {
     result_.camera = pair.camera;
-    result_.robot_from_camera = pair.robot_from_camera.value_or(toPose3(record.sensorPose));
+    result_.robot_from_camera = mountOf(pair, record);
     depth_scale_ = pair.depth_scale;
   }
   void leaveOut(const std::string& reason) {
@@ -182,6 +211,7 @@ class TumFolderWriter {
   PendingFolder folder_;
   TumExportResult result_;
   double depth_scale_ = 0;
+  bool camera_moves_ = false;  ///< on the robot
   std::string rgb_, depth_, both_;
   std::map<std::string, int> left_out_;
 };

@@ -29,6 +29,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 constexpr float kMaxRangeM = 10;  // for viewers only
 constexpr int kWarningsShown = 5;
+const std::string kPairLeftOut = "pair left out: ";
 
 bool load(mrpt::img::CImage& image, const fs::path& file) {
   try {
@@ -44,7 +45,7 @@ class Writer {
   Writer(ImportOutput& output, const TumCamera& camera, const TumImportOptions& options)
       : output_(output), camera_(camera), options_(options) {}
 
-  /// Empty, or why the pair was left out. Throws InputError when the images do not fit the camera.
+  /// Empty, or why the pair was left out.
   std::string write(const TumPair& pair) {
     for (const auto& file : {pair.color, pair.depth})
       if (!fs::is_regular_file(file)) return "no such file: " + file.string();
@@ -53,9 +54,9 @@ class Writer {
     CObservation3DRangeScan record;
     if (!load(record.intensityImage, pair.color))
       return "unreadable image: " + pair.color.string();
-    checkSize(pair.color, static_cast<int>(record.intensityImage.getWidth()),
-              static_cast<int>(record.intensityImage.getHeight()));
-    checkSize(pair.depth, depth.cols, depth.rows);
+    const cv::Size color_size(static_cast<int>(record.intensityImage.getWidth()), static_cast<int>(record.intensityImage.getHeight()));
+    for (const auto& [file, size] : {std::pair(pair.color, color_size), std::pair(pair.depth, depth.size())})
+      if (const auto problem = unfit(file, size); !problem.empty()) return problem;
     fill(record, depth);
     const double rate = options_.frame_rate_hz.value_or(1);
     record.timestamp = mrpt::Clock::fromDouble(pair.t / rate);
@@ -66,15 +67,16 @@ class Writer {
   const PinholeCamera& camera() const { return camera_.camera; }
 
  private:
-  void checkSize(const fs::path& file, int width, int height) {
-    if (camera_.camera.width == 0) {
-      camera_.camera.width = width;
-      camera_.camera.height = height;
+  // Why an image does not fit the camera, whose size may be that of the first one.
+  std::string unfit(const fs::path& file, const cv::Size& size) {
+    auto& camera = camera_.camera;
+    if (camera.width == 0) {
+      camera.width = size.width;
+      camera.height = size.height;
     }
-    if (width != camera_.camera.width || height != camera_.camera.height)
-      throw InputError(file.string() + ": is " + std::to_string(width) + "x" + std::to_string(height) +
-                       " px, the camera " + std::to_string(camera_.camera.width) + "x" +
-                       std::to_string(camera_.camera.height));
+    if (size == cv::Size(camera.width, camera.height)) return "";
+    return file.string() + " is " + std::to_string(size.width) + "x" + std::to_string(size.height) + " px, the camera " +
+           std::to_string(camera.width) + "x" + std::to_string(camera.height);
   }
 
   void fill(CObservation3DRangeScan& record, const cv::Mat& depth) const {
@@ -124,12 +126,28 @@ void writeAll(Writer& writer, const std::vector<TumPair>& pairs, TumImportResult
     if (problem.empty())
       ++result.written;
     else if (++result.missing <= kWarningsShown)
-      result.warnings.push_back("pair left out: " + problem);
+      result.warnings.push_back(kPairLeftOut + problem);
     if (progress) progress(i + 1, pairs.size());
   }
   if (result.missing > kWarningsShown)
     result.warnings.push_back(std::to_string(result.missing - kWarningsShown) + " more pairs left out");
   result.camera = writer.camera();
+}
+
+std::string firstReason(const std::vector<std::string>& warnings) {
+  const auto left_out = [](const std::string& warning) { return warning.starts_with(kPairLeftOut); };
+  const auto first = std::find_if(warnings.begin(), warnings.end(), left_out);
+  return first == warnings.end() ? "" : *first;
+}
+
+// Stamps in other units would become times that no clock has.
+void checkTimes(const std::vector<TumPair>& pairs, const fs::path& folder) {
+  constexpr double kLatest_s = 7'258'118'400, kMicro = 1e6, kNano = 1e9;  // the year 2200
+  if (pairs.empty()) return;
+  const double t = pairs[pairs.size() / 2].t;
+  if (t < kLatest_s) return;
+  const char* const unit = t / kMicro < kLatest_s ? "microseconds" : t / kNano < kLatest_s ? "nanoseconds" : "no unit that is known";
+  throw InputError(folder.string() + ": its time stamps are in " + unit + ", not in seconds: " + std::to_string(t));
 }
 
 // A principal point outside the image is a wrong number, or one for another image size.
@@ -161,6 +179,7 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
     throw ConfigError("the frame rate must be positive");
   TumImportResult result;
   const auto pairs = readTumPairs(folder, options.max_time_difference_s, result.warnings);
+  checkTimes(pairs, folder);
   const ImportPlaces places = placesOf(rawlog);
   const ImportInputs inputs = inputsOf(folder, options, pairs);
   checkPlaces(places, inputs, options.external_images);
@@ -176,11 +195,11 @@ TumImportResult importTum(const fs::path& folder, const fs::path& rawlog, const 
   writeAll(writer, pairs, result, progress);
   if (result.written == 0)
     throw InputError(folder.string() + ": none of the " + std::to_string(pairs.size()) +
-                     " pairs can be used; " + result.warnings.back());
+                     " pairs can be used; " + firstReason(result.warnings));
   checkCenter(result.camera, result.warnings);
   if (const auto truth = findGroundTruth(folder); !truth.empty()) {
     result.ground_truth = places.ground_truth;
-    output.setGroundTruth(groundTruthText(truth, camera.mirrored, options.frame_rate_hz));
+    output.setGroundTruth(groundTruthText(truth, camera.mirrored, options.frame_rate_hz), TruthOf::kCamera);
   }
   for (const auto& removed : output.commit(inputs))
     result.warnings.push_back(removed.string() + " of the former import was removed: this one has none");

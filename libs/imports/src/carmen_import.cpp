@@ -207,7 +207,7 @@ CarmenImportResult importCarmen(const std::filesystem::path& log, const std::fil
     result.ground_truth = places.ground_truth;
     result.truth = plan.truth == "TRUEPOS" ? "TRUEPOS, the simulator's"
                                            : plan.truth + ", as another program corrected it";
-    output.setGroundTruth(conversion.truth());
+    output.setGroundTruth(conversion.truth(), TruthOf::kRobot);
   }
   for (const auto& removed : output.commit(inputs))
     result.warnings.push_back(removed.string() + " of the former import was removed: this one has none");

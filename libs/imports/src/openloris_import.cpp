@@ -287,7 +287,7 @@ OpenlorisImportResult importOpenloris(const std::filesystem::path& folder,
                      (result.skipped.empty() ? "" : "; " + result.skipped.begin()->first));
   if (!truth.empty()) {
     result.ground_truth = places.ground_truth;
-    output.setGroundTruth(truth);
+    output.setGroundTruth(truth, TruthOf::kRobot);
   }
   for (const auto& removed : output.commit(inputs))
     result.warnings.push_back(removed.string() + " of the former import was removed: this one has none");

@@ -277,7 +277,7 @@ void writeTruth(const Reading& reading, const NodeRecords& records, const std::f
     text += truthLine(node.t, held ? *node.truth * *camera : *node.truth);
   }
   if (text.empty()) return;
-  output.setGroundTruth(text);
+  output.setGroundTruth(text, held ? TruthOf::kCamera : TruthOf::kRobot);
   result.ground_truth = place;
   result.truth =
       held ? "ground_truth_pose, of the camera (optical frame)" : "ground_truth_pose, of the robot";

@@ -26,8 +26,7 @@ const char* causeOf(MotionSensor sensor) {
 }
 
 // Of one sensor with both others, or with the only other one.
-std::optional<Finding> contradictionsOf(MotionSensor sensor, std::optional<MotionSensor> only_other, const std::vector<Contradiction>& all,
-                                        double start_t) {
+std::optional<Finding> contradictionsOf(MotionSensor sensor, std::optional<MotionSensor> only_other, const std::vector<Contradiction>& all) {
   double seconds = 0, longest_s = 0, off_m = 0, off_rad = 0, first_t = 0;
   int times = 0;
   for (const Contradiction& one : all) {
@@ -41,8 +40,8 @@ std::optional<Finding> contradictionsOf(MotionSensor sensor, std::optional<Motio
   if (times == 0) return std::nullopt;
   char text[200];
   const std::string how_often = times > 1 ? " " + std::to_string(times) + " times," : "";
-  std::snprintf(text, sizeof text, "%s%s for %.1f s, first from t = %.1f s on, by up to %.2f m and %.1f deg",
-                only_other ? "contradict each other" : "contradicts both other sensors", how_often.c_str(), seconds, first_t - start_t, off_m,
+  std::snprintf(text, sizeof text, "%s%s for %.1f s, first from t = %.3f s on, by up to %.2f m and %.1f deg",
+                only_other ? "contradict each other" : "contradicts both other sensors", how_often.c_str(), seconds, first_t, off_m,
                 off_rad / kDegree);
   // Two that differ now and then have nobody who says that one of them is right.
   const Severity severity = (only_other ? longest_s : seconds) >= kLong_s ? Severity::kWarning : Severity::kNote;
@@ -88,13 +87,13 @@ void addTurned(const MovementAgreement& agreement, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> movementFindings(const MovementAgreement& agreement, double start_t) {
+std::vector<Finding> movementFindings(const MovementAgreement& agreement) {
   std::vector<Finding> out;
   addTurned(agreement, out);
   for (std::size_t i = 0; i < kMotionSensors.size(); ++i) {
     const MotionSensor sensor = kMotionSensors[i], next = kMotionSensors[(i + 1) % kMotionSensors.size()];
-    if (auto found = contradictionsOf(sensor, std::nullopt, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
-    if (auto found = contradictionsOf(sensor, next, agreement.contradictions(), start_t)) out.push_back(std::move(*found));
+    if (auto found = contradictionsOf(sensor, std::nullopt, agreement.contradictions())) out.push_back(std::move(*found));
+    if (auto found = contradictionsOf(sensor, next, agreement.contradictions())) out.push_back(std::move(*found));
   }
   return out;
 }

@@ -9,7 +9,7 @@
 
 namespace roomgraph {
 
-/// Sensors whose pose on the robot is turned, and sensors that contradict the others, in words. Times are from `start_t` on.
-std::vector<Finding> movementFindings(const MovementAgreement& agreement, double start_t);
+/// Sensors whose pose on the robot is turned, and sensors that contradict the others, in words, with the stamps from which on they do.
+std::vector<Finding> movementFindings(const MovementAgreement& agreement);
 
 }  // namespace roomgraph

@@ -34,6 +34,17 @@ PeopleInView peopleInView(const FrameProposals& proposals, const Pose3& robot_fr
   return out;
 }
 
+PeopleInView seenAfter(const PeopleInView& people, const Pose2& before_from_after) {
+  PeopleInView out = people;
+  const Pose2 after_from_before = before_from_after.inverse();
+  for (DynamicWedge& wedge : out.wedges) {
+    wedge.apex = after_from_before * wedge.apex;
+    wedge.angle_min_rad += after_from_before.yaw;
+    wedge.angle_max_rad += after_from_before.yaw;
+  }
+  return out;
+}
+
 int removePeople(Scan& scan, const PeopleInView& people) {
   if (people.wedges.empty() || std::abs(people.t - scan.t) > kPeopleMaxAge_s) return 0;
   return removeDynamicReturns(scan, people.wedges);

@@ -24,6 +24,9 @@ std::vector<Box2> boxesOfPeople(const std::vector<Detection>& detections, const 
 PeopleInView peopleInView(const FrameProposals& proposals, const Pose3& robot_from_camera,
                           const ObjectDatabase& database);
 
+/// The wedges as the robot sees them after a movement: in its frame then.
+PeopleInView seenAfter(const PeopleInView& people, const Pose2& before_from_after);
+
 /// Removes the returns of a scan inside the wedges, as long as those are not too old; returns how many
 /// (method.md sec. 5).
 int removePeople(Scan& scan, const PeopleInView& people);

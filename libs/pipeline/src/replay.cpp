@@ -39,12 +39,14 @@ class SpanReader {
     auto record = nextInOrder();
     if (!record) return std::nullopt;
     if (!hasTime(*record)) return Upcoming{std::move(*record), stream_.progress(), {}, {}};
+    // Boxes come before their images, with the stamps of their own.
     const double t = timeOf(*record);
-    if (!start_) start_ = t;
-    behind_ = span_.until_s > 0 && t - *start_ > span_.until_s;
+    const bool boxes = isBoxes(*record);
+    if (!start_ && !boxes) start_ = t;
+    behind_ = !boxes && span_.until_s > 0 && t - *start_ > span_.until_s;
     Upcoming out{std::move(*record), stream_.progress(), {}, {}};
     out.reading = reading.soFar();
-    if (foresees_ && !behind_ && t - *start_ >= span_.from_s) {
+    if (foresees_ && !boxes && !behind_ && t - *start_ >= span_.from_s) {
       const Meter foreseeing;
       slam_.foresee(out.record);
       out.foreseeing = foreseeing.soFar();
@@ -92,6 +94,7 @@ ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& s
   ReplayState state;
   const double until_s = span.until_s > 0 ? span.until_s : std::numeric_limits<double>::infinity();
   std::optional<double> start;
+  bool began = false;
   double file_from = 0;
   const bool beside = cv::getNumThreads() > 1;
   SpanReader reader(stream, slam, span, beside);
@@ -105,11 +108,20 @@ ReplayState replay(RecordStream& stream, SemanticSlam& slam, const ReplaySpan& s
       continue;
     }
     const double t = timeOf(next->record);
+    if (isBoxes(next->record)) {  // before their images, as they may be stamped later: time neither begins nor ends with them
+      const double since = start ? t - *start : 0;
+      if (since < span.from_s || since > until_s) continue;
+      ++state.records;
+      slam.process(next->record);
+      continue;
+    }
     if (!start) state.start_t = *(start = t);
     if (t - *start > until_s) break;
     state.last_t = t;
     if (t - *start < span.from_s) continue;
-    if (state.records++ == 0) {
+    ++state.records;
+    if (!began) {
+      began = true;
       state.first_t = t;
       file_from = next->progress;
     }

@@ -13,6 +13,7 @@
 #include "roomgraph/core/heap.h"
 #include "roomgraph/observations/mounting.h"
 #include "roomgraph/pipeline/clock_settings.h"
+#include "roomgraph/pipeline/record_sorter.h"
 #include "stage_borders.h"
 
 namespace roomgraph {
@@ -56,7 +57,7 @@ void SemanticSlam::process(const Record& record) {
     return;
   }
   times_.startRecord(timeOf(record));
-  if (!first_t_) first_t_ = timeOf(record);
+  if (!first_t_ && !isBoxes(record)) first_t_ = timeOf(record);
   const StepReport report = std::visit([this](const auto& value) { return step(value); }, record);
   requirePose(report.world_from_robot, record);
   for (const auto& sink : sinks_) sink->onStep(report);
@@ -118,7 +119,8 @@ StepReport SemanticSlam::step(const Scan& scan) {
   estimator_.setPlanar();
 
   Scan clean = scan;
-  counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
+  const auto moved = front_ends_.motion().movement(people_->t, scan.t, kMovementHorizon_s);
+  counts_.returns_on_people += removePeople(clean, moved ? seenAfter(*people_, planarPart(*moved)) : *people_);  // sec. 5
   const ScanMatch matched = match(clean);
   if (!matched.matched) {
     ++counts_.scans_unmatched;
@@ -343,7 +345,7 @@ void SemanticSlam::continueInMap() {
 }
 
 std::vector<Finding> SemanticSlam::movementFindings() const {
-  auto findings = roomgraph::movementFindings(front_ends_.agreement(), first_t_.value_or(0));
+  auto findings = roomgraph::movementFindings(front_ends_.agreement());
   for (const ClockSetting& clock : wrongClocks(front_ends_)) findings.push_back(clockFinding(clock, false));
   return findings;
 }

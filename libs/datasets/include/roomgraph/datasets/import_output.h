@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "roomgraph/core/output_file.h"
+#include "roomgraph/datasets/truth_file.h"
 #include "roomgraph/observations/rawlog_writer.h"
 
 namespace roomgraph {
@@ -44,7 +45,8 @@ class ImportOutput {
   /// Writes the depth image of a record to the file `name` ("LABEL_STAMP_depth.bin") in images() and lets the
   /// record refer to it. Throws RunError.
   void storeDepth(mrpt::obs::CObservation3DRangeScan& record, const std::string& name) const;
-  void setGroundTruth(const std::string& text);
+  /// Lines "t x y z qx qy qz qw"; the file begins with whose they are.
+  void setGroundTruth(const std::string& text, TruthOf whose);
   /// Puts everything into place; what a former import to the same place left and this one does not have is
   /// removed, unless the import read it. Returns what was removed. Throws RunError.
   std::vector<std::filesystem::path> commit(const ImportInputs& inputs);

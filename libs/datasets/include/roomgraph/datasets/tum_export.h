@@ -24,8 +24,8 @@ struct TumExportResult {
 };
 
 /// Writes rgb/ and depth/ (PNG, without loss), rgb.txt, depth.txt, associations.txt, camera.json, and
-/// groundtruth.txt when X.groundtruth.txt stands beside the rawlog: what importTum() reads back to the same
-/// records. `label`: of the camera; empty: the first that appears. Depth registered to colour is written as
+/// groundtruth.txt when X.groundtruth.txt stands beside the rawlog (in poses of the camera, as the format has them): what importTum()
+/// reads back to the same records. `label`: of the camera; empty: the first that appears. Depth registered to colour is written as
 /// it is, with depth_scale = 1 / rangeUnits; other depth is projected into the colour camera first and
 /// written with 5000. The folder gets its name when it is whole. `progress` gets the share done and may throw
 /// to end the export.

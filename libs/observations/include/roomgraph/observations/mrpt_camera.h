@@ -10,7 +10,7 @@ namespace roomgraph {
 
 /// Pixels; distortion as plumb_bob, none when all its coefficients are zero.
 mrpt::img::TCamera toMrpt(const PinholeCamera& camera);
-/// The inverse. Other models of distortion are taken for plumb_bob.
+/// The inverse. Of other models of distortion it has the first coefficients only: what they do is to be taken out of the images.
 PinholeCamera toPinhole(const mrpt::img::TCamera& camera);
 
 }  // namespace roomgraph

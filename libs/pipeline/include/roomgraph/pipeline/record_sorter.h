@@ -4,13 +4,20 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "roomgraph/datasets/record_stream.h"
 
 namespace roomgraph {
 
-/// Puts records in order of time within a short look-ahead. At equal times wheel odometry and recorded
-/// detections come first, then scans, then frames: what a frame needs is there when it is processed.
+/// Whether a record holds recorded detections.
+inline bool isBoxes(const Record& record) { return std::holds_alternative<std::shared_ptr<CObservationDetections>>(record); }
+
+/// Puts records in order of time within a short look-ahead. At equal times wheel odometry comes first, then scans, then frames.
+/// Recorded detections come earlier by .2 s, as what makes them may stamp them later than their image: what a frame needs is
+/// there when it is processed. A stamp far ahead of all others, or those of one sensor, does not make the others late: time is there when
+/// another kind of record is, or many.
 class RecordSorter {
  public:
   explicit RecordSorter(double lookahead_s) : lookahead_s_(lookahead_s) {}
@@ -19,9 +26,13 @@ class RecordSorter {
   std::optional<Record> pop(bool flush);
 
  private:
+  void note(const Record& record);
+
   double lookahead_s_;
-  double latest_ = 0;
+  double latest_ = 0;           ///< up to where all have come
+  bool boxes_come_ = false;     ///< detections are recorded
   std::deque<Record> waiting_;
+  std::vector<std::pair<double, std::size_t>> ahead_;  ///< time and kind of those far ahead of `latest_` that have not moved it
 };
 
 }  // namespace roomgraph
