@@ -111,6 +111,51 @@ TEST(MapAnchor, ScansAloneFindThePlace) {
   EXPECT_FALSE(anchor.recognise({}, run.poses, true)) << "a map is recognised once";
 }
 
+// There and back, for as long as it takes.
+Pose2 toAndFro(double t) {
+  const double phase = std::fmod(t, 2 * kEnd_s);
+  return onTheWay(std::min(phase, 2 * kEnd_s - phase));
+}
+
+TEST(MapAnchor, WhoComesLateIsRecognised) {
+  constexpr double kElsewhere_s = 240, kStep_s = 0.5;
+  const auto walls = asymmetricRoom(), other = rectangle();
+  CSemanticMap map;
+  map.occupancy = gridOf(walls);
+  MapAnchor anchor(map, {}, {});
+  OwnRun run;
+  std::optional<double> found_s;
+  for (double t = 0; t < kElsewhere_s + 40 && !found_s; t += kStep_s) {
+    const bool there = t > kElsewhere_s;
+    const Pose2 place = there ? toAndFro(t - kElsewhere_s) : onTheWay(0);
+    run.poses.add(t, toPose3(run.own_from_map * place));
+    anchor.add(castScan(there ? walls : other, place, t, run.random), run.poses);
+    if (anchor.recognise({}, run.poses, true)) found_s = t - kElsewhere_s;
+  }
+  ASSERT_TRUE(found_s);
+  EXPECT_GT(*found_s, 0);
+  EXPECT_LT(*found_s, 25);
+}
+
+// The lidar stops: its last scan tells once where the robot was.
+TEST(MapAnchor, AScanGivesOneFix) {
+  const auto walls = asymmetricRoom();
+  CSemanticMap map;
+  map.occupancy = gridOf(walls);
+  MapAnchor anchor(map, {}, {});
+  OwnRun run;
+  const auto found = run.drive(anchor, &walls, false);
+  ASSERT_TRUE(found);
+  const double last = run.poses.nodes().back().t;
+  run.poses.moveFrom(run.poses.nodes().front().id, toPose3(*found));
+  std::vector<double> fixes;
+  for (double t = last; t < last + 20; t += 0.5) {
+    if (t > last) run.poses.add(t, toPose3(toAndFro(t)));
+    if (const auto fix = anchor.fix(run.poses)) fixes.push_back(fix->t);
+  }
+  EXPECT_EQ(fixes, std::vector{last});
+}
+
 TEST(MapAnchor, ASymmetricRoomAndAnotherOneAreRefused) {
   const auto walls = rectangle(), other = asymmetricRoom();
   CSemanticMap map;

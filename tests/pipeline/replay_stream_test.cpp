@@ -56,6 +56,42 @@ TEST(ReplayStream, RecordsOfADriverBecomeATrajectory) {
   EXPECT_LT((last.pose.translation() - truth.translation()).norm(), 0.03);
 }
 
+// Boxes are fed before what was recorded at their time: a recording begins and ends with its other records.
+class DriverWithBoxes : public RecordStream {
+ public:
+  std::optional<Record> next() override {
+    const int i = given_++;
+    if (i >= 2 * kScans) return std::nullopt;
+    const double t = 1000 + 0.1 * (i / 2);
+    if (i % 2 == 1) {
+      auto boxes = CObservationDetections::Create();
+      boxes->timestamp = mrpt::Clock::fromDouble(t + 0.1);
+      return boxes;
+    }
+    Scan scan = drive_.scan(t - 1000);
+    scan.t = t;
+    return scan;
+  }
+  double progress() const override { return given_ / (2.0 * kScans); }
+
+ private:
+  static constexpr int kScans = 60;
+  Drive drive_;
+  int given_ = 0;
+};
+
+TEST(ReplayStream, BoxesNeitherBeginNorEndIt) {
+  for (const auto& [from_s, until_s, boxes] : {std::tuple(0., 0., 60), std::tuple(0., 2.05, 20), std::tuple(1.05, 2.05, 10)}) {
+    SemanticSlam slam(setupWith("[tracking]\nenabled = false\n[odometry]\nenabled = false\n[detection]\nenabled = false\n"));
+    DriverWithBoxes driver;
+    const ReplayState state = replay(driver, slam, {.from_s = from_s, .until_s = until_s}, {});
+    EXPECT_NEAR(state.start_t, 1000, 1e-6);
+    EXPECT_NEAR(state.first_t, from_s > 0 ? 1001.1 : 1000, 1e-6);
+    EXPECT_NEAR(state.last_t, until_s > 0 ? 1002 : 1005.9, 1e-6);
+    EXPECT_EQ(slam.finish().counts.detections, boxes) << from_s << " to " << until_s;
+  }
+}
+
 TEST(ReplayStream, StopsWhereItIsInterrupted) {
   SemanticSlam slam(setupWith("[tracking]\nenabled = false\n[detection]\nenabled = false\n"));
   SimulatedDriver driver;

@@ -68,6 +68,29 @@ TEST(SemanticSlam, PosesTooFarApartForAGridCostTheGridOnly) {
   EXPECT_EQ(named, 1);
 }
 
+// A camera that is started late and stops early: wheels tell the rest of the way.
+TEST(SemanticSlam, WheelsGoOnWhereNothingElseIs) {
+  SemanticSlam slam(setupWith(kLidarOnly));
+  Drive world;
+  for (int i = 0; i <= 120; ++i) {
+    const double t = 0.1 * i;
+    slam.process(world.odometry(t));
+    slam.process(world.odometry(t + 0.05));
+    if (t > 3.95 && t < 8.05 && (t < 5.05 || t > 6.45)) slam.process(world.scan(t + 0.06));
+  }
+  const SlamResult result = slam.finish();
+  ASSERT_FALSE(result.world_from_robot.empty());
+  EXPECT_NEAR(result.world_from_robot.front().t, 0, 1e-9);
+  EXPECT_NEAR(result.world_from_robot.back().t, 12.05, 0.1);
+  double longest_s = 0;
+  for (std::size_t i = 1; i < result.world_from_robot.size(); ++i)
+    longest_s = std::max(longest_s, result.world_from_robot[i].t - result.world_from_robot[i - 1].t);
+  EXPECT_LT(longest_s, 1.6) << "up to a second and a half are left to scans";
+  EXPECT_LT(result.world_from_robot.size(), 160u) << "ten poses of wheels a second at most";
+  // Wheels that turn 6 % too far, over eight seconds.
+  EXPECT_LT((result.world_from_robot.back().pose.translation() - result.world_from_robot.front().pose.translation()).norm(), 0.6);
+}
+
 TEST(SemanticSlam, LapThroughARoomIsFoundToACentimetre) {
   SemanticSlam slam(setupWith(kLidarOnly));
   const auto recorder = std::make_shared<Recorder>();

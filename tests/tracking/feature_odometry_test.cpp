@@ -243,6 +243,29 @@ TEST(FeatureOdometry, PredictsWhileNothingIsSeen) {
   }
 }
 
+// A step over a second without images is that of a second.
+TEST(FeatureOdometry, AVelocityAfterAGapIsThatOfItsTime) {
+  const auto poseAt = [](double t) { return poseFromYpr(-1.2 + 0.3 * t, 0, 0, 0, 0, 0); };
+  for (const double gap_s : {0.1, 1.0, 1.9}) {
+    tracking::Tracker odometry({});
+    double t = 0;
+    for (int i = 0; i <= 20; ++i, t = 0.1 * i) ASSERT_TRUE(odometry.track(room().render(t, poseAt(t)), {}).tracked);
+    t = 2 + gap_s;
+    ASSERT_TRUE(odometry.track(room().render(t, poseAt(t)), {}).tracked) << gap_s;
+    TrackingResult covered;
+    for (int i = 1; i <= 14; ++i) {
+      Frame frame = room().render(t + 0.1 * i, poseAt(t));
+      frame.gray.setTo(0);
+      frame.color.setTo(0);
+      frame.depth.setTo(0);
+      covered = odometry.track(frame, {});
+      EXPECT_TRUE(covered.predicted);
+    }
+    const double error_m = std::abs(covered.odom_from_camera.translation().x() - 0.3 * (t + 1.4));
+    EXPECT_LT(error_m, std::sqrt(covered.step_covariance(0, 0))) << gap_s;
+  }
+}
+
 // What was seen long ago is no reference, nor its velocity a guess.
 TEST(FeatureOdometry, AChainEndsWithItsImages) {
   tracking::Tracker odometry({});

@@ -16,6 +16,7 @@ constexpr double kScansFor_s = 15;
 constexpr int kLeastReturns = 60;
 constexpr double kSearchEvery_s = 0.5, kViewEvery_s = 0.3;
 constexpr double kSlowDown = 0.02;  // of the time without success: searching costs more than it brings
+constexpr double kScanHolds_s = 2;  // after the latest scan the lidar tells no more where the robot is
 constexpr double kHigh_m = 0.15, kTilted_rad = 0.1;  // of a robot on the floor, as an image tells
 // A fix by a scan starts where the robot is thought to be.
 constexpr double kFixReach_m = 0.3, kFixTurn_rad = 0.1, kFixTurn = 0.3;
@@ -44,7 +45,15 @@ MapAnchor::MapAnchor(CSemanticMap map, const RelocalisationOptions& options,
       views_(map_.views),
       consensus_(options) {}
 
+bool MapAnchor::grounded() const { return hasScans() && latest_t_ - scans_.back().t < kScanHolds_s; }
+
+// As often that enough places are remembered at once to agree.
+double MapAnchor::pause(double quick_s, double since_s) const {
+  return std::clamp(kSlowDown * since_s, quick_s, std::max(quick_s, options_.recent_s / (2.0 * options_.agreeing_alone)));
+}
+
 void MapAnchor::add(const Scan& scan, const KeyPoses& poses) {
+  latest_t_ = std::max(latest_t_, scan.t);
   if (!locator_ || poses.empty()) return;
   if (scans_.size() > 1) {
     // The latest one is replaced until the robot has moved on.
@@ -60,10 +69,11 @@ void MapAnchor::add(const Scan& scan, const KeyPoses& poses) {
 }
 
 void MapAnchor::add(const Frame& frame, const std::vector<Box2>& people, const KeyPoses& poses) {
+  latest_t_ = std::max(latest_t_, frame.t);
   if (views_.empty() || poses.empty() || frame.t < next_view_t_) return;
-  if (anchoring_ && locator_ && !scans_.empty()) return;  // scans are more accurate
+  if (anchoring_ && grounded()) return;  // scans are more accurate
   if (first_t_ == 0) first_t_ = frame.t;
-  next_view_t_ = frame.t + std::max(kViewEvery_s, anchoring_ ? 0 : kSlowDown * (frame.t - first_t_));
+  next_view_t_ = frame.t + (anchoring_ ? kViewEvery_s : pause(kViewEvery_s, frame.t - first_t_));
   if (const auto match = views_.locate(frame, people))
     view_ = ViewAt{frame.t, match->world_from_camera * frame.robot_from_camera.inverse()};
 }
@@ -95,7 +105,7 @@ std::optional<GridFit> MapAnchor::fitOnWalls(const Pose2& map_from_robot, const 
 // What contradicts the walls, as the scans see them, is not said.
 void MapAnchor::sight(PlaceSource source, double t, const Pose3& map_from_robot, const KeyPoses& poses) {
   Pose3 place = map_from_robot;
-  if (grounded()) {
+  if (hasScans()) {
     const Pose3 robot_from_now = poses.at(t).inverse() * poses.at(scans_.back().t);
     const auto fit = fitOnWalls(planarPart(map_from_robot * robot_from_now), poses);
     if (!fit) return;
@@ -117,7 +127,7 @@ void MapAnchor::sightByScans(const KeyPoses& poses) {
   if (!grounded() || scans_.back().t < next_search_t_) return;
   const double now = scans_.back().t;
   if (first_t_ == 0) first_t_ = now;
-  next_search_t_ = now + std::max(kSearchEvery_s, kSlowDown * (now - first_t_));
+  next_search_t_ = now + pause(kSearchEvery_s, now - first_t_);
   const auto places = locator_->places(recentReturns(poses));
   if (places.empty()) return;
   if (places.size() > 1 && places[1].score > options_.ambiguity_ratio * places[0].score) return;
@@ -165,6 +175,7 @@ std::optional<MapFix> MapAnchor::fixByScan(const KeyPoses& poses) const {
 
 std::optional<MapFix> MapAnchor::fix(const KeyPoses& poses) {
   if (!anchoring_) return std::nullopt;
+  latest_t_ = std::max(latest_t_, poses.nodes().back().t);
   const Pose3 here = poses.nodes().back().world_from_robot;
   if (last_fix_from_) {
     const Pose3 moved = last_fix_from_->inverse() * here;
@@ -173,7 +184,9 @@ std::optional<MapFix> MapAnchor::fix(const KeyPoses& poses) {
   }
   std::optional<MapFix> out;
   if (grounded()) {
-    out = fixByScan(poses);
+    // Each scan once: its errors, and those of the map there, would count as many times.
+    if (scans_.back().t > fixed_scan_t_) out = fixByScan(poses);
+    if (out) fixed_scan_t_ = out->t;
   } else if (view_) {
     Vector6d sigma;
     sigma << Eigen::Vector3d::Constant(kViewSigma_m), Eigen::Vector3d::Constant(kViewSigma_rad);

@@ -95,7 +95,10 @@ void PoseEstimator::settleSurprises() {
   again_ = false;
   std::erase_if(surprises_, [&](Surprise& surprise) {
     const double before = std::exchange(surprise.size, surpriseOf(surprise.closure));
-    if (surprise.size <= 1) return true;
+    if (surprise.size <= 1) {
+      if (!surprise.believed) believe(surprise.closure);
+      return true;
+    }
     if (std::exchange(surprise.in_graph, false)) return !(surprise.size < kStillNearing * before);
     again_ = true;  // it came meanwhile, and what was taken over has undone what the window had made of it
     return false;
@@ -121,17 +124,25 @@ std::optional<PathShift> PoseEstimator::reconnect(const RelativePose& closure) {
 std::vector<PathShift> PoseEstimator::addClosures(const std::vector<RelativePose>& offered) {
   std::vector<PathShift> shifts;
   for (const auto& closure : gate_.admit(offered, poses_, drift_)) {
+    // What the poses do not show yet makes them no surer: others that say the same would contradict them.
+    bool shown = true;
     if (const double size = surpriseOf(closure); size > 1) {
-      surprises_.push_back({closure, size});
-      if (const auto shift = reconnect(closure)) shifts.push_back(*shift);
+      const auto shift = reconnect(closure);
+      shown = shift.has_value();
+      if (shift) shifts.push_back(*shift);
+      surprises_.push_back({.closure = closure, .size = size, .believed = shown});
     }
     measurements_.closures.push_back(closure);
-    if (closure.link)
-      drift_.link(poses_, closure);
-    else
-      drift_.close(poses_, closure);
+    if (shown) believe(closure);
   }
   return shifts;
+}
+
+void PoseEstimator::believe(const RelativePose& closure) {
+  if (closure.link)
+    drift_.link(poses_, closure);
+  else
+    drift_.close(poses_, closure);
 }
 
 // The first key pose after the last gap; 0: all are connected.

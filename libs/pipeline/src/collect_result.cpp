@@ -2,6 +2,7 @@
 // The map and the trajectories at the end of a run.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -64,13 +65,30 @@ SlamResult SemanticSlam::collect() {
   if (map_) result.earlier = earlierMapOf(*map_, first_t_.value_or(0));
   if (map_ && map_->anchoring()) continueMap(*map_, {objects_, setup_->database, setup_->options}, result);
   Trajectory dense;
-  for (const double t : robot_times_.empty() ? odometry_times_ : robot_times_)
+  for (const double t : timesOfPoses())
     if (dense.empty() || t > dense.lastTime()) dense.add(t, poses.at(t));
   result.map.world_from_robot.assign(dense.poses().begin(), dense.poses().end());
   result.world_from_robot = result.map.world_from_robot;
   for (const auto& [t, mount] : camera_mounts_) result.world_from_camera.push_back({t, poses.at(t) * mount});
   mapOccupancy(result, dense);
   return result;
+}
+
+// Those of frames and scans; of wheels, ten a second, where neither came for a second.
+std::vector<double> SemanticSlam::timesOfPoses() const {
+  constexpr double kEvery_s = 0.1;
+  if (robot_times_.empty()) return odometry_times_;
+  std::vector<double> alone;
+  auto next = robot_times_.begin();
+  for (const double t : odometry_times_) {
+    while (next != robot_times_.end() && *next <= t) ++next;
+    const bool far_after = next == robot_times_.begin() || t > *std::prev(next) + kOdometryAlone_s;
+    const bool far_before = next == robot_times_.end() || *next > t + kOdometryAlone_s;
+    if (far_after && far_before && (alone.empty() || t >= alone.back() + kEvery_s)) alone.push_back(t);
+  }
+  std::vector<double> out;
+  std::merge(robot_times_.begin(), robot_times_.end(), alone.begin(), alone.end(), std::back_inserter(out));
+  return out;
 }
 
 // The grid and the views, of an earlier map, too.

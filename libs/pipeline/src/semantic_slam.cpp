@@ -149,8 +149,8 @@ StepReport SemanticSlam::step(const OdometryReading& reading) {
     return {.t = reading.t};
   }
   odometry_times_.push_back(reading.t);
-  // Frames and scans say when a pose is wanted; without any, the readings do.
-  if (robot_times_.empty()) localize(reading.t);
+  // Frames and scans say when a pose is wanted; without any for a second, the readings do.
+  if (robot_times_.empty() || reading.t > robot_times_.back() + kOdometryAlone_s) localize(reading.t);
   return {.t = reading.t};
 }
 

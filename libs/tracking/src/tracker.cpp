@@ -23,6 +23,7 @@ namespace {
 constexpr int kCoastFrames = 3;         // lost frames over which the velocity is extrapolated
 constexpr double kMissing = 1.5;         // times the step before: an image is missing; less is how stamps vary at a steady rate
 constexpr double kLongestStep_s = 0.25;  // over which a velocity goes on
+constexpr double kLongestGap_s = 1000;   // before the first frame there is none
 constexpr double kUntoldPause_s = 2;    // without a frame, in which a camera may be carried away
 constexpr int kLoopPause = 3;           // keyframes between two loop closures
 constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
@@ -60,9 +61,9 @@ Pose3 Tracker::lastPose() const {
 
 Pose3 Tracker::goesOn() const {
   if (!velocity_ || velocity_->seconds <= 0) return Pose3::Identity();
-  const double share = step_s_ / velocity_->seconds;
-  if (share > 1 / kMissing && share < kMissing) return velocity_->step;
-  return interpolate(Pose3::Identity(), velocity_->step, share);
+  const double as_before = step_s_ / velocity_->seconds;
+  if (as_before > 1 / kMissing && as_before < kMissing) return velocity_->step;
+  return interpolate(Pose3::Identity(), velocity_->step, std::min(step_s_, kLongestStep_s) / velocity_->seconds);
 }
 
 TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others) {
@@ -70,7 +71,7 @@ TrackingResult Tracker::track(const Frame& frame, const TrackingPrior& by_others
   // Without other sensors the last velocity is trusted for a moment only.
   robot_from_camera_ = isMounted(frame) ? std::optional(frame.robot_from_camera) : std::nullopt;
   const bool goes_on = blind_frames_ < kCoastFrames || (parameters_.dense_alignment && dense_.unbroken(frame.t));
-  step_s_ = std::clamp(frame.t - reckoned_t_, 0.0, kLongestStep_s);
+  step_s_ = std::clamp(frame.t - reckoned_t_, 0.0, kLongestGap_s);
   reckoned_t_ = std::max(reckoned_t_, frame.t);
   const Pose3 guess = goes_on ? goesOn() : Pose3::Identity();
   carried_ |= !records_.empty() && frame.t - last_t_ > kUntoldPause_s && !prior.previous_from_current;

@@ -57,7 +57,11 @@ class MapAnchor {
     Pose3 map_from_robot;
   };
 
-  bool grounded() const { return locator_ && !scans_.empty(); }
+  bool hasScans() const { return locator_ && !scans_.empty(); }
+  /// Whether the lidar still tells where the robot is.
+  bool grounded() const;
+  /// Until the next search, after so long without success.
+  double pause(double quick_s, double since_s) const;
   std::vector<Eigen::Vector2d> recentReturns(const KeyPoses& poses) const;
   std::optional<GridFit> fitOnWalls(const Pose2& map_from_robot, const KeyPoses& poses) const;
   void sightByObjects(const std::vector<Landmark>& seen, const KeyPoses& poses);
@@ -74,7 +78,7 @@ class MapAnchor {
   PlaceConsensus consensus_;
   std::vector<KeptScan> scans_;  ///< of the last metres, the latest one last
   std::optional<ViewAt> view_;   ///< by the latest image that was recognised, until it was used
-  double next_search_t_ = 0, next_view_t_ = 0, first_t_ = 0;
+  double next_search_t_ = 0, next_view_t_ = 0, first_t_ = 0, latest_t_ = 0, fixed_scan_t_ = -1;
   std::optional<Pose3> last_fix_from_;
   std::optional<Anchoring> anchoring_;
 };

@@ -126,6 +126,8 @@ class PoseEstimator {
   void settleSurprises();
   std::size_t beginningAfterGap() const;
   std::optional<PathShift> reconnect(const RelativePose& closure);
+  /// The poses show a closure: they are as sure as it makes them.
+  void believe(const RelativePose& closure);
 
   const BackendOptions& options_;
   const Motion& motion_;
@@ -149,6 +151,7 @@ class PoseEstimator {
     double size;
     bool in_graph = false;  ///< in the one that is being optimised
     bool pulled = false;
+    bool believed = false;  ///< the drift knows of it
   };
   std::vector<Surprise> surprises_;  ///< while there are any: optimise soon
   bool levelled_ = false;

@@ -148,6 +148,7 @@ class SemanticSlam {
   bool anchor();
   void continueInMap();
   void mapOccupancy(SlamResult& result, const Trajectory& dense);
+  std::vector<double> timesOfPoses() const;
   void refine();
   SlamResult collect();
 
@@ -175,6 +176,7 @@ class SemanticSlam {
   std::optional<MapAnchor> map_;          ///< an earlier map that is continued
   ViewMemory views_;                      ///< for whoever continues this one
   RunCounts counts_;
+  static constexpr double kOdometryAlone_s = 1;  // without frames and scans
   double last_frame_t_, last_scan_t_;
   double placed_t_ = -1e300;  ///< of the last frame that was tracked
   std::optional<double> first_t_;                        ///< of the first record
