@@ -120,7 +120,9 @@ StepReport SemanticSlam::step(const Scan& scan) {
 
   Scan clean = scan;
   const auto moved = front_ends_.motion().movement(people_->t, scan.t, kMovementHorizon_s);
-  counts_.returns_on_people += removePeople(clean, moved ? seenAfter(*people_, planarPart(*moved)) : *people_);  // sec. 5
+  counts_.returns_on_people += removePeople(clean, *people_);  // sec. 5
+  // Where people were seen stays left out: they walk, too.
+  if (moved) counts_.returns_on_people += removePeople(clean, seenAfter(*people_, planarPart(*moved)));
   const ScanMatch matched = match(clean);
   if (!matched.matched) {
     ++counts_.scans_unmatched;
