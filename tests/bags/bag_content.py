@@ -13,10 +13,13 @@ WIDTH, HEIGHT = 16, 12
 FRAMES = 20  # at 10 Hz
 DEFAULTS = {"color": "rgb8", "depth": "16UC1", "info": True, "tf": True, "truth": "tf", "depth_delay": 0.0, "scan_offset": 0.0,
             "stamps": True, "extrinsics": "static", "odometry": True, "scan": True, "big_endian_depth": False, "seconds": FRAMES / 10,
-            "depth_frame": "camera_rgb_optical_frame", "depth_focal": 20.0, "model": "plumb_bob", "distortion": [0.0] * 5}
+            "depth_frame": "camera_rgb_optical_frame", "depth_focal": 20.0, "model": "plumb_bob", "distortion": [0.0] * 5,
+            "depth_every": 1, "small_depth_at": -1, "info_change": {}, "odometry_child": "base_footprint", "bad_transform": False, "back": 0.0, "back_received": True}
 # x right, y down, z forward, seen from x forward, y left, z up.
 OPTICAL = {"x": -0.5, "y": 0.5, "z": -0.5, "w": 0.5}
 UNIT = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
+HALF_TURN = {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0}
+SET_BACK = START + 1_010_000_000  # between two frames; what was measured in the first of them is received behind it
 
 
 def stamp(t_ns):
@@ -93,9 +96,9 @@ def rvl(values):
 
 
 def depth_message(k, t, options):
-    kind = options["depth"]
+    kind, every = options["depth"], 2 if k == options["small_depth_at"] else options["depth_every"]
     head = header(t, options["depth_frame"], options)
-    rows = [[millimetres(u, v, k) for u in range(WIDTH)] for v in range(HEIGHT)]
+    rows = [[millimetres(u, v, k) for u in range(0, WIDTH, every)] for v in range(0, HEIGHT, every)]
     topic = "/camera/depth/image_raw"
     if kind == "compressedDepth":
         data = struct.pack("<Iff", 0, 0, 0) + png(rows, 16, 1)
@@ -113,8 +116,8 @@ def depth_message(k, t, options):
         data = b"".join(struct.pack(order + "f", mm / 1000 if mm else math.nan) for row in rows for mm in row)
     else:
         data = b"".join(struct.pack(order + "H", mm) for row in rows for mm in row)
-    return topic, "sensor_msgs/Image", {"header": head, "height": HEIGHT, "width": WIDTH, "encoding": kind,
-                                        "is_bigendian": int(options["big_endian_depth"]), "step": len(data) // HEIGHT, "data": data}
+    return topic, "sensor_msgs/Image", {"header": head, "height": len(rows), "width": len(rows[0]), "encoding": kind,
+                                        "is_bigendian": int(options["big_endian_depth"]), "step": len(data) // len(rows), "data": data}
 
 
 def info_message(t, frame, focal, options):
@@ -122,7 +125,7 @@ def info_message(t, frame, focal, options):
     return {"header": header(t, frame, options), "height": HEIGHT, "width": WIDTH, "distortion_model": options["model"],
             "D": options["distortion"], "K": k, "R": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
             "P": [focal, 0.0, 7.5, 0.0, 0.0, focal, 5.5, 0.0, 0.0, 0.0, 1.0, 0.0], "binning_x": 0, "binning_y": 0,
-            "roi": {"x_offset": 0, "y_offset": 0, "height": 0, "width": 0, "do_rectify": False}}
+            "roi": {"x_offset": 0, "y_offset": 0, "height": 0, "width": 0, "do_rectify": False}, **options["info_change"]}
 
 
 def transform(t, parent, child, xyz, q=UNIT):
@@ -138,6 +141,10 @@ def sensor_transforms(t, options):
              transform(t, "camera_link", "camera_rgb_optical_frame", (0.0, 0.0, 0.0), OPTICAL),
              # Turned by a quarter to the left.
              transform(t, "base_link", "laser_link", (0.1, 0.0, 0.15), {"x": 0.0, "y": 0.0, "z": math.sqrt(0.5), "w": math.sqrt(0.5)})]
+    if options["odometry_child"] == "rear":
+        links.append(transform(t, "base_link", "rear", (-0.2, 0.0, 0.3), HALF_TURN))
+    if options["bad_transform"]:
+        links.insert(1, transform(t, "base_link", "gps", (0.0, 0.0, 1.0), {"x": 0.0, "y": 0.0, "z": 0.0, "w": 0.0}))
     if options["depth_frame"] == "camera_depth_optical_frame":
         links.append(transform(t, "camera_link", "camera_depth_optical_frame", (0.0, 0.025, 0.0), OPTICAL))
     return links
@@ -162,19 +169,26 @@ def pose(x):
     return {"position": {"x": x, "y": 0.0, "z": 0.0}, "orientation": UNIT}
 
 
+def odometry_message(t, frame, x, options):
+    rear = options["odometry_child"] == "rear"
+    here = {"position": {"x": x - 0.2, "y": 0.0, "z": 0.4}, "orientation": HALF_TURN} if rear else pose(x)
+    return {"header": header(t, frame, options), "child_frame_id": options["odometry_child"],
+            "pose": {"pose": here, "covariance": [0.0] * 36}, "twist": {"twist": twist(-0.5 if rear else 0.5), "covariance": [0.0] * 36}}
+
+
 def moving(k, t, options):
     """What comes with frame k, without the images."""
     x = position(t)
     if options["odometry"]:
-        yield "/odom", "nav_msgs/Odometry", t, {
-            "header": header(t, "odom", options), "child_frame_id": "base_footprint",
-            "pose": {"pose": pose(x), "covariance": [0.0] * 36}, "twist": {"twist": twist(0.5), "covariance": [0.0] * 36}}
+        yield "/odom", "nav_msgs/Odometry", t, odometry_message(t, "odom", x, options)
     if options["scan"]:
         yield "/scan", "sensor_msgs/LaserScan", t + 20_000_000, scan_message(t, options)
     yield "/imu/data", "sensor_msgs/Imu", t, {
         "header": header(t, "base_link", options), "orientation": UNIT, "orientation_covariance": [-1.0] + [0.0] * 8,
         "angular_velocity": {"x": 0.1, "y": 0.2, "z": 0.3}, "angular_velocity_covariance": [0.0] * 9,
         "linear_acceleration": {"x": 1.0, "y": 2.0, "z": 9.8}, "linear_acceleration_covariance": [0.0] * 9}
+    if options["truth"] == "odometry":
+        yield "/mocap/odom", "nav_msgs/Odometry", t, odometry_message(t, "world", 1 + x, options)
     if options["truth"] == "topic":
         yield "/mocap/robot/pose", "geometry_msgs/PoseStamped", t, {"header": header(t, "world", options), "pose": pose(1 + x)}
 
@@ -190,12 +204,35 @@ def transforms(k, t, options):
     yield "/tf", "tf2_msgs/TFMessage", t, {"transforms": links}
 
 
+def with_stamps(fields, change):
+    """A message whose stamps, in ns, are changed."""
+    if isinstance(fields, list):
+        return [with_stamps(entry, change) for entry in fields]
+    if not isinstance(fields, dict):
+        return fields
+    if set(fields) == {"secs", "nsecs"}:
+        return stamp(change(fields["secs"] * 10**9 + fields["nsecs"]))
+    return {name: with_stamps(value, change) for name, value in fields.items()}
+
+
 def messages(choice):
     """All messages in the order of reception."""
     unknown = set(choice) - set(DEFAULTS)
     if unknown:
         raise SystemExit(f"unknown options: {unknown}")
     options = {**DEFAULTS, **choice}
+    back = int(options["back"] * 1e9)
+
+    def change(t):
+        return t - back if t >= SET_BACK else t
+
+    for topic, kind, t, fields in straight(options):
+        received = change(t) if options["back_received"] else t
+        yield topic, kind, received, with_stamps(fields, change) if back else fields
+
+
+def straight(options):
+    """The same, on clocks that nobody sets back."""
     if options["tf"] and options["extrinsics"] == "static":
         yield "/tf_static", "tf2_msgs/TFMessage", START, {"transforms": sensor_transforms(START, options)}
     yield "/rosout", "std_msgs/String", START, {"data": "not imported"}

@@ -83,6 +83,17 @@ TEST(RecordQueue, DepthIsLeftToTheColourImageThatIsNearer) {
   EXPECT_EQ(valueOf(queue.takeDepth(200 * kMs)), 2);
 }
 
+TEST(RecordQueue, APauseOfTheRecorderCostsNoPairs) {
+  RecordQueue queue(1, 0.02);
+  queue.push(record(100, 100, true));
+  queue.pushDepth(105 * kMs, 105 * kMs, depth(1));
+  queue.push(record(9000, 9000));
+  EXPECT_EQ(queue.pop(false)->t_ns, 100 * kMs);
+  EXPECT_EQ(valueOf(queue.takeDepth(100 * kMs)), 1);
+  EXPECT_FALSE(queue.pop(false));
+  EXPECT_EQ(queue.unpairedDepth(), 0);
+}
+
 TEST(RecordQueue, DepthWithoutColourIsForgottenAndCounted) {
   RecordQueue queue(1, 0.02);
   for (int i = 0; i < 4; ++i) queue.pushDepth(i * kMs, i * kMs, depth(i + 1));

@@ -87,6 +87,7 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
   const ImportInputs inputs = inputsOf(bag);
   checkPlaces(places, inputs, options.external_images);
   bags::Survey survey = bags::surveyBag(bag, partOf(progress, 0, kSurveyShare));
+  bags::lookAtPictures(bag, survey);
   const auto plan = bags::planImport(survey, options, bag.string());
   BagImportResult result;
   append(result.warnings, survey.problems);

@@ -18,6 +18,20 @@ constexpr std::int64_t kTrackDelay_ns = 200'000'000;  // other edges of the way 
 constexpr std::int64_t kEndOfTime_ns = 7'258'118'400'000'000'000;  // 2200-01-01
 constexpr float kMaxRangeM = 10;                                   // for viewers only
 
+// Where the size was not known before, the first image that can be decoded tells it.
+void requireSize(PinholeCamera& camera, cv::Size image) {
+  if (camera.width == 0) {
+    camera.width = image.width;
+    camera.height = image.height;
+  }
+  if (image == cv::Size(camera.width, camera.height)) return;
+  const auto text = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw BadMessage("image of " + text(image.width, image.height) + " px, the camera is of " +
+                   text(camera.width, camera.height));
+}
+
 }  // namespace
 
 Conversion::Conversion(Survey survey, const ImportPlan& plan, const BagImportOptions& options, Sink sink)
@@ -26,7 +40,8 @@ Conversion::Conversion(Survey survey, const ImportPlan& plan, const BagImportOpt
       options_(options),
       sink_(std::move(sink)),
       frames_(survey_.frames, plan.robot, plan.handheld),
-      queue_(plan.window_s, options.max_time_difference_s) {
+      queue_(plan.window_s, options.max_time_difference_s),
+      clock_(survey_.restarts, survey_.receptions) {
   for (std::size_t i = 0; i < survey_.topics.size(); ++i) topics_.emplace(survey_.topics[i].topic.name, i);
 }
 
@@ -41,14 +56,14 @@ Want Conversion::wants(const BagTopic& topic) const {
 }
 
 void Conversion::take(const RawMessage& message, const BagTopic& topic) {
-  received_ns_ = std::max(received_ns_, message.received_ns);
   const std::size_t index = topics_.at(topic.name);
+  clock_.follow(index, message.received_ns);
   const auto& choice = plan_.choice;
   try {
     const TopicType type = survey_.topics[index].type;
     if (plan_.truth.topic == index) takeTruth(message, type);
     if (type == TopicType::kTransforms)
-      takeTransforms(message, isStaticTf(topic));
+      takeTransforms(message, topic.name, isStaticTf(topic));
     else if (choice.color == index)
       takeColor(message, index);
     else if (choice.depth == index)
@@ -74,32 +89,44 @@ void Conversion::finish() {
     skipped_[survey_.topics[*plan_.choice.depth].topic.name + ": no colour image of its time"] += count;
 }
 
-void Conversion::takeTransforms(const RawMessage& message, bool is_static) {
-  for (const auto& transform : decode<TransformsMessage>(message).transforms) {
+void Conversion::takeTransforms(const RawMessage& message, const std::string& topic, bool is_static) {
+  auto decoded = decode<TransformsMessage>(message);
+  for (const auto& fault : decoded.faults) ++skipped_[topic + ": " + fault];
+  for (auto& transform : decoded.transforms) {
+    auto& t = transform.header.stamp_ns;
+    const auto part = clock_.partOf(streamOf(transform), t);
+    t += clock_.addedNs(part);
     const auto edge = survey_.frames.follow(transform, is_static, kKeepTransforms_s);
     if (!edge) continue;
-    const auto t = transform.header.stamp_ns;
     newest_tf_ns_ = std::max(newest_tf_ns_, t);
-    if (plan_.truth.track && plan_.truth.track->edge == *edge) truth_stamps_.push_back(t);
-    if (plan_.odometry && plan_.odometry->edge == *edge) odometry_stamps_.push_back(t);
+    if (plan_.truth.track && plan_.truth.track->edge == *edge) truth_times_.push_back({t, part});
+    if (plan_.odometry && plan_.odometry->edge == *edge) odometry_times_.push_back({t, part});
   }
 }
 
 std::int64_t Conversion::timeOf(const MessageHeader& header, const RawMessage& message,
                                 std::size_t topic) const {
-  if (options_.times == BagTimes::kReceived || header.stamp_ns == 0) return message.received_ns;
+  const bool received = options_.times == BagTimes::kReceived || header.stamp_ns == 0;
   const auto shift = plan_.shifts_ns.find(topic);
-  const auto t = header.stamp_ns + (shift == plan_.shifts_ns.end() ? 0 : shift->second);
+  const auto t =
+      received ? message.received_ns : header.stamp_ns + (shift == plan_.shifts_ns.end() ? 0 : shift->second);
   if (t < 0 || t >= kEndOfTime_ns) throw BadMessage("time is not between 1970 and 2200");
   return t;
 }
 
-WaitingRecord Conversion::waiting(const MessageHeader& header, const RawMessage& message,
-                                  std::size_t topic) const {
+WaitingRecord Conversion::waiting(const MessageHeader& header, const RawMessage& message, std::size_t topic) {
   WaitingRecord record;
-  record.t_ns = timeOf(header, message, topic);
-  record.header_ns = header.stamp_ns == 0 ? message.received_ns : header.stamp_ns;
-  record.received_ns = message.received_ns;
+  const auto written_ns = timeOf(header, message, topic);
+  const auto stamp_ns = header.stamp_ns == 0 ? message.received_ns : header.stamp_ns;
+  const auto part = clock_.partOf(survey_.topics[topic].topic.name, stamp_ns);
+  record.header_ns = stamp_ns + clock_.addedNs(part);
+  // What has the time of reception is in order by that alone.
+  const bool stamped = options_.times != BagTimes::kReceived && header.stamp_ns != 0;
+  record.later_ns =
+      stamped ? clock_.apartNs(part)
+              : clock_.receivedNs() - message.received_ns + clock_.apartNs(part) - clock_.addedNs(part);
+  record.t_ns = written_ns + record.later_ns;
+  record.received_ns = clock_.receivedNs();
   record.frame = header.frame;
   return record;
 }
@@ -107,7 +134,9 @@ WaitingRecord Conversion::waiting(const MessageHeader& header, const RawMessage&
 void Conversion::takeColor(const RawMessage& message, std::size_t topic) {
   const bool compressed = survey_.topics[topic].type == TopicType::kCompressedImage;
   const auto image = imageOf(message, compressed);
-  const cv::Mat decoded = colorImageOf(image, compressed), pixels = plan_.color->rectified(decoded, false);
+  const cv::Mat decoded = colorImageOf(image, compressed);
+  requireSize(plan_.color->camera, decoded.size());
+  const cv::Mat pixels = plan_.color->rectified(decoded, false);
   auto record = waiting(image.header, message, topic);
   auto images = mrpt::obs::CObservation3DRangeScan::Create();
   images->hasIntensityImage = true;
@@ -124,10 +153,12 @@ void Conversion::takeColor(const RawMessage& message, std::size_t topic) {
 void Conversion::takeDepth(const RawMessage& message, std::size_t topic) {
   const bool compressed = survey_.topics[topic].type == TopicType::kCompressedImage;
   const auto image = imageOf(message, compressed);
-  const cv::Mat depth = plan_.depth->rectified(depthImageOf(image, compressed), true);
+  const cv::Mat decoded = depthImageOf(image, compressed);
+  requireSize(plan_.depth->camera, decoded.size());
+  const cv::Mat depth = plan_.depth->rectified(decoded, true);
   auto record = waiting(image.header, message, topic);
   if (plan_.color) {
-    queue_.pushDepth(record.t_ns, message.received_ns, depth);
+    queue_.pushDepth(record.t_ns, record.received_ns, depth);
     return;
   }
   auto images = mrpt::obs::CObservation3DRangeScan::Create();
@@ -155,7 +186,8 @@ void Conversion::takeOdometry(const RawMessage& message, std::size_t topic) {
   auto record = waiting(odometry.header, message, topic);
   record.observation = makeOdometry(odometry);
   record.observation->sensorLabel = plan_.labels.at(topic);
-  record.placed = true;
+  record.placed = plan_.odometry_frame.empty();
+  if (!record.placed) record.odometry = odometry;
   queue_.push(std::move(record));
 }
 
@@ -175,46 +207,77 @@ void Conversion::takeTruth(const RawMessage& message, TopicType type) {
   } else {
     pose = decode<PoseMessage>(message);
   }
-  addTruth(timeOf(pose.header, message, *plan_.truth.topic), pose.pose);
+  const auto t = timeOf(pose.header, message, *plan_.truth.topic);
+  const auto stamp = pose.header.stamp_ns == 0 ? message.received_ns : pose.header.stamp_ns;
+  const auto part = clock_.partOf(survey_.topics[*plan_.truth.topic].topic.name, stamp);
+  if (plan_.truth.frame.empty() || part > 0)
+    addTruth({t, part}, pose.pose);
+  else
+    truth_waiting_.push_back({{t, part}, pose.pose});
 }
 
-void Conversion::addTruth(std::int64_t t_ns, const Pose3& pose) {
-  if (t_ns <= last_truth_ns_) {
+void Conversion::addTruth(const TrackTime& t, const Pose3& pose) {
+  if (t.part > 0) {  // its times stand for others before, too
+    ++skipped_["ground truth: behind the place where the clocks are set back"];
+    return;
+  }
+  if (t.t_ns <= last_truth_ns_) {
     ++skipped_["ground truth: not in order of time"];
     return;
   }
-  last_truth_ns_ = t_ns;
+  last_truth_ns_ = t.t_ns;
   const Eigen::Quaterniond q(pose.linear());
   const auto p = pose.translation();
   char line[256];
   std::snprintf(line, sizeof line, "%.9f %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n",
-                1e-9 * static_cast<double>(t_ns), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+                1e-9 * static_cast<double>(t.t_ns), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
   truth_ += line;
 }
 
-void Conversion::sample(const TfTrack& track, std::deque<std::int64_t>& stamps, bool all,
-                        const std::function<void(std::int64_t, const Pose3&)>& use) {
-  while (!stamps.empty() && (all || stamps.front() + kTrackDelay_ns < newest_tf_ns_)) {
-    const auto t = stamps.front();
-    stamps.pop_front();
-    if (const auto pose = survey_.frames.at(track.way, t)) use(t, *pose);
+bool Conversion::isPast(std::int64_t t_ns, bool all) const {
+  return all || t_ns + kTrackDelay_ns < newest_tf_ns_;
+}
+
+void Conversion::sample(const TfTrack& track, std::deque<TrackTime>& times, bool all,
+                        const std::function<void(const TrackTime&, const Pose3&)>& use) {
+  while (!times.empty() && isPast(times.front().t_ns, all)) {
+    const auto t = times.front();
+    times.pop_front();
+    if (const auto pose = survey_.frames.at(track.way, t.t_ns)) use(t, *pose);
   }
 }
 
 void Conversion::sampleTracks(bool all) {
+  turnTruth(all);
   if (plan_.truth.track)
-    sample(*plan_.truth.track, truth_stamps_, all,
-           [this](std::int64_t t, const Pose3& pose) { addTruth(t, pose); });
+    sample(*plan_.truth.track, truth_times_, all,
+           [this](const TrackTime& t, const Pose3& pose) { addTruth(t, pose); });
   if (!plan_.odometry) return;
-  sample(*plan_.odometry, odometry_stamps_, all, [this](std::int64_t t, const Pose3& pose) {
+  sample(*plan_.odometry, odometry_times_, all, [this](const TrackTime& t, const Pose3& pose) {
     WaitingRecord record;
     record.observation = makeOdometry(pose);
     record.observation->sensorLabel = "ODOMETRY";
-    record.t_ns = record.header_ns = t;
-    record.received_ns = received_ns_;
+    record.header_ns = t.t_ns;
+    record.later_ns = clock_.apartNs(t.part);
+    record.t_ns = t.t_ns - clock_.addedNs(t.part) + record.later_ns;
+    record.received_ns = clock_.receivedNs();
     record.placed = true;
     queue_.push(std::move(record));
   });
+}
+
+// Poses of a frame on the robot wait for the transforms of their times.
+void Conversion::turnTruth(bool all) {
+  while (!truth_waiting_.empty() && isPast(truth_waiting_.front().first.t_ns, all)) {
+    const auto [t, pose] = truth_waiting_.front();
+    truth_waiting_.pop_front();
+    const auto& body = plan_.robot.empty() ? plan_.handheld : plan_.robot;
+    const auto way = survey_.frames.way(plan_.truth.frame, body);
+    if (const auto frame_from_body = survey_.frames.at(*way, t.t_ns))
+      addTruth(t, normalized(pose * *frame_from_body));
+    else
+      ++skipped_["ground truth: no transform from '" + body + "' to '" + plan_.truth.frame + "' at its time"];
+  }
 }
 
 void Conversion::release(bool all) {
@@ -225,7 +288,7 @@ void Conversion::release(bool all) {
       ++skipped_[label + ": " + problem];
       continue;
     }
-    record->observation->timestamp = toMrptTime(record->t_ns);
+    record->observation->timestamp = toMrptTime(record->t_ns - record->later_ns);
     sink_(*record->observation, record->picture);
     ++written_[label];
   }
@@ -235,7 +298,16 @@ std::string Conversion::complete(WaitingRecord& record) {
   if (record.placed) return "";
   if (std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(record.observation))
     return completeImages(record);
-  return place(record);
+  return record.odometry ? completeOdometry(record) : place(record);
+}
+
+std::string Conversion::completeOdometry(WaitingRecord& record) {
+  const auto robot_from_frame = frames_.at(plan_.odometry_frame, record.header_ns);
+  if (!robot_from_frame) return robot_from_frame.reason();
+  const auto label = record.observation->sensorLabel;
+  record.observation = makeOdometry(movedTo(*record.odometry, robot_from_frame->inverse()));
+  record.observation->sensorLabel = label;
+  return "";
 }
 
 std::string Conversion::place(WaitingRecord& record) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "continued_clock.h"
 #include "import_plan.h"
 #include "record_queue.h"
 #include "sensor_frames.h"
@@ -34,25 +35,33 @@ class Conversion {
   std::vector<std::string> warnings() const { return frames_.warnings(); }
 
  private:
-  void takeTransforms(const RawMessage& message, bool is_static);
+  void takeTransforms(const RawMessage& message, const std::string& topic, bool is_static);
   void takeColor(const RawMessage& message, std::size_t topic);
   void takeDepth(const RawMessage& message, std::size_t topic);
   void takeScan(const RawMessage& message, std::size_t topic);
   void takeOdometry(const RawMessage& message, std::size_t topic);
   void takeImu(const RawMessage& message, std::size_t topic);
   void takeTruth(const RawMessage& message, TopicType type);
-  WaitingRecord waiting(const MessageHeader& header, const RawMessage& message, std::size_t topic) const;
+  WaitingRecord waiting(const MessageHeader& header, const RawMessage& message, std::size_t topic);
   std::int64_t timeOf(const MessageHeader& header, const RawMessage& message, std::size_t topic) const;
 
-  void sample(const TfTrack& track, std::deque<std::int64_t>& stamps, bool all,
-              const std::function<void(std::int64_t, const Pose3&)>& use);
+  /// Time of a transform, on the clock that goes on.
+  struct TrackTime {
+    std::int64_t t_ns = 0;
+    std::size_t part = 0;
+  };
+  void sample(const TfTrack& track, std::deque<TrackTime>& times, bool all,
+              const std::function<void(const TrackTime&, const Pose3&)>& use);
   void sampleTracks(bool all);
+  void turnTruth(bool all);
+  bool isPast(std::int64_t t_ns, bool all) const;
   void release(bool all);
   /// Empty, or why the record cannot be written.
   std::string complete(WaitingRecord& record);
   std::string completeImages(WaitingRecord& record);
+  std::string completeOdometry(WaitingRecord& record);
   std::string place(WaitingRecord& record);
-  void addTruth(std::int64_t t_ns, const Pose3& pose);
+  void addTruth(const TrackTime& t, const Pose3& pose);
 
   Survey survey_;
   ImportPlan plan_;
@@ -60,9 +69,11 @@ class Conversion {
   Sink sink_;
   SensorFrames frames_;
   RecordQueue queue_;
+  ContinuedClock clock_;
   std::map<std::string, std::size_t> topics_;  ///< index in the survey by name
-  std::deque<std::int64_t> truth_stamps_, odometry_stamps_;
-  std::int64_t newest_tf_ns_ = 0, received_ns_ = 0, last_truth_ns_ = 0;
+  std::deque<TrackTime> truth_times_, odometry_times_;
+  std::deque<std::pair<TrackTime, Pose3>> truth_waiting_;  ///< of another frame than the robot's
+  std::int64_t newest_tf_ns_ = 0, last_truth_ns_ = 0;
   std::map<std::string, int> written_, skipped_;
   std::string truth_;
 };

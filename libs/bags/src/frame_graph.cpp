@@ -18,6 +18,10 @@ bool differs(const Pose3& a, const Pose3& b) {
 
 }  // namespace
 
+std::string streamOf(const TransformMessage& transform) {
+  return transform.header.frame + " -> " + transform.child_frame;
+}
+
 FrameGraph::Edge* FrameGraph::find(const TransformMessage& transform) {
   for (auto& edge : edges_)
     if (edge.child == transform.child_frame && edge.parent == transform.header.frame) return &edge;

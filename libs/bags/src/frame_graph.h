@@ -11,6 +11,9 @@
 
 namespace roomgraph::bags {
 
+/// "parent -> child".
+std::string streamOf(const TransformMessage& transform);
+
 /// The frames that tf and tf_static connect. First everything is learned() (which frames there are and which
 /// of them move), then the moving ones are followed(): their transforms of the last seconds are kept.
 class FrameGraph {

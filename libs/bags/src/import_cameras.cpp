@@ -10,13 +10,32 @@ namespace {
 
 const char* const kGiveCamera = "; --camera says what it is";
 
+// Empty where it is not known, or nothing that an image can have.
+cv::Size sizeOf(const ImageHead& image) {
+  constexpr std::uint32_t kWidest = 1u << 14;
+  if (image.width > kWidest || image.height > kWidest) return {};
+  return {static_cast<int>(image.width), static_cast<int>(image.height)};
+}
+
+std::string scaledBy(double factor) {
+  char out[80];
+  std::snprintf(out, sizeof out, " of another size: it is scaled by %.4g", factor);
+  return out;
+}
+
 std::optional<CameraModel> modelOf(const Survey& survey, std::optional<std::size_t> image,
-                                   std::optional<std::size_t> info, std::vector<std::string>& warnings) {
+                                   std::optional<std::size_t> info, bool rectified,
+                                   std::vector<std::string>& warnings) {
   if (!image || !info) return std::nullopt;
   const auto& source = survey.topics[*info];
+  const auto& images = survey.topics[*image];
   try {
     if (!source.info) throw BadMessage("no message of it can be read");
-    return cameraModel(*source.info, namedRectified(survey.topics[*image].topic.name));
+    const auto model = cameraModel(*source.info, rectified, sizeOf(images.image));
+    if (model.scale != 1)
+      warnings.push_back(source.topic.name + ": the images of " + images.topic.name + " are" +
+                         scaledBy(model.scale));
+    return model;
   } catch (const BadMessage& error) {
     warnings.push_back(source.topic.name + ": " + error.what());
     return std::nullopt;
@@ -24,20 +43,37 @@ std::optional<CameraModel> modelOf(const Survey& survey, std::optional<std::size
 }
 
 bool sameSize(const ImageHead& a, const ImageHead& b) {
-  return a.width == b.width && a.height == b.height;  // 0 of compressed images
+  return a.width == b.width && a.height == b.height;  // 0 of pictures that cannot be decoded
 }
 
-// A camera given by the user stands for both, and its size may be left to the images.
-void takeGiven(const Survey& survey, const PinholeCamera& camera, ImportPlan& plan) {
-  CameraModel model{camera, {}, {}};
+std::optional<CameraModel> givenModel(const SurveyedTopic& images, const PinholeCamera& camera,
+                                      std::vector<std::string>& warnings) {
+  CameraModel model;
+  model.camera = camera;
+  if (camera.width == 0) return model;
+  try {
+    model.camera = fittedTo(camera, sizeOf(images.image));
+  } catch (const BadMessage& error) {
+    warnings.push_back(std::string("--camera: ") + error.what());
+    return std::nullopt;
+  }
+  model.scale = static_cast<double>(model.camera.width) / camera.width;
+  if (model.scale != 1)
+    warnings.push_back("--camera: the images of " + images.topic.name + " are" + scaledBy(model.scale));
+  return model;
+}
+
+// A camera given by the user stands for both, and its size may be left to the images: those of colour first.
+void takeGiven(const Survey& survey, PinholeCamera camera, ImportPlan& plan) {
   const auto& choice = plan.choice;
   for (const auto topic : {choice.color, choice.depth})
-    if (topic && model.camera.width == 0) {
-      model.camera.width = static_cast<int>(survey.topics[*topic].image.width);
-      model.camera.height = static_cast<int>(survey.topics[*topic].image.height);
+    if (topic && camera.width == 0) {
+      const auto size = sizeOf(survey.topics[*topic].image);
+      camera.width = size.width;
+      camera.height = size.height;
     }
-  if (choice.color) plan.color = model;
-  if (choice.depth) plan.depth = model;
+  if (choice.color) plan.color = givenModel(survey.topics[*choice.color], camera, plan.warnings);
+  if (choice.depth) plan.depth = givenModel(survey.topics[*choice.depth], camera, plan.warnings);
 }
 
 std::string text(const PinholeCamera& camera) {
@@ -48,9 +84,10 @@ std::string text(const PinholeCamera& camera) {
 }
 
 bool alike(const PinholeCamera& a, const PinholeCamera& b) {
-  const double scale = static_cast<double>(b.width) / a.width;
-  const auto close = [&](double x, double y) { return std::abs(scale * x - y) < 0.01 * b.fx; };
-  return close(a.fx, b.fx) && close(a.fy, b.fy) && close(a.cx, b.cx) && close(a.cy, b.cy);
+  const double scale = a.width > 0 && b.width > 0 ? static_cast<double>(b.width) / a.width : 1;
+  const PinholeCamera same = a.scaled(scale);
+  const auto close = [&](double x, double y) { return std::abs(x - y) < 0.01 * b.fx; };
+  return close(same.fx, b.fx) && close(same.fy, b.fy) && close(same.cx, b.cx) && close(same.cy, b.cy);
 }
 
 // Depth without camera_info has the camera of the colour image when their frames agree, and conversely.
@@ -59,14 +96,17 @@ void lendModels(const Survey& survey, ImportPlan& plan) {
   const auto& depth = survey.topics[*plan.choice.depth];
   const bool one_camera = color.frame == depth.frame && sameSize(color.image, depth.image);
   if (plan.color && !plan.depth) {
-    plan.depth = plan.color;
+    plan.depth = modelOf(survey, plan.choice.depth, plan.choice.color_info, namedRectified(color.topic.name),
+                         plan.warnings);
+    if (!plan.depth) return;
     plan.warnings.push_back(depth.topic.name +
-                            ": no camera_info; the depth is taken as registered to the colour image" +
+                            ": no usable camera_info; the depth is taken as registered to the colour image" +
                             (one_camera ? "" : ", though frame or size differ"));
   } else if (plan.depth && !plan.color && one_camera) {
     plan.color = plan.depth;
-    plan.warnings.push_back(color.topic.name +
-                            ": no camera_info; that of the depth image, which has the same frame, is taken");
+    plan.warnings.push_back(
+        color.topic.name +
+        ": no usable camera_info; that of the depth image, which has the same frame, is taken");
   }
 }
 
@@ -104,8 +144,11 @@ void planCameras(const Survey& survey, const BagImportOptions& options, ImportPl
   if (options.camera) {
     takeGiven(survey, *options.camera, plan);
   } else {
-    plan.color = modelOf(survey, choice.color, choice.color_info, plan.warnings);
-    plan.depth = modelOf(survey, choice.depth, choice.depth_info, plan.warnings);
+    const auto named = [&](std::optional<std::size_t> topic) {
+      return topic && namedRectified(survey.topics[*topic].topic.name);
+    };
+    plan.color = modelOf(survey, choice.color, choice.color_info, named(choice.color), plan.warnings);
+    plan.depth = modelOf(survey, choice.depth, choice.depth_info, named(choice.depth), plan.warnings);
     if (choice.color && choice.depth) lendModels(survey, plan);
   }
   for (const auto& [topic, model] :

@@ -11,16 +11,6 @@
 namespace roomgraph::bags {
 namespace {
 
-bool containsAny(const std::string& name, const std::vector<std::string>& words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const auto& word) { return name.find(word) != std::string::npos; });
-}
-
-const std::vector<std::string>& truthWords() {
-  static const std::vector<std::string> words{"truth", "mocap", "vicon", "optitrack", "qualisys"};
-  return words;
-}
-
 std::string odometryFrame(const Survey& survey, const TopicChoice& choice) {
   return choice.odometry ? survey.topics[*choice.odometry].frame : "odom";
 }
@@ -78,7 +68,7 @@ std::optional<TfTrack> trackOf(const FrameGraph& frames, const std::string& to, 
 TruthPlan truthFromTf(const FrameGraph& frames, const std::string& world, const std::string& body) {
   const auto track = trackOf(frames, world, body);
   if (!track) return {};
-  return {"tf " + world + " -> " + body, track, std::nullopt};
+  return {"tf " + world + " -> " + body, track, std::nullopt, {}};
 }
 
 bool tellsPoses(const SurveyedTopic& topic) {
@@ -91,7 +81,7 @@ TruthPlan truthAskedFor(const Survey& survey, const std::string& name, const std
     if (!tellsPoses(survey.topics[*topic]))
       throw ConfigError("--truth " + name + ": is of type " + survey.topics[*topic].topic.type +
                         ", not nav_msgs/Odometry or geometry_msgs/PoseStamped");
-    return {name, std::nullopt, topic};
+    return {name, std::nullopt, topic, {}};
   }
   auto truth = truthFromTf(survey.frames, name, body);
   if (truth.name.empty())
@@ -102,13 +92,12 @@ TruthPlan truthAskedFor(const Survey& survey, const std::string& name, const std
 
 TruthPlan findTruth(const Survey& survey, const TopicChoice& choice, const std::string& body) {
   for (std::size_t i = 0; i < survey.topics.size(); ++i)
-    if (tellsPoses(survey.topics[i]) && choice.odometry != i &&
-        containsAny(survey.topics[i].topic.name, truthWords()))
-      return {survey.topics[i].topic.name, std::nullopt, i};
+    if (tellsPoses(survey.topics[i]) && choice.odometry != i && namedTruth(survey.topics[i].topic.name))
+      return {survey.topics[i].topic.name, std::nullopt, i, {}};
   const auto& frames = survey.frames;
   std::vector<std::string> worlds;
   for (const auto& frame : frames.frames())
-    if (containsAny(frame, truthWords())) worlds.push_back(frame);
+    if (namedTruth(frame)) worlds.push_back(frame);
   worlds.insert(worlds.end(), {"world", "map"});
   const auto odometry = trackOf(frames, odometryFrame(survey, choice), body);
   for (const auto& world : worlds) {
@@ -125,10 +114,23 @@ TruthPlan findTruth(const Survey& survey, const TopicChoice& choice, const std::
   return {};
 }
 
+// The frame whose poses a topic tells, when they have to be turned into those of `body`.
+std::string otherFrame(const Survey& survey, std::size_t topic, const std::string& what,
+                       const std::string& body, std::vector<std::string>& warnings) {
+  const std::string& frame = survey.topics[topic].child_frame;
+  if (frame.empty() || body.empty() || frame == body) return "";
+  if (survey.frames.way(frame, body)) return frame;
+  warnings.push_back(survey.topics[topic].topic.name + ": " + what + " is of '" + frame +
+                     "', the robot is '" + body + "': no transform between them; taken as that of the robot");
+  return "";
+}
+
 void planTruth(const Survey& survey, const BagImportOptions& options, ImportPlan& plan) {
   const std::string& body = plan.robot.empty() ? plan.handheld : plan.robot;
   plan.truth = options.truth.empty() ? findTruth(survey, plan.choice, body)
                                      : truthAskedFor(survey, options.truth, body);
+  if (plan.truth.topic)
+    plan.truth.frame = otherFrame(survey, *plan.truth.topic, "ground truth", body, plan.warnings);
   if (options.truth.empty() && plan.truth.name.starts_with("tf map "))
     plan.warnings.push_back(
         plan.truth.name +
@@ -159,6 +161,8 @@ ImportPlan planImport(const Survey& survey, const BagImportOptions& options, con
       camera && plan.robot.empty())
     plan.handheld = survey.topics[*camera].frame;
   addLabels(survey, plan);
+  if (plan.choice.odometry)
+    plan.odometry_frame = otherFrame(survey, *plan.choice.odometry, "odometry", plan.robot, plan.warnings);
   planTimes(survey, options, plan);
   planCameras(survey, options, plan);
   if (plan.choice.tf) {

@@ -23,6 +23,7 @@ struct TruthPlan {
   std::string name;  ///< "tf world -> base_link", "/mocap/pose"; empty: none
   std::optional<TfTrack> track;
   std::optional<std::size_t> topic;  ///< Odometry or PoseStamped
+  std::string frame;                 ///< whose poses the topic has; empty: those of the robot or camera
 };
 
 struct ImportPlan {
@@ -37,6 +38,7 @@ struct ImportPlan {
   std::optional<TfTrack> odometry;  ///< when no topic has it
   double window_s = 1;              ///< by which records may be out of order
   std::vector<std::string> warnings;
+  std::string odometry_frame;  ///< of a chosen topic that tells of another frame than the robot's; else empty
 };
 
 /// Throws ConfigError (options that name what is not there), InputError (nothing in the bag can be imported).

@@ -35,10 +35,27 @@ double medianDelay(const std::vector<TopicClock>& clocks) {
   return median(delays);
 }
 
+std::string setBack(const std::vector<ClockRestart>& restarts) {
+  std::int64_t most_ns = 0;
+  for (const auto& restart : restarts) most_ns = std::max(most_ns, restart.back_ns);
+  const std::string by = "set back by " + seconds(1e-9 * static_cast<double>(most_ns));
+  return restarts.size() == 1 ? by : by + " at most, " + std::to_string(restarts.size()) + " times";
+}
+
+void tellRestarts(const Survey& survey, std::vector<std::string>& warnings) {
+  if (!survey.restarts.empty())
+    warnings.push_back("clocks: they are " + setBack(survey.restarts) +
+                       " within the bag; records keep their times, in the order of reception there");
+  else if (!survey.receptions.empty())
+    warnings.push_back("clocks: the recorder's is " + setBack(survey.receptions) +
+                       " within the bag, those of the sensors are not");
+}
+
 }  // namespace
 
 void planTimes(const Survey& survey, const BagImportOptions& options, ImportPlan& plan) {
   constexpr double kOff_s = 0.2, kDrift_s = 0.1, kWidest_s = 5;
+  tellRestarts(survey, plan.warnings);
   const auto clocks = clocksOf(survey, plan);
   const double usual = medianDelay(clocks);
   double spread = 0;
@@ -50,7 +67,8 @@ void planTimes(const Survey& survey, const BagImportOptions& options, ImportPlan
       plan.warnings.push_back(
           name + ": clock is " + seconds(std::abs(off)) + (off < 0 ? " behind" : " ahead of") +
           " those of the other sensors (header times against reception); --times corrected shifts it");
-    if (std::abs(drift) > kDrift_s)
+    const bool steady = survey.restarts.size() == survey.receptions.size();
+    if (steady && std::abs(drift) > kDrift_s)
       plan.warnings.push_back(name + ": clock drifts by " + seconds(drift) +
                               " against the recorder's from the first to the last quarter");
     if (options.times == BagTimes::kCorrected)

@@ -40,10 +40,7 @@ void readSequence(In& in, std::vector<Number>& numbers) {
   for (std::size_t i = 0; i < count; ++i) numbers.push_back(in.template number<Number>());
 }
 
-template <class In>
-Pose3 readPose(In& in) {
-  std::array<double, 7> v;
-  read(in, v);
+Pose3 poseOf(const std::array<double, 7>& v) {
   Pose3 pose = Pose3::Identity();
   pose.translation() = Eigen::Vector3d(v[0], v[1], v[2]);
   Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
@@ -51,6 +48,13 @@ Pose3 readPose(In& in) {
   if (std::abs(q.norm() - 1) > 0.1) throw BadMessage("quaternion is not of length 1");
   pose.linear() = q.normalized().toRotationMatrix();
   return pose;
+}
+
+template <class In>
+Pose3 readPose(In& in) {
+  std::array<double, 7> numbers;
+  read(in, numbers);
+  return poseOf(numbers);
 }
 
 template <class In>
@@ -79,6 +83,12 @@ void read(In& in, CameraInfoMessage& info) {
   read(in, info.p);
   info.binning_x = in.template number<std::uint32_t>();
   info.binning_y = in.template number<std::uint32_t>();
+  info.roi_x = in.template number<std::uint32_t>();
+  info.roi_y = in.template number<std::uint32_t>();
+  info.roi_height = in.template number<std::uint32_t>();
+  info.roi_width = in.template number<std::uint32_t>();
+  in.template number<std::uint8_t>();  // do_rectify: whether the rectified images show the same region; they
+                                       // do
 }
 
 template <class In>
@@ -116,8 +126,15 @@ void read(In& in, TransformsMessage& message) {
     TransformMessage transform;
     read(in, transform.header);
     transform.child_frame = withoutSlash(in.text());
-    transform.parent_from_child = readPose(in);
-    message.transforms.push_back(std::move(transform));
+    std::array<double, 7> numbers;
+    read(in, numbers);
+    // One publisher's transform that nobody has set costs the others in its message nothing.
+    try {
+      transform.parent_from_child = poseOf(numbers);
+      message.transforms.push_back(std::move(transform));
+    } catch (const BadMessage& error) {
+      message.faults.push_back(transform.header.frame + " -> " + transform.child_frame + ": " + error.what());
+    }
   }
 }
 

@@ -45,6 +45,8 @@ struct CameraInfoMessage {
   std::array<double, 9> k{}, r{};
   std::array<double, 12> p{};
   std::uint32_t binning_x = 0, binning_y = 0;
+  std::uint32_t roi_x = 0, roi_y = 0, roi_width = 0,
+                roi_height = 0;  ///< before binning; width 0: the whole image
 };
 
 /// sensor_msgs/LaserScan: rad, s, m.
@@ -77,6 +79,8 @@ struct TransformMessage {
 };
 struct TransformsMessage {
   std::vector<TransformMessage> transforms;
+  std::vector<std::string>
+      faults;  ///< of those that cannot be used and are left out: "base -> gps: quaternion …"
 };
 
 /// sensor_msgs/Imu: orientation (x, y, z, w), rad/s, m/s^2. A first covariance of -1 says that there is none.

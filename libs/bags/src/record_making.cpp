@@ -79,6 +79,16 @@ mrpt::obs::CObservationOdometry::Ptr makeOdometry(const OdometryMessage& message
   return odometry;
 }
 
+OdometryMessage movedTo(const OdometryMessage& odometry, const Pose3& child_from_other) {
+  OdometryMessage out = odometry;
+  out.pose = normalized(odometry.pose * child_from_other);
+  Eigen::Map<Eigen::Vector3d> linear(out.twist.data()), angular(out.twist.data() + 3);
+  const Eigen::Matrix3d other_from_child = child_from_other.linear().transpose();
+  linear = other_from_child * (linear + angular.cross(child_from_other.translation())).eval();
+  angular = (other_from_child * angular).eval();
+  return out;
+}
+
 mrpt::obs::CObservationIMU::Ptr makeImu(const ImuMessage& message) {
   using namespace mrpt::obs;
   auto imu = CObservationIMU::Create();

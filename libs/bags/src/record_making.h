@@ -25,6 +25,9 @@ mrpt::obs::CObservation2DRangeScan::Ptr makeScan(const LaserScanMessage& message
 mrpt::obs::CObservationOdometry::Ptr makeOdometry(const Pose3& odom_from_robot);
 mrpt::obs::CObservationOdometry::Ptr makeOdometry(const OdometryMessage& message);
 
+/// The odometry of another frame that sits on the same body.
+OdometryMessage movedTo(const OdometryMessage& odometry, const Pose3& child_from_other);
+
 /// Throws BadMessage when it measures nothing.
 mrpt::obs::CObservationIMU::Ptr makeImu(const ImuMessage& message);
 

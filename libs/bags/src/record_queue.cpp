@@ -41,16 +41,24 @@ void RecordQueue::pushDepth(std::int64_t t_ns, std::int64_t received_ns, cv::Mat
   depths_.emplace(t_ns, WaitingDepth{received_ns, std::move(depth)});
 }
 
-std::optional<WaitingRecord> RecordQueue::pop(bool all) {
-  // Depth images whose colour image would have come long ago.
+// Depth images whose colour image would have come long ago.
+void RecordQueue::forgetDepths() {
   while (!depths_.empty() && depths_.begin()->second.received_ns + 2 * window_ns_ < now_ns_) {
     bytes_ -= bytesIn(depths_.begin()->second.image);
     depths_.erase(depths_.begin());
     ++unpaired_depth_;
   }
-  if (records_.empty()) return std::nullopt;
+}
+
+std::optional<WaitingRecord> RecordQueue::pop(bool all) {
   const auto first = records_.begin();
-  if (!all && bytes_ < kMostBytes && first->second.received_ns + window_ns_ >= now_ns_) return std::nullopt;
+  const bool due = first != records_.end() &&
+                   (all || bytes_ >= kMostBytes || first->second.received_ns + window_ns_ < now_ns_);
+  // Only now: behind a pause of the recorder, images from before it still wait for theirs.
+  if (!due) {
+    forgetDepths();
+    return std::nullopt;
+  }
   WaitingRecord record = std::move(first->second);
   records_.erase(first);
   bytes_ -= record.bytes;

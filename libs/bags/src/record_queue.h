@@ -12,20 +12,24 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "messages.h"
+
 namespace roomgraph::bags {
 
 /// A record that waits for those before it, for its depth image and for the transforms of its time.
 struct WaitingRecord {
   mrpt::obs::CObservation::Ptr observation;  ///< without pose
-  std::int64_t t_ns = 0;                     ///< of the record
-  std::int64_t header_ns = 0;                ///< in the clock of tf
+  std::int64_t t_ns = 0;                     ///< of the record, on a clock that is never set back
+  std::int64_t header_ns = 0;                ///< in the clock of tf, as it is followed
   std::int64_t received_ns = 0;
-  std::string frame;                  ///< of the sensor; empty with `placed`
-  bool placed = false;                ///< has no sensor pose to look up: odometry
-  double yaw = 0;                     ///< of the record's x axis in the frame, rad
-  std::vector<std::uint8_t> picture;  ///< JPEG or PNG of the colour image as the bag has it
-  bool is_color = false;              ///< waits for a depth image
-  std::size_t bytes = 0;              ///< that it holds
+  std::string frame;                        ///< of the sensor; empty with `placed`
+  bool placed = false;                      ///< has no sensor pose to look up: odometry
+  double yaw = 0;                           ///< of the record's x axis in the frame, rad
+  std::vector<std::uint8_t> picture;        ///< JPEG or PNG of the colour image as the bag has it
+  bool is_color = false;                    ///< waits for a depth image
+  std::size_t bytes = 0;                    ///< that it holds
+  std::int64_t later_ns = 0;                ///< by which t_ns is later than what is written
+  std::optional<OdometryMessage> odometry;  ///< of another frame, to be turned into the robot's
 };
 
 /// Keeps what was received within the last seconds, so that records whose messages came a little late find
@@ -51,6 +55,7 @@ class RecordQueue {
     cv::Mat image;
   };
   void noteReception(std::int64_t received_ns);
+  void forgetDepths();
 
   std::int64_t window_ns_, pair_ns_, now_ns_ = 0;
   std::multimap<std::int64_t, WaitingRecord> records_;  ///< by time

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bag_reader.h"
+#include "clock_watch.h"
 #include "frame_graph.h"
 
 namespace roomgraph::bags {
@@ -56,10 +57,16 @@ struct SurveyedTopic {
 struct Survey {
   std::vector<SurveyedTopic> topics;
   FrameGraph frames;
-  std::vector<std::string> problems;  ///< of the bag itself
+  std::vector<std::string> problems;     ///< of the bag itself
+  std::vector<ClockRestart> restarts;    ///< of the clocks that stamp sensors
+  std::vector<ClockRestart> receptions;  ///< of the recorder's clock
 };
 
 /// Reads the bag once, of images only their beginnings. `progress` as for importBag().
 Survey surveyBag(const std::filesystem::path& bag, const std::function<void(double)>& progress);
+
+/// Sizes of compressed images, whose messages do not tell them: those of the first picture of each topic that
+/// can be decoded.
+void lookAtPictures(const std::filesystem::path& bag, Survey& survey);
 
 }  // namespace roomgraph::bags

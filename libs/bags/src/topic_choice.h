@@ -33,6 +33,10 @@ std::string labelOfFrame(std::string frame);
 /// Index of the topic with this name; nothing when there is none.
 std::optional<std::size_t> findTopic(const Survey& survey, const std::string& name);
 
+/// Whether a topic or a frame of tf tells where the robot really was, by its name: "/mocap/robot",
+/// "/gt/odom".
+bool namedTruth(const std::string& name);
+
 /// Whether the images of a topic are free of distortion by its name (image_rect).
 bool namedRectified(const std::string& topic);
 
