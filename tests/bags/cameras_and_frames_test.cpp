@@ -144,6 +144,9 @@ TEST(OdometryOfAnotherFrame, IsTurnedIntoTheRobots) {
   EXPECT_THAT(bag.result.warnings, IsEmpty());
   EXPECT_EQ(bag.result.truth, "/mocap/odom");
   std::istringstream truth(bag.folder.read("x.groundtruth.txt"));
+  std::string comment;
+  std::getline(truth, comment);
+  EXPECT_EQ(comment, "# poses of the robot");
   double t, x, y, z, qx, qy, qz, qw;
   ASSERT_TRUE(truth >> t >> x >> y >> z >> qx >> qy >> qz >> qw);
   EXPECT_NEAR(x, 1, 1e-6);
