@@ -18,7 +18,7 @@ DEFAULTS = {"color": "rgb8", "depth": "16UC1", "info": True, "tf": True, "truth"
 # x right, y down, z forward, seen from x forward, y left, z up.
 OPTICAL = {"x": -0.5, "y": 0.5, "z": -0.5, "w": 0.5}
 UNIT = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
-HALF_TURN = {"x": 0.0, "y": 0.0, "z": 1.0, "w": 0.0}
+QUARTER_TURN = {"x": 0.0, "y": 0.0, "z": math.sqrt(0.5), "w": math.sqrt(0.5)}  # to the left
 SET_BACK = START + 1_010_000_000  # between two frames; what was measured in the first of them is received behind it
 
 
@@ -141,8 +141,8 @@ def sensor_transforms(t, options):
              transform(t, "camera_link", "camera_rgb_optical_frame", (0.0, 0.0, 0.0), OPTICAL),
              # Turned by a quarter to the left.
              transform(t, "base_link", "laser_link", (0.1, 0.0, 0.15), {"x": 0.0, "y": 0.0, "z": math.sqrt(0.5), "w": math.sqrt(0.5)})]
-    if options["odometry_child"] == "rear":
-        links.append(transform(t, "base_link", "rear", (-0.2, 0.0, 0.3), HALF_TURN))
+    if options["odometry_child"] == "side":
+        links.append(transform(t, "base_link", "side", (-0.2, 0.0, 0.3), QUARTER_TURN))
     if options["bad_transform"]:
         links.insert(1, transform(t, "base_link", "gps", (0.0, 0.0, 1.0), {"x": 0.0, "y": 0.0, "z": 0.0, "w": 0.0}))
     if options["depth_frame"] == "camera_depth_optical_frame":
@@ -161,8 +161,8 @@ def scan_message(t, options):
             "ranges": ranges, "intensities": [float(10 * i) for i in range(9)]}
 
 
-def twist(v):
-    return {"linear": {"x": v, "y": 0.0, "z": 0.0}, "angular": {"x": 0.0, "y": 0.0, "z": 0.0}}
+def twist(v, left=0.0):
+    return {"linear": {"x": v, "y": left, "z": 0.0}, "angular": {"x": 0.0, "y": 0.0, "z": 0.0}}
 
 
 def pose(x):
@@ -170,10 +170,10 @@ def pose(x):
 
 
 def odometry_message(t, frame, x, options):
-    rear = options["odometry_child"] == "rear"
-    here = {"position": {"x": x - 0.2, "y": 0.0, "z": 0.4}, "orientation": HALF_TURN} if rear else pose(x)
+    side = options["odometry_child"] == "side"
+    here = {"position": {"x": x - 0.2, "y": 0.0, "z": 0.4}, "orientation": QUARTER_TURN} if side else pose(x)
     return {"header": header(t, frame, options), "child_frame_id": options["odometry_child"],
-            "pose": {"pose": here, "covariance": [0.0] * 36}, "twist": {"twist": twist(-0.5 if rear else 0.5), "covariance": [0.0] * 36}}
+            "pose": {"pose": here, "covariance": [0.0] * 36}, "twist": {"twist": twist(0.0, -0.5) if side else twist(0.5), "covariance": [0.0] * 36}}
 
 
 def moving(k, t, options):

@@ -132,13 +132,15 @@ TEST(CameraOfARegion, RemovesDistortionFromSmallerImages) {
 }
 
 TEST(OdometryOfAnotherFrame, IsTurnedIntoTheRobots) {
-  const Imported bag(R"({"odometry_child": "rear", "truth": "odometry"})");
+  const Imported bag(R"({"odometry_child": "side", "truth": "odometry"})");
   const auto wheels = only<CObservationOdometry>(bag.records);
   ASSERT_THAT(wheels, SizeIs(kAllFrames));
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     EXPECT_NEAR(wheels[k]->odometry.x(), 0.05 * static_cast<double>(k), 1e-6);
     EXPECT_NEAR(wheels[k]->odometry.phi(), 0, 1e-6);
     EXPECT_NEAR(wheels[k]->velocityLocal.vx, 0.5, 1e-6);
+    EXPECT_NEAR(wheels[k]->velocityLocal.vy, 0, 1e-6);
+    EXPECT_NEAR(wheels[k]->odometry.y(), 0, 1e-6);
     EXPECT_EQ(wheels[k]->sensorLabel, "ODOMETRY");
   }
   EXPECT_THAT(bag.result.warnings, IsEmpty());
