@@ -8,6 +8,7 @@
 #include "roomgraph/core/errors.h"
 #include "roomgraph/datasets/import_images.h"
 #include "roomgraph/datasets/import_output.h"
+#include "roomgraph/observations/mounting.h"
 
 namespace roomgraph {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSurveyShare = 0.3;  // of the time that both readings take
-constexpr double kHeld_m = 0.1;        // a camera this low above the robot has no place on it
 
 std::function<void(double)> partOf(const std::function<void(double)>& progress, double from, double to) {
   if (!progress) return nullptr;
@@ -100,7 +100,7 @@ BagImportResult importBag(const fs::path& bag, const fs::path& rawlog, const Bag
                               [&](mrpt::obs::CObservation& record, const std::vector<std::uint8_t>& picture) {
                                 auto* images = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(&record);
                                 if (images && options.external_images) storeOutside(*images, picture, output);
-                                if (images) held = images->sensorPose.z() <= kHeld_m;
+                                if (images) held = !isMounted(toPose3(images->sensorPose));
                                 output.rawlog().write(record);
                               });
   const auto reader = bags::openBag(bag);

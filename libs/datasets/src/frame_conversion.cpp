@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "depth_registration.h"
@@ -36,15 +35,10 @@ bool isDistorted(const PinholeCamera& camera) {
 }
 
 cv::Mat undistorted(const cv::Mat& image, const PinholeCamera& camera, int interpolation) {
-  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  const cv::Mat distortion(1, 5, CV_64F, const_cast<double*>(camera.distortion.data()));
-  cv::Mat map_x, map_y, out;
-  cv::initUndistortRectifyMap(k, distortion, cv::noArray(), k, image.size(), CV_32FC1, map_x, map_y);
-  cv::remap(image, out, map_x, map_y, interpolation, cv::BORDER_CONSTANT);
-  return out;
+  return withoutLens(image, camera, {false, {camera.distortion.begin(), camera.distortion.end()}}, interpolation);
 }
 
-void setColor(Frame& frame, const mrpt::img::CImage& image, const std::optional<OtherLens>& lens) {
+void setColor(Frame& frame, const mrpt::img::CImage& image, const std::optional<Lens>& lens) {
   const cv::Mat pixels = image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
   if (pixels.channels() == 1) {
     frame.gray = pixels;
@@ -69,7 +63,7 @@ cv::Mat rangesInMetres(const CObservation3DRangeScan& observation) {
 }
 
 void setDepth(Frame& frame, const CObservation3DRangeScan& observation, const PinholeCamera& depth_camera,
-              const std::optional<OtherLens>& lens) {
+              const std::optional<Lens>& lens) {
   cv::Mat depth = rangesInMetres(observation);
   if (lens) depth = withoutLens(depth, depth_camera, *lens, cv::INTER_NEAREST);
   const bool registered = depthIsRegistered(observation, frame.camera, depth_camera);

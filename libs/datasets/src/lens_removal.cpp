@@ -7,15 +7,15 @@
 
 namespace roomgraph {
 
-std::optional<OtherLens> otherLensOf(const mrpt::img::TCamera& camera) {
+std::optional<Lens> otherLensOf(const mrpt::img::TCamera& camera) {
   if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt)
-    return OtherLens{true, {camera.k1(), camera.k2(), camera.k3(), camera.k4()}};
+    return Lens{true, {camera.k1(), camera.k2(), camera.k3(), camera.k4()}};
   if (camera.k4() == 0 && camera.k5() == 0 && camera.k6() == 0) return std::nullopt;
-  return OtherLens{
+  return Lens{
       false, {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3(), camera.k4(), camera.k5(), camera.k6()}};
 }
 
-cv::Mat withoutLens(const cv::Mat& image, const PinholeCamera& camera, const OtherLens& lens, int interpolation) {
+cv::Mat withoutLens(const cv::Mat& image, const PinholeCamera& camera, const Lens& lens, int interpolation) {
   const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   cv::Mat map_x, map_y, out;
   if (lens.fisheye)

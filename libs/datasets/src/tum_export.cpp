@@ -20,6 +20,7 @@
 #include "roomgraph/core/suggest.h"
 #include "roomgraph/datasets/observation_reader.h"
 #include "roomgraph/datasets/truth_file.h"
+#include "roomgraph/observations/mounting.h"
 
 namespace roomgraph {
 namespace {
@@ -28,7 +29,6 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservation3DRangeScan;
 
 constexpr double kScaleOfRegistered = 5000;  // the benchmark's own
-constexpr double kLowestMount_m = 0.1;       // above a robot's origin; a handheld camera has no place
 constexpr double kSameMount = 1e-4;
 
 struct ImagePair {
@@ -176,8 +176,7 @@ class TumFolderWriter {
  private:
   // In that format it is the camera's.
   void writeTruth(const fs::path& ground_truth) {
-    const bool mounted = result_.robot_from_camera.translation().z() > kLowestMount_m;
-    const TruthOf whose = whoseTruth(ground_truth).value_or(mounted ? TruthOf::kRobot : TruthOf::kCamera);
+    const TruthOf whose = whoseTruth(ground_truth).value_or(isMounted(result_.robot_from_camera) ? TruthOf::kRobot : TruthOf::kCamera);
     if (whose == TruthOf::kCamera) {
       std::error_code error;
       result_.ground_truth = fs::copy_file(ground_truth, folder_.file("groundtruth.txt"), error);

@@ -6,9 +6,12 @@
 
 namespace roomgraph {
 
-/// A sensor on a robot has a place on it; a handheld camera has none.
+/// A sensor on a robot has a place on it, above its origin; a handheld camera has none.
+inline bool isMounted(const Pose3& robot_from_camera) {
+  return robot_from_camera.translation().z() > 0.1;
+}
 inline bool isMounted(const Frame& frame) {
-  return frame.robot_from_camera.translation().z() > 0.1;
+  return isMounted(frame.robot_from_camera);
 }
 
 }  // namespace roomgraph
