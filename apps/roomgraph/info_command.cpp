@@ -2,6 +2,7 @@
 // `roomgraph info`: sensors, cameras, depth and scans of a rawlog as text or JSON.
 #include <mrpt/math/TPose3D.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -30,20 +31,21 @@ mrpt::math::TPose3D yawPitchRoll(const Pose3& pose) {
   return toMrpt(pose).asTPose();
 }
 
-void printCamera(const char* name, int width, int height, const PinholeCamera& camera) {
+void printCamera(const char* name, int width, int height, const PinholeCamera& camera, const Distortion& lens) {
   if (width == 0) return;
   print("    %-9s %dx%d px, fx %.2f fy %.2f cx %.2f cy %.2f", name, width, height, camera.fx, camera.fy,
         camera.cx, camera.cy);
-  if (camera.distortion != std::array<double, 5>{}) {
-    std::cout << ", distortion";
-    for (const double value : camera.distortion) print(" %.4g", value);
+  const auto& values = lens.coefficients;
+  if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; })) {
+    std::cout << ", distortion (" << lens.model << ")";
+    for (const double value : values) print(" %.4g", value);
   }
   std::cout << "\n";
 }
 
 void printImages(const ImageSummary& images) {
-  printCamera("colour", images.color_width, images.color_height, images.color_camera);
-  printCamera("depth", images.depth_width, images.depth_height, images.depth_camera);
+  printCamera("colour", images.color_width, images.color_height, images.color_camera, images.color_distortion);
+  printCamera("depth", images.depth_width, images.depth_height, images.depth_camera, images.depth_distortion);
   if (images.depth > 0)
     print(
         "    depth     unit %.6g m, %s, %s, median %.2f m (90 %% in %.2f to %.2f m), %.0f %% of the pixels "
@@ -101,12 +103,13 @@ void printReport(const RawlogReport& report) {
   }
 }
 
-ordered_json toJson(const PinholeCamera& camera) {
+ordered_json toJson(const PinholeCamera& camera, const Distortion& lens) {
   return {{"fx", camera.fx},
           {"fy", camera.fy},
           {"cx", camera.cx},
           {"cy", camera.cy},
-          {"distortion", camera.distortion}};
+          {"distortion_model", lens.model},
+          {"distortion", lens.coefficients}};
 }
 
 ordered_json toJson(const ImageSummary& images) {
@@ -114,8 +117,8 @@ ordered_json toJson(const ImageSummary& images) {
                       {"depth", images.depth},
                       {"color_size", {images.color_width, images.color_height}},
                       {"depth_size", {images.depth_width, images.depth_height}},
-                      {"color_camera", toJson(images.color_camera)},
-                      {"depth_camera", toJson(images.depth_camera)},
+                      {"color_camera", toJson(images.color_camera, images.color_distortion)},
+                      {"depth_camera", toJson(images.depth_camera, images.depth_distortion)},
                       {"depth_registered", images.registered},
                       {"range_is_depth", images.range_is_depth},
                       {"depth_unit_m", images.depth_unit_m},

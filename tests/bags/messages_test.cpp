@@ -55,6 +55,24 @@ TEST(Messages, HeaderOfCdrByHandInBothOrders) {
   EXPECT_THROW(headerOf(messageOf(hex({0, 1}), true)), BadMessage);
 }
 
+TEST(Messages, CameraInfoTellsWhichLensItIs) {
+  mrpt::img::TCamera camera;
+  camera.ncols = 64;
+  camera.nrows = 48;
+  camera.setIntrinsicParamsFromValues(50, 51, 31, 23);
+  const auto told = [&] { return decode<CameraInfoMessage>(messageOf(cameraInfoBytes(camera, 0, "eye"))); };
+  EXPECT_EQ(told().distortion_model, "plumb_bob");
+  EXPECT_EQ(told().distortion, std::vector<double>(5, 0));
+  camera.setDistortionKannalaBrandt(0.1, 0.2, 0.3, 0.4);
+  EXPECT_EQ(told().distortion_model, "equidistant");
+  EXPECT_EQ(told().distortion, (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(told().k[4], 51) << "what follows is where it belongs";
+  camera.dist = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+  EXPECT_EQ(told().distortion_model, "rational_polynomial");
+  EXPECT_EQ(told().distortion, std::vector<double>(camera.dist.begin(), camera.dist.end()));
+}
+
 TEST(CdrReader, NumbersAreAlignedFromBehindTheHeader) {
   std::string bytes = hex({0, 1, 0, 0}) + std::string(24, '\0');
   bytes[4] = 9;

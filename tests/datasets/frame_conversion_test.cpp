@@ -210,6 +210,18 @@ Eigen::Vector2d throughRational(const Eigen::Vector2d& ray, const std::array<dou
   return {x * scale + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x), y * scale + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y};
 }
 
+TEST_F(FrameConversion, RaysOfAFisheyeLensComeFromItsPixels) {
+  const PinholeCamera camera{64, 48, 40, 40, 31.5, 23.5, {}};
+  const std::array<double, 4> k{-0.05, 0.02, -0.01, 0.004};
+  const cv::Mat rays = pixelRays(camera, {"equidistant", {k.begin(), k.end()}});
+  for (int v = 0; v < 48; v += 5)
+    for (int u = 0; u < 64; u += 5) {
+      const auto ray = rays.at<cv::Vec2f>(v, u);
+      const Eigen::Vector2d there = 40 * throughFisheye({ray[0], ray[1]}, k) + Eigen::Vector2d(31.5, 23.5);
+      EXPECT_NEAR((there - Eigen::Vector2d(u, v)).norm(), 0, 1e-3) << u << ' ' << v;
+    }
+}
+
 // Depth, 1 m and a centimetre more for each column, tells from which column a pixel was taken.
 TEST_F(FrameConversion, LensesOfOtherModelsAreTakenOutOfTheImages) {
   const std::array<double, 4> fisheye{-0.05, 0.02, -0.01, 0.004};
@@ -237,6 +249,36 @@ TEST_F(FrameConversion, LensesOfOtherModelsAreTakenOutOfTheImages) {
         moved += std::abs(there.x() - u) > 1;
       }
     EXPECT_GT(moved, 30) << is_fisheye;
+  }
+}
+
+// What was computed for one camera must not serve another, nor be lost on the way back to the first.
+TEST_F(FrameConversion, CamerasThatTakeTurnsAreToldApart) {
+  struct Camera {
+    double f, cx, cy, k1;
+  };
+  const std::vector<Camera> cameras{{50, 31.5, 23.5, -0.2}, {55, 31.5, 23.5, -0.2}, {50, 29, 23.5, -0.2}, {50, 31.5, 26, -0.2}, {50, 31.5, 23.5, 0.1}};
+  for (std::size_t i = 0; i < 3 * cameras.size(); ++i) {
+    const auto& [f, cx, cy, k1] = cameras[i * 2 % cameras.size()];
+    auto images = makeImages(5, 64, 48);
+    images->cameraParams.setIntrinsicParamsFromValues(f, f, cx, cy);
+    images->cameraParams.setDistortionPlumbBob(k1, 0, 0, 0, 0);
+    images->cameraParamsIntensity = images->cameraParams;
+    const Frame frame = readBack(images);
+    const Eigen::Vector2d ray((55 - cx) / f, (40 - cy) / f);
+    const double column = cx + f * ray.x() * (1 + k1 * ray.squaredNorm());
+    EXPECT_NEAR(frame.depth.at<float>(40, 55), 1 + 0.01 * column, 0.0056) << i;
+  }
+}
+
+TEST_F(FrameConversion, RangesOfCamerasThatTakeTurns) {
+  for (const double f : {50, 60, 50, 70, 80, 50}) {
+    auto images = makeImages(5, 64, 48);
+    images->cameraParams.setIntrinsicParamsFromValues(f, f, 31.5, 23.5);
+    images->cameraParamsIntensity = images->cameraParams;
+    images->range_is_depth = false;
+    const double along = std::hypot(1, (60 - 31.5) / f, (44 - 23.5) / f);
+    EXPECT_NEAR(readBack(images).depth.at<float>(44, 60), 1.60 / along, 1e-3) << f;
   }
 }
 

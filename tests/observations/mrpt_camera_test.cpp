@@ -34,5 +34,21 @@ TEST(MrptCamera, WithoutDistortionHasNoModelOfIt) {
   EXPECT_EQ(toMrpt({640, 480, 525, 525, 320, 240, {}}).distortion, mrpt::img::DistortionModel::none);
 }
 
+// MRPT keeps all coefficients in one array: k1 k2 p1 p2 k3 k4 k5 k6, of a fisheye lens k1 k2 - - k3 k4.
+TEST(MrptCamera, TellsTheModelOfItsDistortion) {
+  mrpt::img::TCamera camera;
+  EXPECT_EQ(distortionOf(camera), (Distortion{"plumb_bob", {0, 0, 0, 0, 0}}));
+  camera.dist = {0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0};
+  EXPECT_EQ(distortionOf(camera), (Distortion{"plumb_bob", {0.1, 0.2, 0.3, 0.4, 0.5}}));
+  EXPECT_EQ(distortionOf(toPinhole(camera)), distortionOf(camera));
+  for (const std::size_t one : {5, 6, 7}) {
+    camera.dist = {0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0};
+    camera.dist[one] = 0.6;
+    EXPECT_EQ(distortionOf(camera), (Distortion{"rational_polynomial", {camera.dist.begin(), camera.dist.end()}}));
+  }
+  camera.setDistortionKannalaBrandt(0.1, 0.2, 0.3, 0.4);
+  EXPECT_EQ(distortionOf(camera), (Distortion{"equidistant", {0.1, 0.2, 0.3, 0.4}}));
+}
+
 }  // namespace
 }  // namespace roomgraph::test

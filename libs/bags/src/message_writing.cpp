@@ -7,6 +7,7 @@
 
 #include "byte_writer.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph::bags {
 namespace {
@@ -41,13 +42,15 @@ std::string imageBytes(const cv::Mat& image, std::int64_t t_ns, const std::strin
   return out.take();
 }
 
-std::string cameraInfoBytes(const PinholeCamera& camera, std::int64_t t_ns, const std::string& frame) {
+std::string cameraInfoBytes(const mrpt::img::TCamera& mrpt_camera, std::int64_t t_ns, const std::string& frame) {
+  const PinholeCamera camera = toPinhole(mrpt_camera);
+  const Distortion lens = distortionOf(mrpt_camera);
   ByteWriter out;
   out.header(t_ns, frame);
   out.put(static_cast<std::uint32_t>(camera.height), static_cast<std::uint32_t>(camera.width))
-      .text("plumb_bob");
-  out.put(static_cast<std::uint32_t>(camera.distortion.size()));
-  for (const double d : camera.distortion) out.put(d);
+      .text(lens.model);
+  out.put(static_cast<std::uint32_t>(lens.coefficients.size()));
+  for (const double d : lens.coefficients) out.put(d);
   out.put(camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0);
   out.put(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
   out.put(camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0);

@@ -2,6 +2,7 @@
 // Messages of ROS 1 made from observations of MRPT, as bytes.
 #pragma once
 
+#include <mrpt/img/TCamera.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -10,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
 
 namespace roomgraph::bags {
@@ -23,7 +23,7 @@ struct FrameLink {
 
 /// CV_8UC3 (BGR), CV_8UC1, CV_16UC1 or CV_32FC1.
 std::string imageBytes(const cv::Mat& image, std::int64_t t_ns, const std::string& frame);
-std::string cameraInfoBytes(const PinholeCamera& camera, std::int64_t t_ns, const std::string& frame);
+std::string cameraInfoBytes(const mrpt::img::TCamera& camera, std::int64_t t_ns, const std::string& frame);
 /// Beams without a return are infinitely far (REP 117).
 std::string scanBytes(const mrpt::obs::CObservation2DRangeScan& scan, std::int64_t t_ns,
                       const std::string& frame);

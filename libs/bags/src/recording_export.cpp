@@ -112,7 +112,7 @@ class RecordingExport {
     }
   }
 
-  void writeImage(const std::string& folder, const cv::Mat& image, const PinholeCamera& camera,
+  void writeImage(const std::string& folder, const cv::Mat& image, const mrpt::img::TCamera& camera,
                   const std::string& frame, std::int64_t t) {
     bag_.write(folder + "/camera_info", "sensor_msgs/CameraInfo", t, bags::cameraInfoBytes(camera, t, frame));
     bag_.write(folder + "/image_raw", "sensor_msgs/Image", t, bags::imageBytes(image, t, frame));
@@ -147,9 +147,9 @@ class RecordingExport {
     if (apart) place(depth_frame, robot_from_depth, t);
     if (images.hasIntensityImage)
       writeImage(folder + "/rgb", images.intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY),
-                 toPinhole(images.cameraParamsIntensity), color_frame, t);
+                 images.cameraParamsIntensity, color_frame, t);
     if (images.hasRangeImage)
-      writeImage(folder + "/depth", depthOf(images), toPinhole(images.cameraParams), depth_frame, t);
+      writeImage(folder + "/depth", depthOf(images), images.cameraParams, depth_frame, t);
   }
 
   // Ranges along the rays, which ROS does not know: as a run sees them.
@@ -161,8 +161,8 @@ class RecordingExport {
       return;
     }
     place(frame_name, frame->robot_from_camera, t);
-    if (!frame->color.empty()) writeImage(folder + "/rgb", frame->color, frame->camera, frame_name, t);
-    writeImage(folder + "/depth", frame->depth, frame->camera, frame_name, t);
+    if (!frame->color.empty()) writeImage(folder + "/rgb", frame->color, toMrpt(frame->camera), frame_name, t);
+    writeImage(folder + "/depth", frame->depth, toMrpt(frame->camera), frame_name, t);
   }
 
   void writeScan(const CObservation2DRangeScan& scan, std::int64_t t) {

@@ -3,9 +3,13 @@
 #include "depth_registration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
+#include <tuple>
+
+#include "recent.h"
 
 namespace roomgraph {
 namespace {
@@ -15,18 +19,28 @@ constexpr double kFarthest_px = 1e6;  // cameras that cannot be put points anywh
 // cannot be, must not paint the whole image for each pixel.
 constexpr double kWidest_px = 32;
 
-}  // namespace
-
-cv::Mat pixelRays(const PinholeCamera& camera) {
+cv::Mat makeRays(const PinholeCamera& camera, const Distortion& lens) {
   cv::Mat pixels(camera.height, camera.width, CV_32FC2);
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
       pixels.at<cv::Vec2f>(v, u) = {static_cast<float>(u), static_cast<float>(v)};
   const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  const cv::Mat distortion(1, 5, CV_64F, const_cast<double*>(camera.distortion.data()));
+  const cv::Mat points = pixels.reshape(2, camera.width * camera.height);
   cv::Mat rays;
-  cv::undistortPoints(pixels.reshape(2, camera.width * camera.height), rays, k, distortion);
+  if (lens.isFisheye())
+    cv::fisheye::undistortPoints(points, rays, k, lens.coefficients);
+  else
+    cv::undistortPoints(points, rays, k, lens.coefficients);
   return rays.reshape(2, camera.height);
+}
+
+}  // namespace
+
+cv::Mat pixelRays(const PinholeCamera& camera, const Distortion& lens) {
+  using Key = std::tuple<std::array<double, 4>, Distortion, int, int>;
+  static Recent<Key, cv::Mat> recent(2);
+  const Key key({camera.fx, camera.fy, camera.cx, camera.cy}, lens, camera.width, camera.height);
+  return recent.of(key, [&] { return makeRays(camera, lens); });
 }
 
 void rangesToDepth(cv::Mat& range, const cv::Mat& rays) {

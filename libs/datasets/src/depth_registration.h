@@ -6,11 +6,13 @@
 
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {
 
-/// Directions K^-1 (u, v, 1) of a camera's pixels with the lens distortion removed, CV_32FC2 (x, y at z = 1).
-cv::Mat pixelRays(const PinholeCamera& camera);
+/// Directions K^-1 (u, v, 1) of a camera's pixels with what the lens does removed, CV_32FC2 (x, y at z = 1).
+/// Not to be written to: shared by those who ask for the same camera.
+cv::Mat pixelRays(const PinholeCamera& camera, const Distortion& lens);
 
 /// Distances along the rays turned into depths along the optical axis. `range`: CV_32FC1, changed in place.
 void rangesToDepth(cv::Mat& range, const cv::Mat& rays);

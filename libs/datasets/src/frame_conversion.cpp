@@ -35,10 +35,10 @@ bool isDistorted(const PinholeCamera& camera) {
 }
 
 cv::Mat undistorted(const cv::Mat& image, const PinholeCamera& camera, int interpolation) {
-  return withoutLens(image, camera, {false, {camera.distortion.begin(), camera.distortion.end()}}, interpolation);
+  return withoutLens(image, camera, distortionOf(camera), interpolation);
 }
 
-void setColor(Frame& frame, const mrpt::img::CImage& image, const std::optional<Lens>& lens) {
+void setColor(Frame& frame, const mrpt::img::CImage& image, const std::optional<Distortion>& lens) {
   const cv::Mat pixels = image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
   if (pixels.channels() == 1) {
     frame.gray = pixels;
@@ -63,12 +63,12 @@ cv::Mat rangesInMetres(const CObservation3DRangeScan& observation) {
 }
 
 void setDepth(Frame& frame, const CObservation3DRangeScan& observation, const PinholeCamera& depth_camera,
-              const std::optional<Lens>& lens) {
+              const std::optional<Distortion>& lens) {
   cv::Mat depth = rangesInMetres(observation);
   if (lens) depth = withoutLens(depth, depth_camera, *lens, cv::INTER_NEAREST);
   const bool registered = depthIsRegistered(observation, frame.camera, depth_camera);
   cv::Mat rays;
-  if (!observation.range_is_depth || !registered) rays = pixelRays(depth_camera);
+  if (!observation.range_is_depth || !registered) rays = pixelRays(depth_camera, distortionOf(depth_camera));
   if (!observation.range_is_depth) rangesToDepth(depth, rays);
   if (!registered) {
     const Pose3 color_from_depth =

@@ -1,28 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenCV's maps of fisheye and rational lenses.
+// OpenCV's maps of lenses, made once for each camera.
 #include "lens_removal.h"
 
+#include <array>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
+
+#include "recent.h"
 
 namespace roomgraph {
+namespace {
 
-std::optional<Lens> otherLensOf(const mrpt::img::TCamera& camera) {
-  if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt)
-    return Lens{true, {camera.k1(), camera.k2(), camera.k3(), camera.k4()}};
-  if (camera.k4() == 0 && camera.k5() == 0 && camera.k6() == 0) return std::nullopt;
-  return Lens{
-      false, {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3(), camera.k4(), camera.k5(), camera.k6()}};
+// Where the pixels of a pinhole camera lie in the image of the lens, px, CV_32FC1.
+struct PixelMaps {
+  cv::Mat x, y;
+};
+
+PixelMaps makeMaps(const PinholeCamera& camera, const Distortion& lens, cv::Size size) {
+  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  PixelMaps maps;
+  if (lens.isFisheye())
+    cv::fisheye::initUndistortRectifyMap(k, lens.coefficients, cv::Matx33d::eye(), k, size, CV_32FC1, maps.x, maps.y);
+  else
+    cv::initUndistortRectifyMap(k, lens.coefficients, cv::noArray(), k, size, CV_32FC1, maps.x, maps.y);
+  return maps;
 }
 
-cv::Mat withoutLens(const cv::Mat& image, const PinholeCamera& camera, const Lens& lens, int interpolation) {
-  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  cv::Mat map_x, map_y, out;
-  if (lens.fisheye)
-    cv::fisheye::initUndistortRectifyMap(k, lens.coefficients, cv::Matx33d::eye(), k, image.size(), CV_32FC1, map_x, map_y);
-  else
-    cv::initUndistortRectifyMap(k, lens.coefficients, cv::noArray(), k, image.size(), CV_32FC1, map_x, map_y);
-  cv::remap(image, out, map_x, map_y, interpolation, cv::BORDER_CONSTANT);
+// To make them takes longer than to use them.
+PixelMaps mapsOf(const PinholeCamera& camera, const Distortion& lens, cv::Size size) {
+  using Key = std::tuple<std::array<double, 4>, Distortion, int, int>;
+  static Recent<Key, PixelMaps> recent(4);
+  const Key key({camera.fx, camera.fy, camera.cx, camera.cy}, lens, size.width, size.height);
+  return recent.of(key, [&] { return makeMaps(camera, lens, size); });
+}
+
+}  // namespace
+
+std::optional<Distortion> otherLensOf(const mrpt::img::TCamera& camera) {
+  Distortion lens = distortionOf(camera);
+  if (lens.model == "plumb_bob") return std::nullopt;
+  return lens;
+}
+
+cv::Mat withoutLens(const cv::Mat& image, const PinholeCamera& camera, const Distortion& lens, int interpolation) {
+  const PixelMaps maps = mapsOf(camera, lens, image.size());
+  cv::Mat out;
+  cv::remap(image, out, maps.x, maps.y, interpolation, cv::BORDER_CONSTANT);
   return out;
 }
 

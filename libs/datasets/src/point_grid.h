@@ -5,10 +5,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
 #include <vector>
-
-#include "roomgraph/geometry/camera.h"
 
 namespace roomgraph {
 
@@ -18,15 +15,7 @@ struct PointGrid {
   std::vector<Eigen::Vector3d> points;  ///< zero where nothing was measured
 };
 
-/// Makes grids of a camera's records; remembers the rays of the pixels while the camera stays the same.
-class PointGridMaker {
- public:
-  /// The images must be loaded; empty without depth or without intrinsics that fit.
-  PointGrid make(const mrpt::obs::CObservation3DRangeScan& observation);
-
- private:
-  PinholeCamera camera_;
-  cv::Mat rays_;
-};
+/// The images must be loaded; empty without depth or without intrinsics that fit.
+PointGrid pointGrid(const mrpt::obs::CObservation3DRangeScan& observation);
 
 }  // namespace roomgraph

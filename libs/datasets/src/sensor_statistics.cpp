@@ -72,7 +72,7 @@ void ImageStatistics::addDepth(const mrpt::obs::CObservation3DRangeScan& observa
       ++samples_;
       if (ranges(v, u) > 0) depths_m_.add(static_cast<float>(ranges(v, u)) * observation.rangeUnits);
     }
-  const PointGrid grid = grids_.make(observation);
+  const PointGrid grid = pointGrid(observation);
   const Pose3 robot_from_sensor = toPose3(observation.sensorPose);
   floor_.add(grid, robot_from_sensor);
   agreement_.addImage(mrpt::Clock::toDouble(observation.timestamp), grid, robot_from_sensor);
@@ -137,6 +137,8 @@ void ImageStatistics::describe(const mrpt::obs::CObservation3DRangeScan& observa
       cameraForImage(observation.cameraParamsIntensity, summary_.color_width, summary_.color_height);
   summary_.depth_camera =
       cameraForImage(observation.cameraParams, summary_.depth_width, summary_.depth_height);
+  if (summary_.color_width > 0) summary_.color_distortion = distortionOf(observation.cameraParamsIntensity);
+  if (summary_.depth_width > 0) summary_.depth_distortion = distortionOf(observation.cameraParams);
   summary_.registered = depthIsRegistered(observation, summary_.color_camera, summary_.depth_camera);
   summary_.range_is_depth = observation.range_is_depth;
   summary_.depth_unit_m = observation.rangeUnits;

@@ -49,7 +49,6 @@ class ImageStatistics {
   ImageSummary summary_;
   Repetition repetition_;
   RoughnessWatch roughness_;
-  PointGridMaker grids_;
   FloorStatistics floor_;
   RangeAgreement agreement_;
   ScanAgreement walls_;

@@ -24,4 +24,19 @@ PinholeCamera toPinhole(const mrpt::img::TCamera& camera) {
           {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3()}};
 }
 
+Distortion distortionOf(const PinholeCamera& camera) {
+  return {"plumb_bob", {camera.distortion.begin(), camera.distortion.end()}};
+}
+
+Distortion distortionOf(const mrpt::img::TCamera& camera) {
+  if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt)
+    return {"equidistant", {camera.k1(), camera.k2(), camera.k3(), camera.k4()}};
+  Distortion out = distortionOf(toPinhole(camera));
+  if (camera.k4() != 0 || camera.k5() != 0 || camera.k6() != 0) {
+    out.model = "rational_polynomial";
+    out.coefficients.insert(out.coefficients.end(), {camera.k4(), camera.k5(), camera.k6()});
+  }
+  return out;
+}
+
 }  // namespace roomgraph

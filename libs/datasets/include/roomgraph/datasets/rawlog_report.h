@@ -14,6 +14,7 @@
 #include "roomgraph/datasets/sensor_poses.h"
 #include "roomgraph/geometry/camera.h"
 #include "roomgraph/geometry/pose.h"
+#include "roomgraph/observations/mrpt_camera.h"
 
 namespace roomgraph {
 
@@ -84,6 +85,7 @@ struct ImageSummary {
   std::optional<FloorSpread> floor_spread;  ///< when it is seen, and not at one place
   std::optional<double> walls_off_m;  ///< median distance of surfaces at the lidar's height from its own
   std::optional<double> range_over_lidar;  ///< how far depth sees along horizontal rays, over the lidar
+  Distortion color_distortion, depth_distortion;  ///< of the first record; the cameras have the five of plumb_bob only
 };
 
 struct ScanSummary {
