@@ -249,8 +249,11 @@ void addMap(CLI::App& parent) {
   command->footer(
       "Example:\n  roomgraph evaluate map lab_a/map_truth.yaml OUT/map.yaml --json map_score.json");
   command->callback([a] {
-    a->options.truth_from_map = truthFromMap(a->paths);
-    const auto errors = evaluateMap(loadOccupancyRos(a->truth), loadOccupancyRos(a->map), a->options);
+    const auto truth = loadOccupancyRos(a->truth), map = loadOccupancyRos(a->map);
+    // Between the grids' own corners.
+    const Pose2 truth_from_corner{truth.origin.x(), truth.origin.y(), 0}, map_from_corner{map.origin.x(), map.origin.y(), 0};
+    a->options.truth_from_map = truth_from_corner.inverse() * truthFromMap(a->paths) * map_from_corner;
+    const auto errors = evaluateMap(truth.grid, map.grid, a->options);
     report(a->json, {a->truth, a->map, a->paths.truth, a->paths.estimate}, errors);
     if (errors.known_in_both == 0) throw RunError(a->map + " knows no place that " + a->truth + " knows");
   });

@@ -85,12 +85,23 @@ void diffMaps(const MapDiffArguments& a) {
   std::cout << stayed << (stayed == 1 ? " object" : " objects") << " stayed\n";
 }
 
+// A map that goes on with another one holds all of it.
+void requireNoneTwice(const std::vector<CSemanticMap>& maps, const std::vector<std::string>& files) {
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    for (std::size_t j = 0; j < maps.size(); ++j)
+      if (i != j && continues(maps[i], maps[j]))
+        throw InputError(files[i] + " goes on with " + files[j] + " ('run --map') and holds all of it: merged, it would count twice");
+}
+
 void mergeMaps(const MapMergeArguments& a) {
   if (a.maps.size() < 2) throw ConfigError("name at least two maps");
   requireOther(a.output, {a.maps.begin(), a.maps.end()});
-  CSemanticMap all = loadMap(a.maps.front());
-  for (std::size_t i = 1; i < a.maps.size(); ++i) {
-    const CSemanticMap next = inFrameOf(all, loadMap(a.maps[i]), a.maps.front(), a.maps[i], a.same_frame);
+  std::vector<CSemanticMap> maps;
+  for (const auto& file : a.maps) maps.push_back(loadMap(file));
+  requireNoneTwice(maps, a.maps);
+  CSemanticMap all = maps.front();
+  for (std::size_t i = 1; i < maps.size(); ++i) {
+    const CSemanticMap next = inFrameOf(all, maps[i], a.maps.front(), a.maps[i], a.same_frame);
     all = unitedMaps(all, next, differenceOf(all, next));
   }
   all.provenance.program = programName();
@@ -121,11 +132,11 @@ void addMapMerge(CLI::App& parent) {
   auto* command = parent.add_subcommand("merge", "One map of several sessions, in the frame of the first");
   command->add_option("MAP", a->maps, "maps, in order of time")->required();
   command->add_option("-o,--output", a->output, "map to write")->required();
-  command->add_flag("--same-frame", a->same_frame,
-                    "the maps are in one frame ('run --map'): do not align them");
+  command->add_flag("--same-frame", a->same_frame, "the maps are in one frame: do not align them");
   command->footer(
       "Example:\n  roomgraph map merge monday/map.rgmap friday/map.rgmap -o flat.rgmap\n"
-      "Maps that cannot be aligned with certainty are refused (exit code 1).");
+      "Maps that cannot be aligned with certainty are refused (exit code 1), and a map together with one that goes on with it\n"
+      "('run --map'), which holds all of it already.");
   command->callback([a] { mergeMaps(*a); });
 }
 

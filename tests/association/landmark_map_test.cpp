@@ -264,6 +264,22 @@ TEST(LandmarkMap, NeighboursSeenTogetherStayApart) {
   }
 }
 
+// A chair of 0.6 x 0.6 m reaches 0.2 m under a table: a third of its footprint.
+TEST(LandmarkMap, ChairsUnderATableAreInTheMapWhereFramesShowBoth) {
+  for (const double gap : {0.5, 0.35})
+    for (const bool together : {false, true}) {
+      LandmarkMap map = mapWith("confirm_existence = 0\nconfirm_observations = 1");
+      WorldMeasurement table = sightingAt(0, 0, 0, 0.1, "table"), chair = sightingAt(gap, 0);
+      table.measurement.proposal.shape = {ShapeKind::kCuboid, 1.4, 0.8, 0.74};
+      const LandmarkId a = born(map, inFrame(table, 0)), b = born(map, inFrame(chair, together ? 0 : 1));
+      for (int i = 1; i < 10; ++i) {
+        map.update(inFrame(table, 2 * i), belongsTo(a));
+        map.update(inFrame(chair, 2 * i + !together), belongsTo(b));
+      }
+      EXPECT_EQ(map.confirmed().size(), together && gap > 0.4 ? 2u : 1u) << gap << ' ' << together;
+    }
+}
+
 TEST(LandmarkMap, TwoGroupsOfSightingsAreTwoObjects) {
   LandmarkMap map;
   const LandmarkId mixed = born(map, sightingAt(0, 0));

@@ -38,5 +38,16 @@ TEST(MeasurementModel, AlternativesAreTheLandmarksInGateWithTheirDensities) {
   EXPECT_LT(in_gate, 200 * 40 / 2);
 }
 
+// A television whose foot is estimated to be 5 cm in its cabinet stands on it all the same.
+TEST(FootprintOverlap, IsNoneBetweenWhatStandsOnTopOfEachOther) {
+  const ObjectShape cabinet{ShapeKind::kCuboid, 1.4, 0.45, 0.55}, television{ShapeKind::kCuboid, 1, 0.12, 0.6};
+  const Pose3 below = poseFromYpr(1, 2, 0, 0.3, 0, 0);
+  for (const auto& [z, expected] : {std::pair{0.6, 0.0}, {0.5, 0.0}, {0.3, 1.0}, {0.0, 1.0}}) {
+    const Pose3 above = poseFromYpr(1, 2, z, 0.3, 0, 0);
+    EXPECT_NEAR(footprintOverlap(television, above, cabinet, below), expected, 1e-9) << z;
+    EXPECT_NEAR(footprintOverlap(cabinet, below, television, above), expected, 1e-9) << z;
+  }
+}
+
 }  // namespace
 }  // namespace roomgraph::test

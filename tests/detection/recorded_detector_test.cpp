@@ -107,6 +107,19 @@ TEST_F(RecordedDetectorTest, ARawlogThatIsNoneIsAnError) {
   EXPECT_THAT(problem(), HasSubstr("boxes.rawlog: is no rawlog of detections"));
 }
 
+TEST_F(RecordedDetectorTest, BoxesThatComeTooLateAreReported) {
+  prepare("score_threshold = 0.3");
+  detector_.feed(record(10, "chair"));
+  ASSERT_TRUE(detector_.detect(frameAt(10)));
+  EXPECT_EQ(detector_.warning(), "");
+  EXPECT_FALSE(detector_.detect(frameAt(11)));
+  EXPECT_FALSE(detector_.detect(frameAt(12)));
+  detector_.feed(record(11, "chair"));
+  detector_.feed(record(12, "chair"));
+  EXPECT_THAT(detector_.warning(), HasSubstr("1 records of boxes came after images of up to 1.00 s later"));
+  EXPECT_THAT(detector_.warning(), HasSubstr("[pipeline] lookahead_s"));
+}
+
 TEST_F(RecordedDetectorTest, LabelsOfNoClassAreRivals) {
   prepare("score_threshold = 0.3");
   CObservationDetections both = record(10, "chair");

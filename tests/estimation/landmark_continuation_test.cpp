@@ -114,5 +114,18 @@ TEST(LandmarkContinuation, WhatStandsInItsPlaceReplacesIt) {
   EXPECT_EQ(both.landmarks[0].landmark.id.value, 8);
 }
 
+TEST(LandmarkContinuation, AGlimpseDoesNotReplaceWhatNobodyLookedFor) {
+  WeighedLandmark sofa = stool(1, 0, 0.99), chair = stool(8, 0, 0.9);
+  sofa.weight = 200;
+  chair.weight = 2;
+  const PlaceLook in_vain{2, 0, 0, 0, 0};
+  ASSERT_LT(logRatioOf(in_vain), 0);
+  for (const auto& [look, expected] : {std::pair{PlaceLook{}, 1}, {in_vain, 8}}) {
+    const auto both = continuedLandmarks({sofa}, {look}, {chair}, {LandmarkId{8}}, {});
+    ASSERT_EQ(both.landmarks.size(), 1u);
+    EXPECT_EQ(both.landmarks[0].landmark.id.value, expected);
+  }
+}
+
 }  // namespace
 }  // namespace roomgraph::test

@@ -62,6 +62,16 @@ TEST(FreezeFault, RepeatsTheLastRecordBeforeTheWindowWithNewStamps) {
   EXPECT_TRUE(out[3].bytes.empty());
 }
 
+// A chain of faults: what a later one does to a record in place must not be in what is repeated.
+TEST(FreezeFault, RepeatsTheRecordAsItWas) {
+  FreezeFault fault(kLidar, {1, 2.5});
+  PassingRecords first = fault.pass(scanAt(0.5, 3));
+  std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(first.at(0).observation)->setScanRange(0, 9);
+  const PassingRecords again = fault.pass(scanAt(1, 4));
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(scanOf(again[0]).getScanRange(0), 3);
+}
+
 TEST(FreezeFault, EachLabelHasItsOwnAndTheFirstInTheWindowStandsWhereNoneCameBefore) {
   PassingRecord other = scanAt(0.1, 5);
   other.observation->sensorLabel = "REAR";

@@ -189,6 +189,21 @@ TEST_F(Refinement, ErrorsAreAsLargeAsTheirCovarianceSaysAndSmallerThanThoseOfThe
   EXPECT_LT(std::sqrt(squared_m), 0.003);
 }
 
+// Ten times the beams on walls that are near: their returns err alike, and know little more than a tenth of them.
+TEST_F(Refinement, ReturnsThatLieCloseTogetherCountLittleMoreThanOne) {
+  map(test::corridor(), 0.005);
+  const auto informationOf = [&](int beams) {
+    const PlanarScan scan = toPlanarScan(test::castScan(test::corridor(), {}, 0, random, 0.005, beams), 0.1, 30);
+    const auto fit = refineOnSurfaces(surfaces, faced(scan), onGrid(scan, {}), {});
+    EXPECT_TRUE(fit);
+    return fit ? fit->information(1, 1) : 0;
+  };
+  const double sparse = informationOf(90), usual = informationOf(360), dense = informationOf(3600);
+  EXPECT_GT(usual, 1.3 * sparse) << "of beams that lie apart each counts";
+  EXPECT_LT(dense, 3 * usual);
+  EXPECT_GT(dense, usual);
+}
+
 TEST_F(Refinement, ACorridorIsFixedAcrossAndHardlyAlong) {
   map(test::corridor(), 0.01);
   const PlanarScan scan = seenFrom(test::corridor(), {}, random, 0.01);

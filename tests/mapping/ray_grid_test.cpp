@@ -44,6 +44,15 @@ TEST_F(RowOfCells, OneScanChangesACellOnceAndAReturnOutweighsWhatPasses) {
   EXPECT_NEAR(occupied(9), kPass, 0.01);
 }
 
+// Of the probabilities that may be set the ones nearest to a half: a cell has 255 steps.
+TEST_F(RowOfCells, LittleEvidenceIsNotNone) {
+  RayGrid rays(grid, 0.501, 0.499);
+  rays.insert(origin, {to(0.55, true)});
+  EXPECT_GT(occupied(5), 0.5);
+  EXPECT_LT(occupied(3), 0.5);
+  EXPECT_NEAR(occupied(5), 0.5, 0.02);
+}
+
 TEST_F(RowOfCells, BehindAReturnNothingIsKnown) {
   RayGrid rays(grid, kHit, kPass);
   rays.insert(origin, {to(0.55, true)});

@@ -45,13 +45,29 @@ TEST(RosMap, RoundTrip) {
   const TemporaryFolder folder;
   const auto grid = smallGrid();
   saveOccupancyRos(grid, folder.file("map"));
-  const auto again = loadOccupancyRos(folder.file("map.yaml"));
+  const auto [again, origin] = loadOccupancyRos(folder.file("map.yaml"));
   ASSERT_EQ(again.getSizeX(), 4u);
   ASSERT_EQ(again.getSizeY(), 3u);
-  EXPECT_EQ(again.getXMin(), -1.f);
-  EXPECT_EQ(again.getYMin(), 2.f);
+  EXPECT_EQ(origin, Eigen::Vector2d(-1, 2));
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 4; ++x) EXPECT_NEAR(again.getCell(x, y), grid.getCell(x, y), 0.02) << x << " " << y;
+}
+
+// MRPT's grids lie on multiples of their cells, those of others anywhere.
+TEST(RosMap, OriginsBetweenTheCellsAndAllColumnsAreKept) {
+  const TemporaryFolder folder;
+  folder.write("o.pgm", std::string("P5\n3 1\n255\n") + '\xff' + '\x00' + '\xff');
+  for (const auto& [text, x] : {std::pair{"-1.024", -1.024}, {"63.575", 63.575}, {"0.025", 0.025}, {"-0.05", -0.05}}) {
+    const auto map = loadOccupancyRos(folder.write("o.yaml", "image: o.pgm\nresolution: 0.05\norigin: [" + std::string(text) +
+                                                                 ", -2.011, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"));
+    EXPECT_NEAR(map.origin.x(), x, 1e-12);
+    EXPECT_NEAR(map.origin.y(), -2.011, 1e-12);
+    EXPECT_EQ(map.grid.getXMin(), 0);
+    EXPECT_EQ(map.grid.getYMin(), 0);
+    ASSERT_EQ(map.grid.getSizeX(), 3u) << text;
+    ASSERT_EQ(map.grid.getSizeY(), 1u) << text;
+    EXPECT_LT(map.grid.getCell(1, 0), 0.1F);
+  }
 }
 
 // In an image with `negate`, white is occupied.
@@ -62,7 +78,7 @@ TEST(RosMap, NegatedImagesMeanTheOpposite) {
     const auto yaml = folder.write("n.yaml", "image: n.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: " +
                                                  std::to_string(negate) +
                                                  "\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
-    const auto grid = loadOccupancyRos(yaml);
+    const auto grid = loadOccupancyRos(yaml).grid;
     EXPECT_EQ(grid.getCell(0, 0) > 0.9F, !negate);
     EXPECT_EQ(grid.getCell(1, 0) > 0.9F, negate);
   }

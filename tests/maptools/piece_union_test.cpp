@@ -124,6 +124,23 @@ TEST(MapsOfPieces, AreOneMap) {
     EXPECT_THAT(line, ::testing::Not(HasSubstr("left out")));
 }
 
+TEST(MapsOfPieces, WhatBothSawAtOnceIsSeenOnce) {
+  CSemanticMap a = pieceMap({}, 0, 30, true), b = pieceMap({}, 20, 50, false);
+  for (CSemanticMap* map : {&a, &b})
+    for (Landmark& object : map->landmarks) {
+      object.covariance = 0.01 * Eigen::Matrix4d::Identity();
+      object.observations = 10;
+      map->seen[object.id] = {20, 30};
+    }
+  const auto joined = unitedPieces(a, b);
+  ASSERT_TRUE(joined) << joined.reason();
+  ASSERT_LT(joined->map.landmarks.size(), a.landmarks.size() + b.landmarks.size()) << "some are in both";
+  for (const Landmark& object : joined->map.landmarks) {
+    EXPECT_GE(object.covariance(0, 0), 0.01 - 1e-9) << object.id.value;
+    EXPECT_EQ(object.observations, 10) << object.id.value;
+  }
+}
+
 TEST(MapsOfPieces, ObjectsAndWallsCorrectThePaths) {
   const Pose2 b_from_world{1, -2, 0.7};
   const auto joined =

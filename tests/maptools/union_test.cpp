@@ -77,6 +77,68 @@ TEST(MapUnion, ObjectsAreFusedByInformation) {
   EXPECT_EQ(all.seen.at(one.id).last, 45);
 }
 
+// What two pieces of one recording have seen in their common time they have seen once.
+TEST(MapUnion, CommonRecordsCountOnce) {
+  Landmark a = objectAt(1, "sofa", 1, 2, 0.2), b = objectAt(7, "sofa", 1.2, 2, 0.2);
+  a.covariance = b.covariance = 0.01 * Eigen::Matrix4d::Identity();
+  a.observations = b.observations = 30;
+  a.existence = b.existence = 0.8;
+  CSemanticMap of_a, of_b;
+  of_a.landmarks = {a};
+  of_b.landmarks = {b};
+  of_a.weights[a.id] = of_b.weights[b.id] = 20;
+  of_a.seen[a.id] = {10, 30};
+  const auto united = [&](const SeenSpan& seen_by_b, const SeenSpan& common) {
+    of_b.seen[b.id] = seen_by_b;
+    const CSemanticMap both = unitedMaps(of_a, of_b, {stayedPair(a, b)}, common);
+    return std::pair{both.landmarks.at(0), both.weights.at(LandmarkId{1})};
+  };
+  const auto [none, weight_none] = united({40, 60}, {30.5, 39});
+  EXPECT_NEAR(none.covariance(0, 0), 0.005, 1e-9) << "nothing in common";
+  EXPECT_NEAR(none.existence, 16.0 / 17, 1e-9);
+  EXPECT_NEAR(weight_none, 40, 1e-9);
+  // A quarter of b's sightings are in the common time: three quarters of its information are its own.
+  const auto [part, weight_part] = united({25, 45}, {25, 30});
+  EXPECT_NEAR(part.covariance(0, 0), 1 / (100 + 75.0), 1e-9);
+  EXPECT_NEAR(part.position.x(), 1 + 0.2 * 75 / 175, 1e-9);
+  EXPECT_NEAR(part.existence, 1 - 1 / (1 + std::pow(4, 1.75)), 1e-9);
+  EXPECT_NEAR(weight_part, 35, 1e-9);
+  EXPECT_EQ(part.observations, 30 + 23);
+  // All of b's are: it adds nothing.
+  const auto [all, weight_all] = united({20, 30}, {20, 30});
+  EXPECT_NEAR(all.covariance(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(all.position.x(), 1, 1e-12);
+  EXPECT_EQ(all.observations, 30);
+  EXPECT_NEAR(weight_all, 20, 1e-9);
+  // The other way round it is a that adds nothing.
+  of_a.seen[a.id] = {20, 30};
+  EXPECT_NEAR(united({20, 60}, {20, 30}).first.position.x(), 1.2, 1e-12);
+}
+
+TEST(MapUnion, CellsOfCommonRecordsCountOnce) {
+  const SeenSpan common{0, 1};
+  const auto p = [&](float a, float b) { return unitedMaps(withGrid(0, 2, a), withGrid(0, 2, b), {}, common).occupancy->getPos(1.25f, 0.75f); };
+  EXPECT_NEAR(p(0.7f, 0.8f), 0.8, 0.04);
+  EXPECT_NEAR(p(0.8f, 0.7f), 0.8, 0.04);
+  EXPECT_NEAR(p(0.2f, 0.3f), 0.2, 0.04);
+  EXPECT_NEAR(p(0.7f, 0.3f), 0.5, 0.04) << "they contradict each other";
+  EXPECT_NEAR(p(0.5f, 0.3f), 0.3, 0.04);
+}
+
+TEST(MapUnion, AMapContinuesThoseThatItWasMadeFrom) {
+  CSemanticMap monday, friday, other;
+  monday.provenance.history = {"run of monday.rawlog"};
+  friday.provenance.history = {"run of monday.rawlog", "continued by a run of friday.rawlog"};
+  other.provenance.history = {"run of friday.rawlog", "continued by a run of friday.rawlog"};
+  EXPECT_TRUE(continues(friday, monday));
+  EXPECT_FALSE(continues(monday, friday));
+  EXPECT_FALSE(continues(monday, monday)) << "another recording may have that name";
+  EXPECT_FALSE(continues(other, monday));
+  EXPECT_FALSE(continues(friday, {}));
+  friday.provenance.history.push_back("cropped");
+  EXPECT_FALSE(continues(friday, monday)) << "it no longer holds all of it";
+}
+
 KeyView viewAt(double t, double x) {
   KeyView out;
   out.t = t;

@@ -125,6 +125,10 @@ TrackingResult FakeOdometry::track(const Frame& frame, const TrackingPrior& prio
   world().expected.push_back(prior.previous_from_current);
   world().by_scans.push_back(prior.by_scans);
   TrackingResult result;
+  if (frame.t >= world().not_tracked.first && frame.t < world().not_tracked.second) {
+    result.reason = "too few features";
+    return result;
+  }
   result.tracked = true;
   // A frame of its own, as a real tracker has.
   result.odom_from_camera = poseFromYpr(4, 5, 6, 0.3, 0, 0) * world().world_from_camera(frame.t);

@@ -28,6 +28,7 @@ struct World {
   std::function<roomgraph::Pose3(double)> world_from_camera;
   std::vector<WorldObject> objects;
   double lost_at = 1e300;              ///< from then on the odometry counts in a new segment
+  std::pair<double, double> not_tracked = {1e300, 1e300};  ///< the odometry sees nothing from the one to the other
   double detector_fails_from = 1e300;  ///< from then on the detector does not run
   /// Above the floor, of the level plane that the depth camera sees, by time.
   std::function<double(double)> plane_height = [](double) { return 0.0; };

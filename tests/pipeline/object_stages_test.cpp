@@ -83,6 +83,30 @@ TEST_F(ObjectStagesTest, ObjectsOfExchangedStagesAreMappedWhereTheyStand) {
   EXPECT_GT(slam.graph().landmarks(), 2u) << "views";
 }
 
+// The camera alone, which sees its objects and not where it is, while it moves at first slowly and then fast.
+TEST_F(ObjectStagesTest, NothingIsMappedFromPosesThatAreOnlyHeld) {
+  constexpr double kFrom = 3, kUntil = 6;
+  furnish();
+  fakes::world().not_tracked = {kFrom, kUntil};
+  fakes::world().world_from_camera = [](double t) {
+    const double share = std::clamp((t - kFrom) / (kUntil - kFrom), 0.0, 1.0);
+    if (share > 0 && share < 1) t = kFrom + (kUntil - kFrom) * std::pow(share, 4);
+    return toPose3(Drive::truth(t)) * Drive::robotFromCamera();
+  };
+  SemanticSlam slam(setupWith(kFakeObjects + "[tracking]\nclass = FakeOdometry\n[lidar]\nenabled = false\n[odometry]\nenabled = false\n"));
+  for (int i = 0; i <= 120; ++i) slam.process(Drive::frame(0.1 * i));
+  const SlamResult result = slam.finish();
+  EXPECT_EQ(result.counts.frames_lost, 30);
+  ASSERT_GE(result.map.landmarks.size(), 4u);
+  for (const auto& landmark : result.map.landmarks) {
+    double off_m = 1e9;
+    for (const auto& object : fakes::world().objects)
+      if (object.class_name == landmark.class_name)
+        off_m = std::min(off_m, (object.world_from_object.translation() - landmark.position).head<2>().norm());
+    EXPECT_LT(off_m, 0.1) << landmark.class_name << " at " << landmark.position.transpose();
+  }
+}
+
 TEST_F(ObjectStagesTest, WithoutLandmarksPeopleAreStillKeptOut) {
   for (const bool enabled : {true, false}) {
     fakes::world().objects.clear();

@@ -19,7 +19,8 @@ const ObjectDatabase& furniture() {
   static const ObjectDatabase database = ObjectDatabase::fromText(
       "[couch]\nlabels = couch\nwidth_m = 1.8\ndepth_m = 0.88\nheight_m = 0.82\nwidth_sigma_m = 0.3\ndepth_sigma_m = 0.1\n"
       "height_sigma_m = 0.1\nfront = high_back\nsolid_share = 0.4\n"
-      "[table]\nlabels = table\nwidth_m = 1.4\ndepth_m = 0.8\nheight_m = 0.74\nwidth_sigma_m = 0.3\nsymmetry = 2\n");
+      "[table]\nlabels = table\nwidth_m = 1.4\ndepth_m = 0.8\nheight_m = 0.74\nwidth_sigma_m = 0.3\nsymmetry = 2\n"
+      "[bed]\nlabels = bed\nwidth_m = 1.6\ndepth_m = 2\nheight_m = 0.5\nwidth_sigma_m = 0.1\ndepth_sigma_m = 0.1\n");
   return database;
 }
 
@@ -105,6 +106,19 @@ TEST(Cut, ATableBeyondTheImageHasNoBottomSide) {
     const BoxEvidence e = evidenceOf(scene, "table");
     EXPECT_EQ(e.cut.bottom, e.cut.left || e.cut.right) << y;
   }
+}
+
+// Beams pass below a bed as they do below a table, but its side is seen.
+TEST(Cut, ABedBeyondTheImageHasItsBottomSide) {
+  Scene scene = sceneAhead();
+  scene.addBox(3.0, 1.6, std::numbers::pi, 1.55, 2.05, 0.05, 0.5, 1);
+  const BoxEvidence e = evidenceOf(scene, "bed");
+  ASSERT_TRUE(e.cut.left || e.cut.right);
+  ASSERT_EQ(e.model->solid_share, 0);
+  EXPECT_FALSE(e.cut.bottom);
+  const auto found = test::hypotheses<CuboidGenerator>(e);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].x, 3.0, 0.3);
 }
 
 }  // namespace

@@ -156,17 +156,20 @@ TEST(DoorOnPlane, GlancingViewIsVagueAlongTheWallOnly) {
   EXPECT_LT(std::pow(found[0].y - 1.03, 2), 9 * c(1, 1));
 }
 
-// The upper side of a box is the door's top only where the camera stands upright.
-TEST(DoorOnPlane, HeightWhateverTheRollOfTheCamera) {
-  for (const double roll : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
-    Scene scene;
-    scene.lookAhead(1.1, 0.05, roll);
-    scene.addBox(3.4, 0, std::numbers::pi, 0.9, 0.12, 0, 2.05, 1);
-    scene.addBox(3.4, 0, std::numbers::pi, 8, 0.1, 0, 2.6, 2);  // its wall
-    const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, true));
-    ASSERT_FALSE(found.empty()) << roll;
-    EXPECT_NEAR(found[0].shape.height, 2.05, 0.05) << roll;
-  }
+// The upper side of a box is the door's top, and its left and right side are the jambs, only where the camera stands upright.
+TEST(DoorOnPlane, WhateverTheRollOfTheCamera) {
+  for (const double roll : {0.0, std::numbers::pi / 2, -std::numbers::pi / 2, std::numbers::pi})
+    for (const double turn : {0.0, 0.5, -0.5}) {
+      Scene scene;
+      scene.lookAhead(1.1, 0.05, roll);
+      scene.addBox(3.4, 0.3, std::numbers::pi + turn, 0.9, 0.12, 0, 2.05, 1);
+      scene.addBox(3.4, 0.3, std::numbers::pi + turn, 8, 0.1, 0, 2.6, 2);  // its wall
+      const auto found = test::hypotheses<DoorGenerator>(doorEvidence(scene, true));
+      ASSERT_FALSE(found.empty()) << roll << ' ' << turn;
+      EXPECT_NEAR(found[0].shape.height, 2.05, 0.05) << roll << ' ' << turn;
+      EXPECT_NEAR(found[0].shape.width, 0.9, 0.08) << roll << ' ' << turn;
+      EXPECT_NEAR((Eigen::Vector2d(found[0].x, found[0].y) - Eigen::Vector2d(3.4, 0.3)).norm(), 0, 0.08) << roll << ' ' << turn;
+    }
 }
 
 // A door in a wall straight ahead: what the box's sides are worth along the wall, by sampling them.

@@ -13,6 +13,7 @@ namespace {
 constexpr int kMaxRays = 20;
 constexpr double kPrecise_m = 0.3;  // standard deviation on the ground up to which a sighting counts fully
 
+constexpr double kUnderAnother = 0.5;  // share of the footprint of a chair that may be under a table
 constexpr double kMovedVariance_m2 = 0.01;  // of a place that the next sightings or the graph will tell
 
 bool opposite(double a, double b) {
@@ -287,7 +288,8 @@ std::vector<Landmark> LandmarkMap::confirmed() const {
 }
 
 // Two objects cannot overlap: of overlapping landmarks (e.g. a sofa sometimes labelled chair) the one with
-// more evidence stays.
+// more evidence stays. Things of two classes that frames show beside each other may reach under each other, as chairs do at a
+// table.
 std::vector<Landmark> LandmarkMap::exclusive(std::vector<Landmark> landmarks) const {
   std::stable_sort(landmarks.begin(), landmarks.end(), [this](const Landmark& a, const Landmark& b) {
     return records_.at(a.id).evidence > records_.at(b.id).evidence;
@@ -295,8 +297,10 @@ std::vector<Landmark> LandmarkMap::exclusive(std::vector<Landmark> landmarks) co
   std::vector<Landmark> kept;
   for (const auto& landmark : landmarks) {
     const bool free = std::none_of(kept.begin(), kept.end(), [&](const Landmark& other) {
-      return footprintOverlap(landmark.shape, landmark.worldFromObject(), other.shape,
-                              other.worldFromObject()) > options_.exclusive_overlap;
+      const bool may_reach_under = landmark.class_name != other.class_name &&
+                                   rules().duplicates.seenApart(landmark, other, together(landmark.id, other.id));
+      const double most = may_reach_under ? std::max(kUnderAnother, options_.exclusive_overlap) : options_.exclusive_overlap;
+      return footprintOverlap(landmark.shape, landmark.worldFromObject(), other.shape, other.worldFromObject()) > most;
     });
     if (free) kept.push_back(landmark);
   }

@@ -60,6 +60,10 @@ void DuplicateRule::declare(ParameterVisitor& v) {
          .max = 5});
 }
 
+bool DuplicateRule::seenApart(const Landmark& a, const Landmark& b, int together) const {
+  return together > apart_share * std::min(a.observations, b.observations);
+}
+
 bool DuplicateRule::same(const Landmark& a, const Landmark& b, int together) const {
   if (a.class_name != b.class_name) return false;
   const double width = std::max({a.shape.width, a.shape.depth, b.shape.width, b.shape.depth});
@@ -67,7 +71,7 @@ bool DuplicateRule::same(const Landmark& a, const Landmark& b, int together) con
   if (distance > 2 * width) return false;
   const double overlap = iou3d(a.shape, a.worldFromObject(), b.shape, b.worldFromObject());
   // Both in one frame: two objects, or two boxes around one, which then cover each other.
-  if (together > apart_share * std::min(a.observations, b.observations)) return overlap > kOneThing;
+  if (seenApart(a, b, together)) return overlap > kOneThing;
   return overlap > merge_overlap || distance < merge_distance_ratio * width;
 }
 

@@ -30,6 +30,13 @@ bool isFar(const WorldMeasurement& seen, const Landmark& landmark, double shared
   return apart(seen, landmark).squaredNorm() > kRounding * gate * gate * jointCovariance(seen, landmark, shared).trace();
 }
 
+// Whether a stands on b, or hangs above it. Heights are estimates.
+bool isAbove(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b, const Pose3& world_from_b) {
+  constexpr double kSunk = 0.25;  // share of the lower one's height
+  const double top_of_b = world_from_b.translation().z() + b.height;
+  return world_from_a.translation().z() > top_of_b - kSunk * std::min(a.height, b.height);
+}
+
 // From the camera through the place that was measured, on the ground.
 struct ViewingRay {
   Eigen::Vector2d camera = Eigen::Vector2d::Zero(), along = Eigen::Vector2d::Zero();  // m, world; a unit vector
@@ -64,6 +71,7 @@ double rayDensity(const WorldMeasurement& seen, const ViewingRay& ray, const Lan
 
 double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b,
                         const Pose3& world_from_b) {
+  if (isAbove(a, world_from_a, b, world_from_b) || isAbove(b, world_from_b, a, world_from_a)) return 0;
   const auto base_a = footprintAt(planarPart(world_from_a), a);
   const auto base_b = footprintAt(planarPart(world_from_b), b);
   const double smaller = std::min(polygonArea(base_a), polygonArea(base_b));

@@ -44,7 +44,8 @@ void RecordedDetector::declareParameters(ParameterVisitor& v) {
 void RecordedDetector::prepare() {
   records_.clear();
   threshold_warning_.clear();
-  frames_ = matched_ = 0;
+  frames_ = matched_ = late_ = 0;
+  latest_by_s_ = 0;
   identity_ = {"", "", score_threshold_, 0};
   from_rawlog_ = std::filesystem::path(file_).extension() == ".rawlog";
   if (file_.empty()) return;
@@ -58,7 +59,13 @@ void RecordedDetector::prepare() {
 }
 
 void RecordedDetector::feed(const CObservationDetections& recorded) {
-  if (!from_rawlog_) take(recorded);
+  if (from_rawlog_) return;
+  const double behind_s = last_frame_t_ - mrpt::Clock::toDouble(recorded.timestamp);
+  if (frames_ > 0 && behind_s > tolerance_s_) {
+    ++late_;
+    latest_by_s_ = std::max(latest_by_s_, behind_s);
+  }
+  take(recorded);
 }
 
 void RecordedDetector::take(const CObservationDetections& recorded) {
@@ -91,7 +98,17 @@ const RecordedBoxes* RecordedDetector::nearest(const Frame& frame) const {
 }
 
 std::string RecordedDetector::warning() const {
-  return threshold_warning_.empty() ? mismatch() : threshold_warning_;
+  if (!threshold_warning_.empty()) return threshold_warning_;
+  const std::string all = mismatch();
+  return all.empty() ? lateness() : all;
+}
+
+std::string RecordedDetector::lateness() const {
+  if (late_ == 0) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << late_ << " records of boxes came after images of up to " << latest_by_s_
+       << " s later, too late for their own: a larger [pipeline] lookahead_s waits for them";
+  return text.str();
 }
 
 // Why no frame had a record, although there were frames.

@@ -64,6 +64,7 @@ class RecordedDetector : public Detector {
   void take(const CObservationDetections& recorded);
   const RecordedBoxes* nearest(const Frame& frame) const;
   std::string mismatch() const;
+  std::string lateness() const;
 
   std::string other_size_;  ///< of the images that boxes were recorded of, in words
   std::string file_;
@@ -76,6 +77,8 @@ class RecordedDetector : public Detector {
   std::vector<std::string> unsought_;  ///< of the last frame
   std::string threshold_warning_;
   int frames_ = 0, matched_ = 0;  ///< frames in all; with a record
+  int late_ = 0;                  ///< records that came after later frames than their own
+  double latest_by_s_ = 0;
   double first_frame_t_ = 0, last_frame_t_ = 0;
   std::string frame_label_;  ///< of the last one
   bool from_rawlog_ = false;  ///< the file is a rawlog

@@ -143,8 +143,9 @@ ContinuedLandmarks continuedLandmarks(const std::vector<WeighedLandmark>& earlie
     const double said = now ? std::max(look, now->landmark.existence) : look;
     const bool untouched = !now && logRatioOf(looks[i]) == 0;
     kept.landmark.existence = untouched ? earlier[i].landmark.existence : combinedExistence(before, said);
+    // What stands there now was seen no worse, or this one was looked for in vain.
     const bool replaced = !now && std::any_of(fresh.begin(), fresh.end(), [&](const WeighedLandmark& other) {
-      return overlap(kept.landmark, other.landmark, rule.exclusive_overlap);
+      return overlap(kept.landmark, other.landmark, rule.exclusive_overlap) && (logRatioOf(looks[i]) < 0 || other.weight >= kept.weight);
     });
     if (replaced || kept.landmark.existence < rule.least_existence) {
       ++out.vanished;

@@ -14,7 +14,7 @@ PassingRecords FreezeFault::pass(PassingRecord record) {
   if (record.sensor != sensor_ || record.t >= window_.to_s) return one(std::move(record));
   const auto last = last_.find(record.label());
   if (!window_.contains(record.t) || last == last_.end()) {
-    last_.insert_or_assign(record.label(), record);
+    last_.insert_or_assign(record.label(), record.clone());  // later faults change the record in place
     return one(std::move(record));
   }
   PassingRecord again = last->second.clone();

@@ -14,12 +14,18 @@ namespace {
 
 using LogOdds = mrpt::maps::CLogOddsGridMap2D<COccupancyGridMap2D::cellType>;
 
+// Log odds are stored in whole steps: of a probability near a half the least one, not none.
+COccupancyGridMap2D::cellType stepOf(double probability) {
+  using Step = COccupancyGridMap2D::cellType;
+  return std::max<Step>(1, COccupancyGridMap2D::p2l(static_cast<float>(probability)));
+}
+
 }  // namespace
 
 RayGrid::RayGrid(COccupancyGridMap2D& grid, double hit_probability, double pass_probability)
     : grid_(grid),
-      hit_(COccupancyGridMap2D::p2l(static_cast<float>(hit_probability))),
-      pass_(COccupancyGridMap2D::p2l(static_cast<float>(1 - pass_probability))),
+      hit_(stepOf(hit_probability)),
+      pass_(stepOf(1 - pass_probability)),
       stamp_(std::size_t{grid.getSizeX()} * grid.getSizeY(), 0) {}
 
 std::size_t RayGrid::index(const Eigen::Vector2i& cell) const {

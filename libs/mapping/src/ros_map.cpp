@@ -92,17 +92,17 @@ void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::fi
   writeFileAtomically(yaml, text.str());
 }
 
-mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml) {
+PlacedGrid loadOccupancyRos(const std::filesystem::path& yaml) {
   const RosMap map = readYaml(yaml);
   const cv::Mat image = readImageFile(map.image, cv::IMREAD_GRAYSCALE);
   if (image.empty()) throw InputError(yaml.string() + ": image " + map.image.string() + " cannot be read");
-  mrpt::maps::COccupancyGridMap2D grid;
+  PlacedGrid out{{}, {map.x_min, map.y_min}};
+  auto& grid = out.grid;
   try {
-    grid.setSize(static_cast<float>(map.x_min), static_cast<float>(map.x_min + image.cols * map.resolution_m),
-                 static_cast<float>(map.y_min), static_cast<float>(map.y_min + image.rows * map.resolution_m),
+    grid.setSize(0, static_cast<float>(image.cols * map.resolution_m), 0, static_cast<float>(image.rows * map.resolution_m),
                  static_cast<float>(map.resolution_m));
   } catch (const std::exception& error) {  // too small for the digits of a float
-    throw InputError(yaml.string() + ": 'resolution' and 'origin' do not fit: " + firstLine(error));
+    throw InputError(yaml.string() + ": 'resolution' does not fit: " + firstLine(error));
   }
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
@@ -114,7 +114,7 @@ mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& ya
       grid.setCell(u, image.rows - 1 - v, p_free);
     }
   }
-  return grid;
+  return out;
 }
 
 }  // namespace roomgraph

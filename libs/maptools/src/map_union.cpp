@@ -2,6 +2,9 @@
 // Log odds of two grids, fused objects, trajectories in order of time.
 #include "roomgraph/maptools/map_union.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "region.h"
 #include "roomgraph/association/landmark_union.h"
 #include "roomgraph/tracking/key_views.h"
@@ -12,6 +15,7 @@ namespace {
 using mrpt::maps::COccupancyGridMap2D;
 
 constexpr double kLeastExistence = 0.5;
+constexpr const char* kContinuedByRun = "continued by a run of ";  // in the history of a map, as `run --map` writes it
 constexpr float kSurestCell = 0.99f;
 constexpr double kViewsApart_m = 1, kViewsApart_rad = 0.7;  // as a run keeps them
 
@@ -24,7 +28,13 @@ std::pair<int, int> offsetIn(const COccupancyGridMap2D& outer, const COccupancyG
   return {cells(outer.getXMin(), inner.getXMin()), cells(outer.getYMin(), inner.getYMin())};
 }
 
-void addCells(const COccupancyGridMap2D& from, COccupancyGridMap2D& to) {
+// Of two maps that share records what both say alike was said once.
+float sumOf(float a, float b, bool share_records) {
+  if (!share_records || a * b <= 0) return a + b;
+  return std::abs(a) > std::abs(b) ? a : b;
+}
+
+void addCells(const COccupancyGridMap2D& from, COccupancyGridMap2D& to, bool share_records) {
   const auto [x0, y0] = offsetIn(to, from);
   const auto odds = [](float p) {
     const float sure = std::clamp(p, 1 - kSurestCell, kSurestCell);
@@ -35,29 +45,64 @@ void addCells(const COccupancyGridMap2D& from, COccupancyGridMap2D& to) {
       // Unknown is not quite .5 in eight bits.
       if (std::abs(from.getCell(x, y) - 0.5f) < 0.01f) continue;
       const float old = to.getCell(x + x0, y + y0);
-      const float sum = odds(from.getCell(x, y)) + (std::abs(old - 0.5f) < 0.01f ? 0 : odds(old));
+      const float sum = sumOf(odds(from.getCell(x, y)), std::abs(old - 0.5f) < 0.01f ? 0 : odds(old), share_records);
       to.setCell(x + x0, y + y0, 1 / (1 + std::exp(-sum)));
     }
 }
 
-COccupancyGridMap2D::Ptr unitedGrids(const COccupancyGridMap2D::Ptr& a, const COccupancyGridMap2D::Ptr& b) {
+COccupancyGridMap2D::Ptr unitedGrids(const COccupancyGridMap2D::Ptr& a, const COccupancyGridMap2D::Ptr& b, bool share_records) {
   if (!a || !b) return a ? a : b;
   auto out = COccupancyGridMap2D::Create();
   out->setSize(std::min(a->getXMin(), b->getXMin()), std::max(a->getXMax(), b->getXMax()),
                std::min(a->getYMin(), b->getYMin()), std::max(a->getYMax(), b->getYMax()),
                a->getResolution());
   out->fill(0.5f);
-  addCells(*a, *out);
-  addCells(*b, *out);
+  addCells(*a, *out, false);
+  addCells(*b, *out, share_records);
   return out;
 }
 
+// An object in one of two maps, and what its sightings weigh.
+struct Known {
+  Landmark landmark;
+  double weight = 0;
+};
+
 // Of two estimates of one object; the class by the weights of their sightings.
-Landmark fused(const Landmark& a, double weight_a, const Landmark& b, double weight_b) {
-  Landmark out = fusedEstimates(a, b);
-  out.class_posterior = combinedClasses(a.class_posterior, weight_a, b.class_posterior, weight_b);
-  out.existence = combinedExistence(a.existence, b.existence);
+Known fused(const Known& a, const Known& b) {
+  Known out{fusedEstimates(a.landmark, b.landmark), a.weight + b.weight};
+  out.landmark.class_posterior = combinedClasses(a.landmark.class_posterior, a.weight, b.landmark.class_posterior, b.weight);
+  out.landmark.existence = combinedExistence(a.landmark.existence, b.landmark.existence);
   return out;
+}
+
+// The share of the time of an object's sightings that lies in the common time of two maps.
+double shareWithin(const SeenSpans& seen, LandmarkId id, const SeenSpan& common) {
+  const auto found = seen.find(id);
+  if (found == seen.end()) return 1;
+  const auto& [first, last] = found->second;
+  if (last < common.first || first > common.last) return 0;
+  return last > first ? (std::min(last, common.last) - std::max(first, common.first)) / (last - first) : 1;
+}
+
+// As if there were only this share of its sightings.
+Known thinned(Known known, double share) {
+  Landmark& landmark = known.landmark;
+  landmark.covariance /= share;
+  landmark.observations = static_cast<int>(std::lround(share * landmark.observations));
+  const double sure = std::clamp(landmark.existence, 1e-9, 1 - 1e-9);
+  landmark.existence = 1 / (1 + std::pow((1 - sure) / sure, share));
+  known.weight *= share;
+  return known;
+}
+
+// Sightings in the common time of two maps are of the same records: those of the map that has more besides are counted.
+Known fusedApart(const Known& a, double shared_a, const Known& b, double shared_b) {
+  constexpr double kAll = 0.99;
+  const bool thin_b = shared_b >= shared_a;
+  const double shared = thin_b ? shared_b : shared_a;
+  if (shared > kAll) return thin_b ? a : b;
+  return thin_b ? fused(a, thinned(b, 1 - shared)) : fused(thinned(a, 1 - shared), b);
 }
 
 std::int64_t freshIdAfter(const CSemanticMap& map) {
@@ -76,16 +121,22 @@ void noteSeen(const ObjectDifference& one, LandmarkId id, const CSemanticMap& b,
                  std::max(own->second.last, later->second.last)};
 }
 
-void uniteObjects(const CSemanticMap& a, const CSemanticMap& b,
-                  const std::vector<ObjectDifference>& difference, CSemanticMap& out) {
+void uniteObjects(const CSemanticMap& a, const CSemanticMap& b, const std::vector<ObjectDifference>& difference,
+                  const std::optional<SeenSpan>& common, CSemanticMap& out) {
   std::int64_t next = freshIdAfter(a);
   out.landmarks.clear();
   out.weights.clear();
   for (const auto& one : difference) {
     const double before = one.before ? weightOfSightings(a, *one.before) : 0,
                  after = one.after ? weightOfSightings(b, *one.after) : 0;
-    Landmark landmark = one.before ? *one.before : *one.after;
-    if (one.change == ObjectChange::kStayed) landmark = fused(*one.before, before, *one.after, after);
+    Known known{one.before ? *one.before : *one.after, before + after};
+    if (one.change == ObjectChange::kStayed) {
+      const auto shared = [&](const CSemanticMap& map, const Landmark& object) {
+        return common ? shareWithin(map.seen, object.id, *common) : 0;
+      };
+      known = fusedApart({*one.before, before}, shared(a, *one.before), {*one.after, after}, shared(b, *one.after));
+    }
+    Landmark& landmark = known.landmark;
     if (one.change == ObjectChange::kMoved) landmark = *one.after;
     landmark.id = one.before ? one.before->id : LandmarkId{next++};
     if (one.change == ObjectChange::kVanished)
@@ -95,7 +146,7 @@ void uniteObjects(const CSemanticMap& a, const CSemanticMap& b,
       continue;
     }
     noteSeen(one, landmark.id, b, out);
-    out.weights[landmark.id] = before + after;
+    out.weights[landmark.id] = known.weight;
     out.landmarks.push_back(landmark);
   }
 }
@@ -122,10 +173,10 @@ std::vector<KeyView> unitedViews(const std::vector<KeyView>& a, const std::vecto
 }  // namespace
 
 CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
-                        const std::vector<ObjectDifference>& difference) {
+                        const std::vector<ObjectDifference>& difference, const std::optional<SeenSpan>& common) {
   CSemanticMap out = a;
-  out.occupancy = unitedGrids(a.occupancy, b.occupancy);
-  uniteObjects(a, b, difference, out);
+  out.occupancy = unitedGrids(a.occupancy, b.occupancy, common.has_value());
+  uniteObjects(a, b, difference, common, out);
   for (const auto& step : b.provenance.history)
     out.provenance.history.push_back("of what was added: " + step);
   out.provenance.history.push_back("united with the map of " + b.origin);
@@ -134,6 +185,13 @@ CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
   out.origin = a.origin + " + " + b.origin;
   out.planar = a.planar && b.planar;
   return out;
+}
+
+bool continues(const CSemanticMap& map, const CSemanticMap& earlier) {
+  const auto &all = map.provenance.history, &first = earlier.provenance.history;
+  if (first.empty() || all.size() <= first.size() || !std::equal(first.begin(), first.end(), all.begin())) return false;
+  return std::all_of(all.begin() + static_cast<std::ptrdiff_t>(first.size()), all.end(),
+                     [](const std::string& step) { return step.starts_with(kContinuedByRun); });
 }
 
 }  // namespace roomgraph

@@ -137,7 +137,9 @@ Outcome<PieceUnion> unitedPieces(const CSemanticMap& a, const CSemanticMap& b) {
   }
   out.a_from_b = alignment.a_from_b;
   const CSemanticMap next = movedMap(b, alignment, a.occupancy.get());
-  out.map = unitedMaps(a, next, differenceOf(a, next, kOneRecording));
+  const SeenSpan common{std::max(a.world_from_robot.front().t, next.world_from_robot.front().t),
+                        std::min(a.world_from_robot.back().t, next.world_from_robot.back().t)};
+  out.map = unitedMaps(a, next, differenceOf(a, next, kOneRecording), common);
   out.map.world_from_robot = joinedPaths(a.world_from_robot, next.world_from_robot);
   out.map.origin = a.origin;
   auto& history = out.map.provenance.history;

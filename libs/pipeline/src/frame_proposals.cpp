@@ -51,10 +51,13 @@ bool SemanticSlam::placedByOthers(double t) const {
   return saw(motion.odometry) || saw(motion.lidar);
 }
 
+bool SemanticSlam::isPlaced(const Frame& frame, const TrackingResult& tracked) const {
+  return tracked.tracked || !setup_->stages.rgbd_odometry || placedByOthers(frame.t);
+}
+
 // What moves is told in the tracker's frame: in world poses jump where loops close.
 void SemanticSlam::drawDepth(const Frame& frame, const Plane& floor, const std::vector<Box2>& people, const TrackingResult& tracked) {
   const bool tracks = setup_->stages.rgbd_odometry != nullptr;
-  if (tracks && !tracked.tracked && !placedByOthers(frame.t)) return;
   auto slice = mapper_.slice(frame, floor, people);
   if (!slice) return;
   if (setup_->options.mapping.leave_out_moving && mapper_.drawsDepth(frame.t) && (tracked.tracked || !tracks)) {

@@ -81,9 +81,12 @@ StepReport SemanticSlam::step(const Frame& frame) {
   if (proposals.ground) {
     const Plane& floor = proposals.ground->plane;
     if (proposals.ground->from_depth) estimator_.addFloor(frame.t, floor, frame.robot_from_camera);
-    drawDepth(frame, floor, people, tracked);  // sec. 5
-    objects_.look(frame, estimator_.poses().at(frame.t), people);
-    if (detections.current() && setup_->options.landmarks.enabled) {
+    const bool placed = isPlaced(frame, tracked);  // nothing is where a pose that is only held says
+    if (placed) {
+      drawDepth(frame, floor, people, tracked);  // sec. 5
+      objects_.look(frame, estimator_.poses().at(frame.t), people);
+    }
+    if (placed && detections.current() && setup_->options.landmarks.enabled) {
       auto measurements = select(frame, proposals, tracked.features);            // sec. 3
       doubt(measurements, frame);                                                // sec. 5
       decisions = associate(frame, measurements, tracked.features, detections);  // sec. 4, E-step

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace roomgraph {
@@ -20,8 +21,8 @@ struct PlaneHit {
   double at = 0, per_px = 0;
 };
 
-std::optional<PlaneHit> hitOf(const BoxEvidence& e, const VerticalPlane& plane, double u, double v) {
-  const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(u, v);
+std::optional<PlaneHit> hitOf(const BoxEvidence& e, const VerticalPlane& plane, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d ray = e.camera_from_ground.linear().transpose() * e.camera.ray(pixel.x(), pixel.y());
   const Eigen::Vector2d d = ray.head<2>().normalized();
   const double slope = plane.normal.dot(d);
   if (slope > -kEdgeOn) return std::nullopt;
@@ -29,20 +30,36 @@ std::optional<PlaneHit> hitOf(const BoxEvidence& e, const VerticalPlane& plane, 
   return PlaneHit{plane.along().dot(range * d), range / -slope / (e.camera.fx * ray.head<2>().norm())};
 }
 
+// The sides of the box that upright edges lie along: left and right, or of a camera that lies on its side top and bottom.
+struct UprightSides {
+  std::array<Eigen::Vector2d, 2> first, second;  // corners, px
+  double apart_px = 0;
+  bool first_cut = false, second_cut = false;
+};
+
+UprightSides uprightSides(const BoxEvidence& e) {
+  const Box2& box = e.box;
+  const Eigen::Vector2d top_left(box.u_min, box.v_min), top_right(box.u_max, box.v_min), bottom_left(box.u_min, box.v_max),
+      bottom_right(box.u_max, box.v_max);
+  const Eigen::Vector3d up = e.camera_from_ground.linear().col(2);
+  if (std::abs(up.x()) > std::abs(up.y()))
+    return {{top_left, top_right}, {bottom_left, bottom_right}, box.height(), e.cut.top, e.cut.bottom};
+  return {{top_left, bottom_left}, {top_right, bottom_right}, box.width(), e.cut.left, e.cut.right};
+}
+
 // The upright edge that a side of the box touches. A camera that looks down sees upright edges diverge
 // upwards, so that the box's side touches one of its ends only: of the hits of both corners, the one nearer
 // to the box's middle.
-std::optional<PlaneHit> edgeAt(const BoxEvidence& e, const VerticalPlane& plane, double u) {
-  const auto top = hitOf(e, plane, u, e.box.v_min), bottom = hitOf(e, plane, u, e.box.v_max),
-             middle = hitOf(e, plane, e.box.center().x(), e.box.center().y());
-  if (!top || !bottom || !middle) return std::nullopt;
-  return std::abs(top->at - middle->at) < std::abs(bottom->at - middle->at) ? top : bottom;
+std::optional<PlaneHit> edgeAt(const BoxEvidence& e, const VerticalPlane& plane, const std::array<Eigen::Vector2d, 2>& side) {
+  const auto one = hitOf(e, plane, side[0]), other = hitOf(e, plane, side[1]), middle = hitOf(e, plane, e.box.center());
+  if (!one || !other || !middle) return std::nullopt;
+  return std::abs(one->at - middle->at) < std::abs(other->at - middle->at) ? one : other;
 }
 
-SeenInterval seenBetween(const PlaneHit& left, const PlaneHit& right, const BoxEvidence& e) {
-  const double px = sideSigma(e.box.width());
-  SeenInterval out{left.at, right.at, px * left.per_px, px * right.per_px, e.cut.left, e.cut.right};
-  // Depending on the side of the plane, its coordinate grows to the right of the image or to the left.
+SeenInterval seenBetween(const PlaneHit& first, const PlaneHit& second, const UprightSides& sides) {
+  const double px = sideSigma(sides.apart_px);
+  SeenInterval out{first.at, second.at, px * first.per_px, px * second.per_px, sides.first_cut, sides.second_cut};
+  // Depending on the side of the plane, its coordinate grows from the first side to the second or the other way.
   if (out.low > out.high) {
     std::swap(out.low, out.high);
     std::swap(out.low_sigma, out.high_sigma);
@@ -113,10 +130,11 @@ void standOn(PlacedShape& door, const VerticalPlane& plane, double along_m, doub
 }
 
 std::optional<PlacedShape> doorOnPlane(const VerticalPlane& plane, const BoxEvidence& e, double seat_m) {
-  const auto left = edgeAt(e, plane, e.box.u_min), right = edgeAt(e, plane, e.box.u_max);
-  if (!left || !right) return std::nullopt;
+  const UprightSides sides = uprightSides(e);
+  const auto first = edgeAt(e, plane, sides.first), second = edgeAt(e, plane, sides.second);
+  if (!first || !second) return std::nullopt;
   const Interval along =
-      fitInterval(seenBetween(*left, *right, e), e.model->width_m, e.model->sizeSigma()[0]);
+      fitInterval(seenBetween(*first, *second, sides), e.model->width_m, e.model->sizeSigma()[0]);
   PlacedShape placed;
   placed.shape = e.model->nominal();
   placed.shape.width = std::max(kLeastWidth_m, along.width);

@@ -111,6 +111,14 @@ BoxEvidence gatherEvidence(const Frame& frame, const Detection& detection, const
   return withMask(e, masks[0], frame);
 }
 
+// What one sees of a table is its top. Beams pass below a bed, too, but it is seen down to the floor.
+bool isSeenAtItsTop(const DepthMask& mask, const ObjectModel& model) {
+  constexpr double kTop = 0.75;  // of its height
+  const auto high = std::count_if(mask.points.begin(), mask.points.end(),
+                                  [&](const auto& point) { return point.in_ground.z() > kTop * model.height_m; });
+  return 2 * static_cast<std::size_t>(high) >= mask.points.size();
+}
+
 BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const Frame& frame) {
   BoxEvidence e = evidence;
   e.mask = mask;
@@ -122,7 +130,7 @@ BoxEvidence withMask(const BoxEvidence& evidence, const DepthMask& mask, const F
   markHidden(e, frame);
   // Of a table that goes on beyond the image, the leg that reaches lowest may be there.
   const bool open = e.model->nominal().kind == ShapeKind::kCuboid && e.model->solid_share == 0;
-  if (open && (e.cut.left || e.cut.right) && !e.cut.bottom) e.cut.bottom = e.hidden.bottom = true;
+  if (open && isSeenAtItsTop(mask, *e.model) && (e.cut.left || e.cut.right) && !e.cut.bottom) e.cut.bottom = e.hidden.bottom = true;
   return e;
 }
 

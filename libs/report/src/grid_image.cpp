@@ -43,15 +43,15 @@ std::string encoded(const cv::Mat& image, const char* ending) {
 }  // namespace
 
 GridImage readGridImage(const std::filesystem::path& yaml, double most_cells) {
-  const auto grid = loadOccupancyRos(yaml);
+  const auto [grid, origin] = loadOccupancyRos(yaml);
   const int width = static_cast<int>(grid.getSizeX()), height = static_cast<int>(grid.getSizeY());
   const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(1. * width * height / most_cells))));
   GridImage out;
   out.width = (width + side - 1) / side;
   out.height = (height + side - 1) / side;
   out.cell_m = grid.getResolution() * side;
-  out.x_min = grid.getXMin();
-  out.y_min = grid.getYMin();
+  out.x_min = origin.x();
+  out.y_min = origin.y();
   cv::Mat image(out.height, out.width, CV_8U);
   for (int y = 0; y < out.height; ++y)
     for (int x = 0; x < out.width; ++x)

@@ -39,6 +39,9 @@ struct DuplicateRule {
 
   void declare(ParameterVisitor& visitor);
 
+  /// Whether at least apart_share of the sightings of the one seen less shows the other as well, in `together` frames.
+  bool seenApart(const Landmark& a, const Landmark& b, int together) const;
+
   /// Whether their volumes overlap too much, or their centres are too close, for two objects. Landmarks seen side by
   /// side in frames (`together` of the sightings of the one seen less) must cover each other.
   bool same(const Landmark& a, const Landmark& b, int together) const;

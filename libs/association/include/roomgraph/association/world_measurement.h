@@ -17,7 +17,7 @@ struct WorldMeasurement {
   PinholeCamera camera = {};  ///< of the image; not valid: boxes are not compared
 };
 
-/// Common ground area of two standing shapes over the smaller footprint, in [0, 1].
+/// Common ground area of two standing shapes over the smaller footprint, in [0, 1]; 0 when one stands on the other, or above it.
 double footprintOverlap(const ObjectShape& a, const Pose3& world_from_a, const ObjectShape& b,
                         const Pose3& world_from_b);
 

@@ -31,8 +31,14 @@ void saveLandmarksJson(const std::vector<Landmark>& landmarks, const std::filesy
 /// map.pgm + map.yaml as ROS map_server / nav2 read them (254 free, 0 occupied, 205 unknown; first row =
 /// largest y); `stem` without extension.
 void saveOccupancyRos(const mrpt::maps::COccupancyGridMap2D& grid, const std::filesystem::path& stem);
+/// A grid whose corner (0, 0) lies at `origin` in its map's frame, m. MRPT's own corners are multiples of the cell size.
+struct PlacedGrid {
+  mrpt::maps::COccupancyGridMap2D grid;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+};
+
 /// Reads a map_server yaml and its image: cells 1 free, 0 occupied, 0.5 unknown (MRPT: probability of being
 /// free).
-mrpt::maps::COccupancyGridMap2D loadOccupancyRos(const std::filesystem::path& yaml);
+PlacedGrid loadOccupancyRos(const std::filesystem::path& yaml);
 
 }  // namespace roomgraph

@@ -2,6 +2,7 @@
 // One map of two sessions.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "roomgraph/maptools/map_difference.h"
@@ -13,7 +14,13 @@ namespace roomgraph {
 /// where `b` has them, vanished ones stay with what is left of their existence while it is at least .5; ids
 /// are those of `a`, new objects get new ones. Poses of `b` are left out when the two sessions overlap in
 /// time: a trajectory is in order of time.
-CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
-                        const std::vector<ObjectDifference>& difference);
+///
+/// `common`: a time whose records are in both, as of the pieces of one recording; s. What they say counts once: of one of
+/// two estimates the share of its sightings' time that lies in it is left out, of cells that both say alike the surer one stays.
+CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b, const std::vector<ObjectDifference>& difference,
+                        const std::optional<SeenSpan>& common = {});
+
+/// Whether `map` is of runs that went on with `earlier` (`run --map`), and so holds all of it.
+bool continues(const CSemanticMap& map, const CSemanticMap& earlier);
 
 }  // namespace roomgraph

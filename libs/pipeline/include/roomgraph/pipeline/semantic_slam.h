@@ -137,6 +137,8 @@ class SemanticSlam {
   void use(const Scan& clean);
   /// Whether wheels or scans tell where the robot is then.
   bool placedByOthers(double t) const;
+  /// Whether the frame's own sensor or another one tells where it was taken.
+  bool isPlaced(const Frame& frame, const TrackingResult& tracked) const;
 
   void localize(double t);
   void takeOver();
