@@ -72,8 +72,9 @@ option(ROOMGRAPH_TESTS_ONE_BY_ONE "ctest lists each GoogleTest case, not each ex
 
 # roomgraph_add_test(NAME SOURCES ... LINK targets... [INTERNALS libraries...] [ONE_BY_ONE] [AT_ONCE suites...]): one
 # GoogleTest executable, and one test of ctest, or one for each case where cases start whole programs (ONE_BY_ONE) or the option
-# above wants it; suites of AT_ONCE, which share what takes long to make, are one test even then. It sees the private headers of
-# the library whose tests stand in this folder, and of INTERNALS: the parts behind the public interface are tested one by one.
+# above wants it; suites of AT_ONCE, which share what takes long to make, are one test even then, and begin before the others.
+# It sees the private headers of the library whose tests stand in this folder, and of INTERNALS: the parts behind the public
+# interface are tested one by one.
 function(roomgraph_add_test name)
   cmake_parse_arguments(ARG "ONE_BY_ONE" "TIMEOUT" "SOURCES;LINK;INTERNALS;AT_ONCE" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -106,7 +107,7 @@ function(roomgraph_add_test name)
   endif()
   foreach(suite ${ARG_AT_ONCE})
     add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
-    set_tests_properties(${suite} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
+    set_tests_properties(${suite} PROPERTIES COST 200 TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")
   endforeach()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_FILTER "${filter}"
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${ROOMGRAPH_TEST_ENVIRONMENT}")

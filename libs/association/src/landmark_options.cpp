@@ -43,7 +43,8 @@ void LandmarkOptions::declareParameters(ParameterVisitor& v) {
   v.add("exclusive_overlap", exclusive_overlap,
         {.doc = "Of two landmarks that overlap by more than this share of the smaller one's footprint, only "
                 "the one with "
-                "more evidence is in the map.",
+                "more evidence is in the map. Things of two classes that frames show beside each other, as chairs "
+                "at a table, may overlap by half of it.",
          .min = 0,
          .max = 1});
   v.add(
