@@ -2,6 +2,8 @@
 // Estimation of a calibration from made-up drives whose truth is known.
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "estimate_calibration.h"
 #include "made_up_drive.h"
 #include "roomgraph/core/errors.h"
@@ -216,6 +218,28 @@ TEST(EstimateCalibration, ErrorsWithABoardAreWhatTheCovarianceSays) {
     EXPECT_LT(squares[i], 3.3) << parameterTraits()[static_cast<std::size_t>(i)].name;
   }
   EXPECT_LT(ratio, 0.95) << "a board is worth something besides walls and floor";
+}
+
+// Thirty views of a board, and neither walls nor floor: few to tell errors by.
+TEST(EstimateCalibration, ErrorsWithABoardAloneAreWhatTheCovarianceSays) {
+  constexpr int kSeeds = 40;
+  const ParameterVector truth = trueParameters();
+  std::map<int, double> squares, told;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    MadeUpDrive drive({.seconds = 60, .views = false, .steps = false, .board = true, .noise = usualNoise(), .seed = seed});
+    CalibrationTask task = drive.task();
+    task.evidence[0].scans.clear();
+    const auto estimate = estimateCalibration(task);
+    for (const int i : {kCameraX, kCameraY, kCameraYaw}) {
+      const double off = estimate.after[i] - truth[i];
+      squares[i] += off * off / kSeeds;
+      told[i] += estimate.covariance(i, i) / kSeeds;
+    }
+  }
+  for (const auto& [i, square] : squares) {
+    EXPECT_GT(square, 0.2 * told[i]) << parameterTraits()[static_cast<std::size_t>(i)].name;
+    EXPECT_LT(square, 1.6 * told[i]) << parameterTraits()[static_cast<std::size_t>(i)].name;
+  }
 }
 
 TEST(EstimateCalibration, NothingSaysNothing) {

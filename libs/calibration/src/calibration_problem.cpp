@@ -24,6 +24,7 @@ constexpr double kBoardTurn_rad = 0.002, kBoardPlace_m = 0.003;  // of the lidar
 constexpr double kBoardTurned_rad = 0.1, kBoardMoved_m = 0.15, kBoardLongest_s = 20;
 constexpr std::size_t kLeastResiduals = 8;                      // of fewer the scatter says nothing
 constexpr double kBin_s = 0.5;                                  // of gradients that are added up
+constexpr double kMostOfAll = 0.95;                               // of what is known of a parameter, by one bin
 constexpr int kLags = 4;                                        // bins over which errors may hang together
 
 double sigmaOf(const WallMatch& match) {
@@ -254,13 +255,24 @@ CalibrationProblem::Jacobian CalibrationProblem::jacobianOf(const Block& block, 
 
 ParameterMatrix CalibrationProblem::covariance() {
   const ParameterMatrix inverse = inverseInformation();
-  std::map<std::pair<int, long>, ParameterVector> gradients;
+  struct Bin {
+    ParameterVector gradient = ParameterVector::Zero();
+    ParameterMatrix information = ParameterMatrix::Zero();
+  };
+  std::map<std::pair<int, long>, Bin> bins;
   for (const Block& block : blocks_) {
     std::array<double, 6> residuals{};
     const auto jacobian = jacobianOf(block, residuals);
-    auto [bin, is_new] =
-        gradients.try_emplace({block.recording, std::lround(block.t / kBin_s)}, ParameterVector::Zero());
-    bin->second += jacobian.transpose() * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(residuals.data());
+    Bin& bin = bins[{block.recording, std::lround(block.t / kBin_s)}];
+    bin.gradient += jacobian.transpose() * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(residuals.data());
+    bin.information += jacobian.transpose() * jacobian;
+  }
+  // The solution has come towards each bin. Times `inverse` these are its changes when a bin is left out (jackknife; Bell and
+  // McCaffrey 2002).
+  std::map<std::pair<int, long>, ParameterVector> gradients;
+  for (const auto& [key, bin] : bins) {
+    const ParameterMatrix left = ParameterMatrix::Identity() - kMostOfAll * bin.information * inverse;
+    gradients[key] = left.partialPivLu().solve(bin.gradient);
   }
   ParameterMatrix scattered = ParameterMatrix::Zero();
   for (const auto& [key, gradient] : gradients)
