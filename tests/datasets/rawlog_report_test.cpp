@@ -58,6 +58,17 @@ TEST_F(Doctor, HealthyRecordingHasOnlyNotes) {
   EXPECT_DOUBLE_EQ(images.color_camera.fx, 20);
   EXPECT_TRUE(images.registered);
   EXPECT_NEAR(images.median_depth_m, 1.07, 0.08);
+  EXPECT_EQ(images.color_distortion, Distortion{}) << "of none";
+}
+
+TEST_F(Doctor, TellsTheLensesOfColourAndDepth) {
+  auto images = makeImages(0);
+  images->cameraParamsIntensity.setDistortionKannalaBrandt(0.1, 0.2, 0.3, 0.4);
+  images->cameraParams.setDistortionPlumbBob(0.1, 0.2, 0.3, 0.4, 0.5);
+  const auto report = inspect({images});
+  ASSERT_EQ(report.sensors.size(), 1u);
+  EXPECT_EQ(report.sensors[0].images->color_distortion, (Distortion{"equidistant", {0.1, 0.2, 0.3, 0.4}}));
+  EXPECT_EQ(report.sensors[0].images->depth_distortion, (Distortion{"plumb_bob", {0.1, 0.2, 0.3, 0.4, 0.5}}));
 }
 
 TEST_F(Doctor, TimeStamps) {

@@ -116,7 +116,7 @@ TEST_F(RecordedDetectorTest, BoxesThatComeTooLateAreReported) {
   EXPECT_FALSE(detector_.detect(frameAt(12)));
   detector_.feed(record(11, "chair"));
   detector_.feed(record(12, "chair"));
-  EXPECT_THAT(detector_.warning(), HasSubstr("1 records of boxes came after images of up to 1.00 s later"));
+  EXPECT_THAT(detector_.warning(), HasSubstr("boxes that came after images of up to 1.00 s later, too late for their own: of 1 image;"));
   EXPECT_THAT(detector_.warning(), HasSubstr("[pipeline] lookahead_s"));
 }
 

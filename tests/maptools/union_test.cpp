@@ -135,6 +135,12 @@ TEST(MapUnion, AMapContinuesThoseThatItWasMadeFrom) {
   EXPECT_FALSE(continues(monday, monday)) << "another recording may have that name";
   EXPECT_FALSE(continues(other, monday));
   EXPECT_FALSE(continues(friday, {}));
+  monday.seen[LandmarkId{3}] = {10, 20};
+  friday.seen[LandmarkId{3}] = {10, 900};
+  EXPECT_TRUE(continues(friday, monday));
+  friday.seen[LandmarkId{3}] = {11, 900};
+  EXPECT_FALSE(continues(friday, monday)) << "begun by another recording of that name";
+  friday.seen[LandmarkId{3}] = {10, 900};
   friday.provenance.history.push_back("cropped");
   EXPECT_FALSE(continues(friday, monday)) << "it no longer holds all of it";
 }

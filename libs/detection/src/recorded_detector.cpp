@@ -106,8 +106,9 @@ std::string RecordedDetector::warning() const {
 std::string RecordedDetector::lateness() const {
   if (late_ == 0) return "";
   std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << late_ << " records of boxes came after images of up to " << latest_by_s_
-       << " s later, too late for their own: a larger [pipeline] lookahead_s waits for them";
+  text << std::fixed << std::setprecision(2) << "boxes that came after images of up to " << latest_by_s_
+       << " s later, too late for their own: of " << late_ << (late_ == 1 ? " image" : " images")
+       << "; a larger [pipeline] lookahead_s waits for them";
   return text.str();
 }
 

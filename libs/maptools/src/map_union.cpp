@@ -190,6 +190,12 @@ CSemanticMap unitedMaps(const CSemanticMap& a, const CSemanticMap& b,
 bool continues(const CSemanticMap& map, const CSemanticMap& earlier) {
   const auto &all = map.provenance.history, &first = earlier.provenance.history;
   if (first.empty() || all.size() <= first.size() || !std::equal(first.begin(), first.end(), all.begin())) return false;
+  // Another recording may have the same name; what stands in both has been seen since the same moment.
+  const auto isKnownSince = [&](const auto& seen) {
+    const auto found = map.seen.find(seen.first);
+    return found == map.seen.end() || found->second.first == seen.second.first;
+  };
+  if (!std::all_of(earlier.seen.begin(), earlier.seen.end(), isKnownSince)) return false;
   return std::all_of(all.begin() + static_cast<std::ptrdiff_t>(first.size()), all.end(),
                      [](const std::string& step) { return step.starts_with(kContinuedByRun); });
 }

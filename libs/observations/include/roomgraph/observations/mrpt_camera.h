@@ -21,10 +21,10 @@ struct Distortion {
   /// "plumb_bob": k1 k2 p1 p2 k3; "rational_polynomial": k4 k5 k6 beside them; "equidistant": k1 to k4 of Kannala and Brandt
   /// (2006), for fisheye lenses. Formulas: OpenCV's calib3d.
   std::string model = "plumb_bob";
-  std::vector<double> coefficients;
+  std::vector<double> coefficients = std::vector<double>(5);
 
   bool isFisheye() const { return model == "equidistant"; }
-  bool operator==(const Distortion& other) const { return model == other.model && coefficients == other.coefficients; }
+  bool operator==(const Distortion&) const = default;
 };
 
 Distortion distortionOf(const PinholeCamera& camera);
