@@ -12,6 +12,7 @@ void addImportCommand(CLI::App& app);
 void addExportCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addDamageCommand(CLI::App& app);
+void addVaryCommand(CLI::App& app);
 void addCalibrateCommand(CLI::App& app);
 
 void addOptimizeCommand(CLI::App& app);

@@ -66,6 +66,7 @@ void addCommands(CLI::App& app) {
   addExportCommand(app);
   addInfoCommand(app);
   addDamageCommand(app);
+  addVaryCommand(app);
   addCalibrateCommand(app);
   addOptimizeCommand(app);
   addRunCommand(app);

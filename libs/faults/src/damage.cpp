@@ -2,14 +2,13 @@
 // One pass over the input through the chain of faults into the output.
 #include "roomgraph/faults/damage.h"
 
-#include <mrpt/img/CImage.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <memory>
 
 #include "fault_kinds.h"
+#include "lossless_pictures.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/output_file.h"
 #include "roomgraph/datasets/stored_observations.h"
@@ -19,18 +18,6 @@ namespace roomgraph {
 namespace {
 
 using Faults = std::vector<std::unique_ptr<Fault>>;
-
-/// Pictures are written without loss as long as it lives.
-class LosslessPictures {
- public:
-  LosslessPictures() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true); }
-  ~LosslessPictures() { mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(before_); }
-  LosslessPictures(const LosslessPictures&) = delete;
-  LosslessPictures& operator=(const LosslessPictures&) = delete;
-
- private:
-  const bool before_ = mrpt::img::CImage::DISABLE_JPEG_COMPRESSION();
-};
 
 /// Gives records their time since the first stamp.
 class RecordingClock {
