@@ -186,6 +186,7 @@ TEST_F(Variant, BeamsThatStayKeepTheirPoints) {
     expectPoints({.every_beam = 5}, {2});
     expectPoints({.field_of_view_rad = 1.01}, {1, 2, 3});  // of 2 rad, beams .5 rad apart
     expectPoints({.farthest_m = 2.25}, {0, 1, 2});
+    EXPECT_FALSE(only<mrpt::obs::CObservation2DRangeScan>()->getScanRangeValidity(3));
   }
 }
 
