@@ -25,7 +25,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build" / "release" / "bin" / "roomgraph"
 TIMED = {"timings.csv", "report.html"}
-TIMED_KEYS = {"timings", "peak_memory_mb", "command", "resumed"}
+TIMED_KEYS = {"timings", "peak_memory_mb", "wall_s", "command", "resumed"}
 
 
 def results(folder):

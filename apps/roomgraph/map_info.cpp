@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "roomgraph/core/checksum.h"
+#include "roomgraph/observations/path_length.h"
 #include "run_report.h"
 
 namespace roomgraph {
@@ -28,8 +29,7 @@ MapFigures figuresOf(const CSemanticMap& map) {
       }
   }
   const auto& poses = map.world_from_robot;
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    out.path_m += (poses[i].pose.translation() - poses[i - 1].pose.translation()).norm();
+  out.path_m = pathLength(poses);
   if (!poses.empty()) out.duration_s = poses.back().t - poses.front().t;
   return out;
 }

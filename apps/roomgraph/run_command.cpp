@@ -149,10 +149,11 @@ std::string whatWasReplayed(const ReplayState& replayed, RunCheckpoint* checkpoi
 }
 
 RunOrigin originOf(const RunOptions& options, const std::vector<std::string>& networks,
-                   const RunCheckpoint* checkpoint, const RunBeginnings& beginnings) {
+                   const RunCheckpoint* checkpoint, const RunBeginnings& beginnings, double wall_s) {
   RunOrigin origin{options.input, kVersion, kRevision, checkpoint ? checkpoint->command() : commandLine(),
                    networks};
   origin.resumed = !options.resume.empty();
+  if (!origin.resumed) origin.wall_s = wall_s;
   origin.clocks = beginnings.clocks();
   origin.mounts = beginnings.mounts();
   return origin;
@@ -279,7 +280,7 @@ bool runOnce(const RunOptions& options, WholeRun& whole) {
   SlamResult result = slam->finish();
   result.map.origin = std::filesystem::path(options.input).filename().string();
   requireRecords(options, slam->setup().options, replayed, result, checkpoint.get());
-  RunOrigin origin = originOf(options, networks, checkpoint.get(), whole.beginnings);
+  RunOrigin origin = originOf(options, networks, checkpoint.get(), whole.beginnings, watch.seconds());
   if (whole.examination && !replayed.interrupted) origin.findings = findingsOf(whole, *slam, options.quiet);
   output->writeResult(*slam, result, reader.statistics(), replayed, origin);
   const ObjectDatabase database = slam->setup().database;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "commands.h"
@@ -12,9 +13,11 @@
 #include "installed_networks.h"
 #include "interrupts.h"
 #include "roomgraph/core/errors.h"
+#include "roomgraph/core/text_file.h"
 #include "roomgraph/mapping/map_files.h"
 #include "roomgraph/pipeline/detection_source.h"
 #include "roomgraph/pipeline/read_options.h"
+#include "roomgraph/pipeline/settings_json.h"
 #include "roomgraph/viewer/recorded_run.h"
 #include "roomgraph/viewer/viewer_request.h"
 #include "shared_files.h"
@@ -59,6 +62,19 @@ void viewMap(ViewOptions& options, const std::filesystem::path& file) {
   loadWindow()(options.request);
 }
 
+// Stamps and poses of the run are those of sensors that it set when it began anew.
+void addSettingsOf(const std::filesystem::path& summary, RecordCorrections& corrections) {
+  using nlohmann::ordered_json;
+  const auto json = parseJson<ordered_json>(readTextFile(summary), summary.string());
+  const auto settings = [&](const char* of) { return json.value(of, ordered_json::object()).value("set", ordered_json::array()); };
+  try {
+    for (const auto& clock : settings("clocks")) addClocks({clockFrom(clock)}, corrections);
+    for (const auto& mount : settings("sensor_poses")) addMounts({mountFrom(mount)}, corrections);
+  } catch (const ordered_json::exception& error) {
+    throw InputError(summary.string() + ": " + error.what());
+  }
+}
+
 // Images come from the recording, where it still is.
 std::unique_ptr<FrameFinder> imagesOf(const std::filesystem::path& recording,
                                       const std::filesystem::path& folder) {
@@ -70,7 +86,8 @@ std::unique_ptr<FrameFinder> imagesOf(const std::filesystem::path& recording,
       readConfiguration(std::filesystem::exists(config_file) ? config_file.string() : "",
                         {"detection.enabled=false", "pipeline.plugins="});
   const auto setup = makeSetup(configuration.config, configuration.objects_file);
-  const ReadOptions read = readOptionsOf(setup->options, configuration.config);
+  ReadOptions read = readOptionsOf(setup->options, configuration.config);
+  addSettingsOf(folder / "summary.json", read.corrections);
   return std::make_unique<FrameFinder>([=] { return openRecording(recording, read); });
 }
 
@@ -188,7 +205,8 @@ void addViewCommand(CLI::App& app) {
       "robot, orbit; 1 to 9 layers; S save a picture; Esc nothing selected; Q quit. Mouse: left button "
       "turns, right\n"
       "button moves, wheel zooms; a click on an object tells what is known of it.\n"
-      "Back in time the window shows what was known then. No display: 'snapshot' and 'report' need none.");
+      "Back in time a replay shows what was known then, a finished run what was seen by then, in the grid and at "
+      "the\nplaces of its end. No display: 'snapshot' and 'report' need none.");
   command->callback([options] { view(*options); });
 }
 

@@ -204,6 +204,23 @@ TEST_F(Refinement, ReturnsThatLieCloseTogetherCountLittleMoreThanOne) {
   EXPECT_GT(dense, usual);
 }
 
+// Beams that err on their own, as a simulation's: that they do is learnt from them, and then each of them counts.
+TEST_F(Refinement, ReturnsThatErrOnTheirOwnCountEach) {
+  map(test::corridor(), 0.02);
+  OwnShare own;
+  const auto informationOf = [&] {
+    const PlanarScan scan = toPlanarScan(test::castScan(test::corridor(), {}, 0, random, 0.02, 1440), 0.1, 30);
+    GridRefinement found = onGrid(scan, {});
+    refineFurther(surfaces, faced(scan), {}, own, found);
+    EXPECT_TRUE(found.on_surfaces);
+    return found.curvature(1, 1);
+  };
+  const double before = informationOf();
+  for (int i = 0; i < 50; ++i) informationOf();
+  EXPECT_GT(own.value(), 0.7);
+  EXPECT_GT(informationOf(), 1.3 * before);
+}
+
 TEST_F(Refinement, ACorridorIsFixedAcrossAndHardlyAlong) {
   map(test::corridor(), 0.01);
   const PlanarScan scan = seenFrom(test::corridor(), {}, random, 0.01);
@@ -227,7 +244,8 @@ TEST_F(Refinement, NothingInAPlaceThatTheMapDoesNotShow) {
   grid_only.grid_from_scan = {0, 0.5, 0};
   EXPECT_FALSE(refineOnSurfaces(surfaces, faced(elsewhere), grid_only, {}));
   const Pose2 before = grid_only.grid_from_scan;
-  refineFurther(surfaces, faced(elsewhere), {}, grid_only);
+  OwnShare own;
+  refineFurther(surfaces, faced(elsewhere), {}, own, grid_only);
   EXPECT_FALSE(grid_only.on_surfaces);
   EXPECT_EQ(grid_only.grid_from_scan.y, before.y);
 }

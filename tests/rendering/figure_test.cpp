@@ -17,6 +17,7 @@
 #include "figure_legend.h"
 #include "figure_picture.h"
 #include "map_drawing.h"
+#include "overlay.h"
 #include "roomgraph/core/errors.h"
 #include "roomgraph/rendering/floor_plan.h"
 #include "sample_map.h"
@@ -228,6 +229,27 @@ TEST(Figure, PaperEndsWhereTheMapEndsAndScreenHasTheSizeAskedFor) {
     EXPECT_EQ(cv::Size(told.width, told.height), size(FigureStyle::kPaper)) << name;
   }
   EXPECT_LT(size(FigureStyle::kPaper).height, 640) << "the room is 6 m x 4 m";
+}
+
+// A film whose tenth chair needs another row of the legend.
+TEST(Figure, PartsOfAMapHaveTheLayoutOfTheWhole) {
+  CSemanticMap whole = mapOfClasses(4);
+  for (auto& landmark : whole.landmarks) landmark.class_name = "kind" + std::to_string(landmark.id.value % 2);
+  while (whole.landmarks.size() < 12) {
+    whole.landmarks.push_back(whole.landmarks.front());
+    whole.landmarks.back().id = LandmarkId{static_cast<int>(whole.landmarks.size())};
+  }
+  CSemanticMap part = whole;
+  part.landmarks.resize(2);
+  for (const FigureStyle style : {FigureStyle::kPaper, FigureStyle::kScreen})
+    for (int width = 200; width < 700; width += 2) {
+      const FigureOptions options{style, width, 300, ""};
+      ASSERT_EQ(figurePixels({part, whole}, furniture(), options).size(), figurePixels(whole, furniture(), options).size()) << width;
+    }
+  for (int width = 200; width < 700; width += 2) {
+    const SnapshotOptions options{SnapshotView::kTop, width, 300, ""};
+    ASSERT_EQ(mapArea({part, whole}, furniture(), options), mapArea(whole, furniture(), options)) << width;
+  }
 }
 
 TEST(Figure, TheLegendEndsBeforeTheScaleBar) {

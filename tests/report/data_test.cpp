@@ -26,6 +26,8 @@ TEST_F(ReportData, FiguresAreThoseOfTheSummary) {
   EXPECT_EQ(run["reasons"]["too dark"], 7);
   EXPECT_EQ(run["warnings"], (json{"cut off", "two lidars"}));
   EXPECT_EQ(run["peak_memory_mb"], 123.4);
+  EXPECT_EQ(run["wall_s"], 12.3);
+  EXPECT_EQ(run["least_gap_s"], 1);
   EXPECT_EQ(run["version"], "1.2 (abc)");
   EXPECT_EQ(run["command"], "roomgraph run x y");
   EXPECT_EQ(run["recording"], "made_up.rawlog");
@@ -292,8 +294,10 @@ TEST_F(ReportData, EvaluationsBesideTheRunAreShown) {
     {"from": 0, "to": 0.1, "count": 0, "mean_probability": null, "correct_share": null},
     {"from": 0.9, "to": 1, "count": 8, "mean_probability": 0.97, "correct_share": 0.75}]})");
   folder.write("other.json", R"({"precise": 1})");
+  folder.write("relations.json", R"({"trans_abs_rmse_m": 0.02, "relations_used": 8})");
   const json evaluations = runOf(folder)["evaluations"];
-  ASSERT_EQ(evaluations.size(), 1u);
+  ASSERT_EQ(evaluations.size(), 2u);
+  EXPECT_EQ(evaluations[1]["file"], "relations.json");
   EXPECT_EQ(evaluations[0]["file"], "ev.json");
   EXPECT_EQ(evaluations[0]["figures"], (json{{"precision", 0.5}}));
   ASSERT_EQ(evaluations[0]["reliability"].size(), 1u);

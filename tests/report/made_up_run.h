@@ -117,7 +117,8 @@ inline void writeTimingsAndSummary(const TemporaryFolder& folder, const MadeUpSi
             {{{"severity", "warning"}, {"place", "LIDAR"}, {"what", "gap of 2 s"}, {"hint", "drive on"}},
              {{"severity", "note"}, {"place", "KINECT"}, {"what", "dark <b>"}, {"hint", ""}}}},
            {"timings", {{"matching", spent}, {"selection, late", spent}}},
-           {"peak_memory_mb", 123.44}}
+           {"peak_memory_mb", 123.44},
+           {"wall_s", 12.34}}
           .dump());
 }
 

@@ -106,6 +106,12 @@ TEST(Descriptions, OfAMomentWhatIsInTheMap) {
   state->note = "not tracked: too dark";
   EXPECT_EQ(describeMoment(*state, kBegin_t + 2),
             "record 12, 10.0 s: 1 object (2 candidates), 5 key poses, 1 loop closure; not tracked: too dark");
+  // A long run, in which an edge stands for many closures.
+  state->note.clear();
+  state->loop_closures = 80;
+  EXPECT_EQ(describeMoment(*state, kBegin_t + 2), "record 12, 10.0 s: 1 object (2 candidates), 5 key poses, 1 tie of loop closures");
+  state->t += 5;
+  EXPECT_EQ(describeMoment(*state, kBegin_t + 2), "record 12, 15.0 s: 1 object (2 candidates), 5 key poses, 3 ties of 80 loop closures");
 }
 
 TEST(Descriptions, OfAMapWithoutTime) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
+#include <mrpt/opengl/CText.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -172,6 +173,15 @@ TEST(SceneMarks, ClosuresRunBetweenThePlacesAtTheirTimes) {
   EXPECT_NEAR(box.min().x(), begin.x(), 0.02);
   EXPECT_NEAR(box.max().x(), end.x(), 0.02) << "the second one ends later than the path";
   EXPECT_NEAR(box.min().y(), end.y(), 0.02);
+}
+
+TEST(SceneMarks, NamesHaveAQuestionMarkForWhatMrptCannotWrite) {
+  mrpt::opengl::COpenGLScene scene;
+  Landmark landmark = sampleLandmark(3, "Drehst\u00fchle_\u6905\u5b50", ShapeKind::kCuboid, 0, 0);
+  addName(landmark, scene);
+  const auto text = scene.getByClass<mrpt::opengl::CText>();
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->getString(), "Drehst?hle ?? 3");
 }
 
 TEST(SceneMarks, TheEllipseHolds95Percent) {

@@ -160,6 +160,7 @@ void SubmapLoopCloser::prepare() {
   active_ = submap_settings_.emptySubmaps();
   submaps_.clear();
   examined_ = 0, given_up_ = 0;
+  own_share_ = {};
   pyramids_.clear();
   scans_.clear();
   way_.clear();
@@ -319,7 +320,7 @@ std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Pr
   if (surely && ambiguous(pyramid, b.points, expected, window, *coarse)) return std::nullopt;
 
   const FacedScan scan = faced(b.planar);
-  refineFurther(submap.surfaces, scan, prior, fine);
+  refineFurther(submap.surfaces, scan, prior, own_share_, fine);
   if (shareOnWrongSide(submap.surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
   return fine;
 }

@@ -12,6 +12,7 @@
 #include "closure_graph.h"
 #include "correlative_search.h"
 #include "grid_refinement.h"
+#include "own_share.h"
 #include "place_votes.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
@@ -129,6 +130,7 @@ class SubmapLoopCloser : public ScanLoopCloser {
   std::vector<KeptSubmap> submaps_;
   std::size_t examined_ = 0;  ///< submaps that were looked at whether they repeat older ones
   int given_up_ = 0;          ///< of them
+  OwnShare own_share_;
   RecentPyramids pyramids_;  ///< of submaps, by index
   std::vector<Scan> scans_;  ///< kept ones
   std::vector<WayPoint> way_;  ///< one per kept scan

@@ -110,6 +110,7 @@ void SubmapScanMatcher::prepare() {
   pyramid_stale_ = true;
   free_space_ = FreeSpaceMemory(free_space_options_);
   roughness_ = {};
+  own_share_ = {};
   trajectory_ = Trajectory();
   segment_ = lost_scans_ = 0;
   last_t_.reset();
@@ -219,7 +220,7 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
     prior.extra_weight_per_m2.setZero();
     prior.information_per_m2 = steady;
   }
-  refineFurther(submap.surfaces, faced(planar), prior, fine);
+  refineFurther(submap.surfaces, faced(planar), prior, own_share_, fine);
   return fine;
 }
 

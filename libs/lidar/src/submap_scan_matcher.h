@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "grid_refinement.h"
+#include "own_share.h"
 #include "roomgraph/lidar/free_space_memory.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
@@ -66,6 +67,7 @@ class SubmapScanMatcher : public ScanMatcher {
   bool pyramid_stale_ = true;
   FreeSpaceMemory free_space_;
   UsualRoughness roughness_;
+  OwnShare own_share_;
   Trajectory trajectory_;
   int segment_ = 0, lost_scans_ = 0;
   std::optional<double> last_t_;      ///< of the last scan, matched or predicted

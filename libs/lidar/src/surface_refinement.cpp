@@ -27,19 +27,19 @@ struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   std::size_t used = 0;
+  std::vector<LineError> errors;
 };
 
 // What each return counts for. Beams that end close to each other see one piece of a surface and err alike: a wall beside the
 // lidar, with a hundred returns on a metre, would outweigh all that is farther away, from which the direction is known. Of
-// n returns of variance v on kAlike_m the mean has the variance v (kOwn / n + 1 - kOwn).
-std::vector<double> sharesOf(const Points2& points) {
-  constexpr double kAlike_m = 0.1, kOwn = 0.2;
+// n returns of variance v on kAlike_m the mean has the variance v (own / n + 1 - own).
+std::vector<double> sharesOf(const Points2& points, double own) {
   std::vector<double> out(points.size());
   double before = kAlike_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double after = i + 1 < points.size() ? std::min(kAlike_m, (points[i + 1] - points[i]).norm()) : kAlike_m;
     const double one_of = std::max(1e-3, (before + after) / (2 * kAlike_m));  // 1 / n
-    out[i] = 1 / (kOwn + (1 - kOwn) / one_of);
+    out[i] = 1 / (own + (1 - own) / one_of);
     before = after;
   }
   return out;
@@ -48,6 +48,7 @@ std::vector<double> sharesOf(const Points2& points) {
 NormalEquations linearise(LinesOfReturns& lines, const FacedScan& scan, const std::vector<double>& shares, const Pose2& pose,
                           int levels) {
   NormalEquations out;
+  out.errors.resize(scan.points.size());
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Eigen::Vector2d& p = scan.points[i];
@@ -64,6 +65,7 @@ NormalEquations linearise(LinesOfReturns& lines, const FacedScan& scan, const st
                                    line->normal.y() * turned.x() - line->normal.x() * turned.y());
     out.information += weight * jacobian * jacobian.transpose();
     out.gradient += weight * distance * jacobian;
+    out.errors[i] = {true, distance / std::sqrt(variance), line->normal};
     ++out.used;
   }
   return out;
@@ -82,13 +84,14 @@ Eigen::Matrix3d matrixOf(const PosePrior& prior) {
 }
 
 std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const FacedScan& scan, const GridRefinement& grid,
-                                   const PosePrior& prior) {
+                                   const PosePrior& prior, const OwnShare& own) {
   const Eigen::Matrix3d unscaled = matrixOf(prior);
-  const std::vector<double> shares = sharesOf(scan.points);
+  const std::vector<double> shares = sharesOf(scan.points, own.value());
   SurfaceFit fit{.map_from_scan = grid.grid_from_scan};
   Pose2& pose = fit.map_from_scan;
+  NormalEquations scan_only;
   for (int i = 0; i < kIterations; ++i) {
-    const NormalEquations scan_only = linearise(lines, scan, shares, pose, levels);
+    scan_only = linearise(lines, scan, shares, pose, levels);
     if (static_cast<double>(scan_only.used) < kLeastShare * static_cast<double>(scan.points.size())) return std::nullopt;
     fit.information = scan_only.information;
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
@@ -100,16 +103,17 @@ std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const Face
     pose = {pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};
     if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
+  fit.neighbours = neighbourErrors(scan.points, scan_only.errors);
   return fit;
 }
 
 }  // namespace
 
 std::optional<SurfaceFit> refineOnSurfaces(const LocalSurfaces& surfaces, const FacedScan& scan, const GridRefinement& grid,
-                                           const PosePrior& prior) {
+                                           const PosePrior& prior, const OwnShare& own) {
   LinesOfReturns lines(surfaces, scan.points.size());
-  const auto fit = refineOn(lines, LocalSurfaces::kUsual, scan, grid, prior);
-  return fit ? fit : refineOn(lines, LocalSurfaces::kAll, scan, grid, prior);
+  const auto fit = refineOn(lines, LocalSurfaces::kUsual, scan, grid, prior, own);
+  return fit ? fit : refineOn(lines, LocalSurfaces::kAll, scan, grid, prior, own);
 }
 
 double shareOnWrongSide(const LocalSurfaces& surfaces, const FacedScan& scan, const Pose2& map_from_scan) {
@@ -131,11 +135,13 @@ double shareOnWrongSide(const LocalSurfaces& surfaces, const FacedScan& scan, co
   return wrong > 0 ? static_cast<double>(wrong) / (right + wrong) : 0;
 }
 
-void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, GridRefinement& refinement) {
-  const auto fit = refineOnSurfaces(surfaces, scan, refinement, prior);
+void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const PosePrior& prior, OwnShare& own,
+                   GridRefinement& refinement) {
+  const auto fit = refineOnSurfaces(surfaces, scan, refinement, prior, own);
   if (!fit) return;
   const Pose2 moved = refinement.grid_from_scan.inverse() * fit->map_from_scan;
   if (std::hypot(moved.x, moved.y) > kFarthestFromGrid_m) return;
+  own.learn(fit->neighbours);
   refinement.grid_from_scan = fit->map_from_scan;
   refinement.curvature = fit->information;
   refinement.residual_variance = 1;

@@ -163,6 +163,7 @@ ordered_json summaryJson(const SemanticSlam& slam, const SlamResult& result, con
   summary["sensor_warnings"] = read.sensor_warnings;
   summary["findings"] = findingsJson(origin.findings);
   summary["timings"] = timingsJson(slam.times());
+  if (origin.wall_s > 0) summary["wall_s"] = std::round(1e3 * origin.wall_s) / 1e3;
   summary["peak_memory_mb"] = peakMemoryMb();
   return summary;
 }

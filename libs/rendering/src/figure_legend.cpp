@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "class_counts.h"
 #include "map_drawing.h"
 #include "roomgraph/rendering/scene_parts.h"
 #include "symbols.h"
@@ -21,13 +22,13 @@ std::string decimal(double value) {
 }
 
 double entryWidth(Canvas& canvas, const LegendEntry& entry) {
-  return entry.width + kAfterSymbol_pt + canvas.textWidth(entry.text, {kLegendText_pt}) + kAfterEntry_pt;
+  const std::string& text = entry.longest.empty() ? entry.text : entry.longest;
+  return entry.width + kAfterSymbol_pt + canvas.textWidth(text, {kLegendText_pt}) + kAfterEntry_pt;
 }
 
 /// The class's usual shape, as large as a legend has room for.
-LegendEntry entryOf(const std::string& name, int count, const Landmark& example,
+LegendEntry entryOf(const std::string& name, const ClassCount& count, const Landmark& example,
                     const ObjectDatabase& database, FigureStyle style) {
-  const std::string text = inWords(name) + " (" + std::to_string(count) + ")";
   ObjectShape shape = example.shape;
   const bool flat = shape.kind == ShapeKind::kPlanar;
   const double width = flat || shape.kind == ShapeKind::kCuboid ? 1.45 * kSymbol_pt : kSymbol_pt;
@@ -35,12 +36,12 @@ LegendEntry entryOf(const std::string& name, int count, const Landmark& example,
   const double scale = width / shape.width;
   const Symbol symbol = symbolOf(database, name);
   const bool has_yaw = style == FigureStyle::kPaper && symbol.variant == 0 && example.has_yaw;
-  return {text, width, [=](Canvas& canvas, const Eigen::Vector2d& centre) {
+  return {withCount(name, count.shown), width, [=](Canvas& canvas, const Eigen::Vector2d& centre) {
             // Front towards the reader.
             drawSymbol(canvas, symbol, shape, has_yaw, style, [&](const Eigen::Vector2d& at) {
               return Eigen::Vector2d(centre + scale * Eigen::Vector2d(at.y(), at.x()));
             });
-          }};
+          }, withCount(name, count.whole)};
 }
 
 LegendEntry swatch(const std::string& text, const palette::TColor& color, bool rim) {
@@ -79,15 +80,10 @@ LegendEntry pathEntry(FigureStyle style) {
 
 std::vector<LegendEntry> legendOf(const MapPicture& picture, const ObjectDatabase& database,
                                   FigureStyle style) {
-  std::map<std::string, int> counts;
   std::map<std::string, const Landmark*> examples;
-  for (const auto& landmark : picture.whole.landmarks) {
-    counts[landmark.class_name] = 0;
-    examples[landmark.class_name] = &landmark;
-  }
-  for (const auto& landmark : picture.shown.landmarks) ++counts[landmark.class_name];
+  for (const auto& landmark : picture.whole.landmarks) examples[landmark.class_name] = &landmark;
   std::vector<LegendEntry> entries;
-  for (const auto& [name, count] : counts)
+  for (const auto& [name, count] : classCounts(picture))
     entries.push_back(entryOf(name, count, *examples[name], database, style));
   if (picture.whole.occupancy) {
     entries.push_back(swatch("obstacle", shadesOf(style).wall, false));

@@ -18,6 +18,7 @@ struct LegendEntry {
   std::string text;
   double width = 0;  ///< of the symbol, pt
   std::function<void(Canvas& canvas, const Eigen::Vector2d& centre)> draw;
+  std::string longest{};  ///< text that there must be room for, as counts grow in a film; empty: that of now
 };
 
 constexpr double kLegendText_pt = 8, kLegendRow_pt = 17;

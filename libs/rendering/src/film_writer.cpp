@@ -65,7 +65,7 @@ class QuietOpenCv {
 class Video : public FrameSink {
  public:
   Video(const fs::path& file, double fps, const cv::Size& size)
-      : place_(file), temporary_(fs::path(file).replace_extension(".unfinished" + endingOf(file))) {
+      : size_(size), place_(file), temporary_(fs::path(file).replace_extension(".unfinished" + endingOf(file))) {
     OutputFile(temporary_).finish();  // says why when that cannot be written
     const QuietOpenCv quiet;
     for (const auto& codec : codecs().at(endingOf(file)))
@@ -80,7 +80,11 @@ class Video : public FrameSink {
     writer_.release();
     remove();
   }
-  void add(const cv::Mat& frame) override { writer_.write(frame); }
+  void add(const cv::Mat& frame) override {
+    // OpenCV leaves out frames of another size without a word.
+    if (frame.size() != size_) throw std::logic_error("a frame of a film has another size than the first");
+    writer_.write(frame);
+  }
   void finish() override {
     writer_.release();
     flushToDisk(temporary_);
@@ -97,6 +101,7 @@ class Video : public FrameSink {
     fs::remove(temporary_, ignored);
   }
 
+  cv::Size size_;
   fs::path place_, temporary_;
   cv::VideoWriter writer_;
 };

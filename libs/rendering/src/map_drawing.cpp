@@ -7,13 +7,14 @@
 
 #include "labels.h"
 #include "roomgraph/rendering/scene_parts.h"
+#include "roomgraph/observations/path_length.h"
 #include "symbols.h"
 
 namespace roomgraph {
 namespace {
 
 constexpr double kMargin_m = 0.12, kOutlineTolerance_m = 0.01;
-constexpr double kPathStep_m = 0.03, kSessionGap_m = 1;
+constexpr double kPathStep_m = 0.03;
 constexpr double kPath_pt = 1.1, kLabel_pt = 6.5;
 
 void drawCells(Canvas& canvas, const CSemanticMap& map, bool (*chosen)(float), const palette::TColor& color,

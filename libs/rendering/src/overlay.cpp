@@ -10,6 +10,7 @@
 #include "glyphs.h"
 #include "labels.h"
 #include "picture_legend.h"
+#include "roomgraph/observations/path_length.h"
 #include "roomgraph/rendering/scene_parts.h"
 
 namespace roomgraph {
@@ -109,10 +110,7 @@ double roomOfScale(const CSemanticMap& map, const cv::Size& size, double unit_px
 }
 
 std::string factsOf(const MapPicture& picture) {
-  const auto& path = picture.shown.world_from_robot;
-  double length = 0;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    length += (path[i].pose.translation() - path[i - 1].pose.translation()).norm();
+  const double length = pathLength(picture.shown.world_from_robot);
   const Eigen::Vector3d size = contentBounds(picture.whole).sizes();
   const std::size_t objects = picture.shown.landmarks.size();
   std::ostringstream facts;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "class_counts.h"
 #include "glyphs.h"
 #include "overlay.h"
 #include "roomgraph/rendering/scene_parts.h"
@@ -26,24 +26,24 @@ double swatchWidth(const PictureLegendEntry& entry, double unit_px) {
 }
 
 double widthOf(const PictureLegendEntry& entry, double unit_px) {
-  return swatchWidth(entry, unit_px) + kAfterSwatch * unit_px + textWidth(entry.text, wordStyle(unit_px));
+  return swatchWidth(entry, unit_px) + kAfterSwatch * unit_px + textWidth(entry.longest, wordStyle(unit_px));
 }
 
 std::vector<PictureLegendEntry> entriesOf(const MapPicture& picture, const ObjectDatabase& database) {
-  std::map<std::string, int> counts;
-  for (const auto& landmark : picture.whole.landmarks) counts[landmark.class_name] = 0;
-  for (const auto& landmark : picture.shown.landmarks) ++counts[landmark.class_name];
   std::vector<PictureLegendEntry> out;
-  for (const auto& [name, count] : counts) {
+  for (const auto& [name, count] : classCounts(picture)) {
     const auto color = palette::ofClass(database, name);
-    out.push_back({inWords(name) + " (" + std::to_string(count) + ")", palette::mix(color, palette::kFree, 0.25),
+    out.push_back({withCount(name, count.shown), palette::mix(color, palette::kFree, 0.25),
                    palette::mix(color, {0, 0, 0}, 0.25)});
+    out.back().longest = withCount(name, count.whole);
   }
   if (picture.whole.occupancy) {
     out.push_back({"obstacle", palette::kOccupied, palette::kOccupied, true});
     out.push_back({"free", palette::kFree, palette::kGridLine});
   }
   if (!picture.whole.world_from_robot.empty()) out.push_back({"path, start to end", {}, {}, true, true});
+  for (auto& entry : out)
+    if (entry.longest.empty()) entry.longest = entry.text;
   return out;
 }
 
@@ -77,6 +77,7 @@ PictureLegend::PictureLegend(const MapPicture& picture, const ObjectDatabase& da
   while (entries.back().row >= most) {
     entries.resize(entries.size() - 2);
     entries.push_back({"and " + std::to_string(all - entries.size()) + " more", palette::kFree, palette::kGridLine});
+    entries.back().longest = entries.back().text;
     breakIntoRows(entries, right_px, unit_px);
   }
   const std::size_t lowest = entries.back().row;

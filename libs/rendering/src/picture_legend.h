@@ -20,6 +20,7 @@ struct PictureLegendEntry {
   bool is_path = false;       ///< a swatch that runs from the path's first colour to its last
   double u = 0;          ///< left end, px
   std::size_t row = 0;   ///< 0: the lowest
+  std::string longest{};  ///< text that there must be room for, as counts grow in a film
 };
 
 /// All entries of a picture in rows that leave room for the scale on the right; most of them when they would fill more

@@ -25,16 +25,23 @@ function comparedFigures() {
     ['Recording', (run) => run.duration, duration, 0],
     ['Way', (run) => run.length_m, metres, 0],
     ['Loop closures', (run) => run.counts.loop_closures, whole, 0],
-    ['Frames lost', (run) => run.counts.frames_lost, whole, -1],
-    ['Scans unmatched', (run) => run.counts.scans_unmatched, whole, -1],
-    ['Work', workSeconds, duration, -1],
+    ['Frames lost', (run) => run.counts.frames > 0 ? run.counts.frames_lost : null, whole, -1],
+    ['Scans unmatched', (run) => run.counts.scans > 0 ? run.counts.scans_unmatched : null, whole, -1],
+    ['Time', (run) => run.wall_s > 0 ? run.wall_s : null, duration, -1],
     ['Memory, at most', (run) => run.peak_memory_mb, (v) => `${whole(v)} MB`, -1],
   ];
 }
 
+// What is lost, time and memory grow with the recording: the best of them is told of one recording alone.
+const OF_ONE_RECORDING = ['Frames lost', 'Scans unmatched', 'Time', 'Memory, at most'];
+function isOneRecording(runs) {
+  return runs.every((run) => run.recording === runs[0].recording && Math.abs(run.duration - runs[0].duration) < 1);
+}
+
 function figureTable(runs) {
   const rows = [];
-  for (const [name, value, format, better] of comparedFigures()) {
+  for (const [name, value, format, direction] of comparedFigures()) {
+    const better = OF_ONE_RECORDING.includes(name) && !isOneRecording(runs) ? 0 : direction;
     const values = runs.map((run) => value(run)), known = values.filter(isNumber);
     if (!known.length) continue;
     const texts = values.map((v) => isNumber(v) ? format(v) : NONE), differ = new Set(known.map(format)).size > 1;

@@ -68,7 +68,7 @@ function gapPart(run) {
   const rows = longest.map(([from, to]) => [spanOf(from, to), `${fixed(to - from, 1)} s`]);
   const sum = run.gaps.reduce((all, [from, to]) => all + to - from, 0);
   const caption = `${fixed(sum, 1)} s in all${run.gaps.length > rows.length ? '; the longest' : ''}`;
-  const none = run.poses ? h('p', {class: 'none'}, 'None: no gap of more than a second.') :
+  const none = run.poses ? h('p', {class: 'none'}, `None: no gap of more than ${fixed(run.least_gap_s, 1)} s.`) :
                            missingNote(run, ['trajectory.tum']);
   return h(
       'div', {class: 'card pad'}, h('h3', {}, `Spans without a pose (${whole(run.gaps.length)})`),

@@ -37,7 +37,7 @@ function start() {
   else
     showRun(runs[0], 'h1');
   byId('footer').textContent =
-      'Positions in metres in the frame of the robot’s first pose; times from the first pose.';
+      'Positions in metres in the frame of the map; times from the first pose.';
   startPrinting();
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }

@@ -50,23 +50,34 @@ function knownCorners(image, grid) {
   return [[x(u0), y(v0)], [x(u1 + 1), y(v1 + 1)]];
 }
 
-/// The path in pieces of equal time, each in its colour; nothing is drawn where poses are missing.
+/// The path in pieces of equal time, each in its colour, cut between poses where need be; nothing is drawn where poses are missing.
 function pathPieces(run) {
   const {path} = run, count = path.length / 4, pieces = [];
+  const stepAt = (t) => Math.min(TIME_STEPS - 1, Math.floor(t / Math.max(run.duration, 1e-9) * TIME_STEPS));
   const gapAt = (i) =>
       run.gaps.some(([from]) => from >= path[4 * i] - 1e-3 && from < path[4 * (i + 1)] - 1e-3);
-  const stepOf = (i) =>
-      Math.min(TIME_STEPS - 1, Math.floor(path[4 * i] / Math.max(run.duration, 1e-9) * TIME_STEPS));
-  let begin = 0;
-  for (let i = 0; i + 1 < count; ++i) {
-    const gap = run.gaps.length > 0 && gapAt(i);
-    if (!gap && stepOf(i + 1) === stepOf(i) && i + 2 < count) continue;
-    const end = gap ? i + 1 : i + 2;
-    pieces.push(
-        s('polyline',
-          {points: pointsOf(path, begin, end), stroke: rampColour(stepOf(begin) / (TIME_STEPS - 1))}));
-    begin = i + 1;
+  const pointAt = (i, ratio = 0) => [1, 2].map((k) => path[4 * i + k] + (ratio ? ratio * (path[4 * i + 4 + k] - path[4 * i + k]) : 0));
+  let points = [], step = 0;
+  const finish = () => {
+    if (points.length > 1)
+      pieces.push(s('polyline', {points: points.map((p) => p.join(',')).join(' '), stroke: rampColour(step / (TIME_STEPS - 1))}));
+  };
+  for (let i = 0; i < count; ++i) {
+    const t = path[4 * i], joined = i > 0 && !(run.gaps.length && gapAt(i - 1));
+    if (!joined) {
+      finish();
+      points = [], step = stepAt(t);
+    }
+    while (joined && step < stepAt(t)) {
+      const before = path[4 * (i - 1)], boundary = (step + 1) * run.duration / TIME_STEPS;
+      const cut = pointAt(i - 1, Math.min(1, Math.max(0, (boundary - before) / (t - before))));
+      points.push(cut);
+      finish();
+      points = [cut], ++step;
+    }
+    points.push(pointAt(i));
   }
+  finish();
   return pieces;
 }
 

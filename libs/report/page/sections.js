@@ -13,10 +13,19 @@ function figureBox(name, value, unit, more) {
       more && h('p', {}, more));
 }
 
+// Of all stages, some of which run beside each other: not the time that the run took.
 function workSeconds(run) { return run.stages.reduce((sum, stage) => sum + stage.total_ms, 0) / 1000; }
 
+function timeBox(run) {
+  if (run.wall_s > 0)
+    return figureBox(
+        'Time', duration(run.wall_s), null, run.duration > 0 ? `${fixed(run.duration / run.wall_s, 1)} × real time` : null);
+  const work = workSeconds(run);
+  return work > 0 ? figureBox('Work', duration(work), null, 'of all stages') : null;
+}
+
 function keyFigures(run) {
-  const {counts} = run, mapped = run.objects.filter((o) => o.in_map), work = workSeconds(run),
+  const {counts} = run, mapped = run.objects.filter((o) => o.in_map),
         errors = run.final_errors;
   const classes = new Set(mapped.map((o) => o.class)).size;
   const lost = (counts.frames_lost || 0) + (counts.scans_unmatched || 0);
@@ -41,10 +50,7 @@ function keyFigures(run) {
           figureBox(
               'Lost', whole(lost), null, `of ${whole(counts.frames)} images, ${whole(counts.scans)} scans`) :
           null,
-      work > 0 ? figureBox(
-                     'Work', duration(work), null,
-                     run.duration > 0 ? `${fixed(run.duration / work, 1)} × real time` : null) :
-                                        null,
+      timeBox(run),
       run.peak_memory_mb ? figureBox('Memory', whole(run.peak_memory_mb), 'MB', 'at most') : null);
 }
 
@@ -162,7 +168,7 @@ function stageTable(run) {
     'Stage', 'calls', 'mean', 'longest', 'in all', 'processor', 'share', ''
   ].map((title, i) => ({title, number: i > 0 && i < 7}));
   return table(
-      'By the clock; “processor” counts all threads', columns,
+      'By the clock, some stages beside each other; “processor”: of the thread that a stage runs in', columns,
       run.stages.map(
           (stage) =>
               [stage.name, whole(stage.calls), milliseconds(stage.mean_ms), milliseconds(stage.max_ms),

@@ -42,7 +42,7 @@ std::vector<ReliabilityRow> reliabilityOf(const json& content) {
 }
 
 bool isEvaluation(const json& content) {
-  constexpr std::array kTokens{"ate_rmse_m", "precision", "association_accuracy", "occupied_recall"};
+  constexpr std::array kTokens{"ate_rmse_m", "trans_abs_rmse_m", "precision", "association_accuracy", "occupied_recall"};
   return content.is_object() &&
          std::any_of(kTokens.begin(), kTokens.end(), [&](const char* key) { return content.contains(key); });
 }

@@ -138,6 +138,7 @@ void addPaths(const RunData& run, ordered_json& out) {
   out["path"] = pathJson(run.path);
   out["live_path"] = pathJson(run.live_path);
   out["truth_path"] = pathJson(run.truth_path);
+  out["least_gap_s"] = rounded(run.least_gap_s, 1);
   out["gaps"] = ordered_json::array();
   for (const auto& [from, to] : run.gaps) out["gaps"].push_back({rounded(from), rounded(to)});
   out["hindsight_m"] = seriesJson(run.hindsight_m);
@@ -189,6 +190,7 @@ void addSummary(const RunData& run, ordered_json& out) {
   out["record_ms"] = seriesJson(run.record_ms);
   out["memory_mb"] = seriesJson(run.memory_mb);
   out["peak_memory_mb"] = rounded(run.peak_memory_mb, 1);
+  out["wall_s"] = rounded(run.wall_s, 1);
 }
 
 ordered_json runJson(const RunData& run) {

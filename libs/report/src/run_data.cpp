@@ -104,6 +104,7 @@ Trajectories gatherPaths(Gathering& files, RunData& run) {
   run.path = thinPath(path);
   run.length_m = lengthOf(path);
   run.gaps = gapsOf(path);
+  run.least_gap_s = longestSpacing(path);
   run.live_path = thinPath(seenFromAbove(out.live, run.start_t));
   run.hindsight_m = hindsightOf(out.live, out.final, run.start_t, run.duration_s);
   return out;

@@ -106,6 +106,7 @@ struct RunData {
   std::vector<PathPoint> path, live_path, truth_path;
   int poses = 0;
   std::vector<std::pair<double, double>> gaps;  ///< spans without a pose, s since the first
+  double least_gap_s = 0;                       ///< that counts as one
   BinnedSeries hindsight_m;                     ///< distance between live and final pose
   std::optional<ReportedErrors> final_errors, live_errors;
   bool truth_is_of_camera = false;  ///< errors are those of the camera's path, whose directions are the truth's
@@ -118,6 +119,7 @@ struct RunData {
   std::vector<StageRow> stages;
   BinnedSeries record_ms;  ///< work on one record, without stages that ran once (at the end)
   double peak_memory_mb = 0;
+  double wall_s = 0;  ///< that the run took; 0: it did not say
   std::vector<ConfigRow> config;
   std::vector<EvaluationFile> evaluations;
   std::map<std::string, std::string> missing;  ///< file -> what is wrong with it

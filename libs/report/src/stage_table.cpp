@@ -53,6 +53,7 @@ void fill(const json& summary, RunData& run) {
       run.findings->push_back({one.at("severity"), one.at("place"), one.at("what"), one.at("hint")});
   }
   run.peak_memory_mb = summary.value("peak_memory_mb", 0.);
+  run.wall_s = summary.value("wall_s", 0.);
   if (!summary.contains("timings")) return;
   for (const auto& [name, spent] : summary.at("timings").items())
     run.stages.push_back(

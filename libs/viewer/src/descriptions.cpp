@@ -139,6 +139,14 @@ std::size_t closedBy(const ViewState& state) {
   }));
 }
 
+std::string inClosures(const ViewState& state) {
+  const std::size_t closed = closedBy(state);
+  if (closed == 0) return "";
+  if (state.loop_closures == 0) return ", " + counted(closed, "loop closure", "loop closures");
+  const std::string ties = ", " + counted(closed, "tie", "ties") + " of ";
+  return ties + (closed == state.closures->size() ? std::to_string(state.loop_closures) + " loop closures" : "loop closures");
+}
+
 }  // namespace
 
 std::string describeMoment(const ViewState& state, double start_t) {
@@ -149,7 +157,7 @@ std::string describeMoment(const ViewState& state, double start_t) {
   if (state.record > 0) text = printed("record %d, %.1f s: ", state.record, state.t - start_t) + text;
   if (all > mapped) text += " (" + counted(all - mapped, "candidate", "candidates") + ")";
   if (state.key_poses) text += ", " + counted(state.key_poses->size(), "key pose", "key poses");
-  if (const std::size_t closed = closedBy(state); closed > 0) text += ", " + counted(closed, "loop closure", "loop closures");
+  text += inClosures(state);
   return state.note.empty() ? text : text + "; " + state.note;
 }
 

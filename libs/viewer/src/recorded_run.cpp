@@ -132,7 +132,9 @@ RecordedRun readRecordedRun(const std::filesystem::path& folder) {
   const auto frames = readOr<FrameReports>(file("detections.jsonl"), warnings, "boxes", readBoxLines);
   run.views = readOr<std::map<LandmarkId, std::string>>(file("views.jsonl"), warnings, "views of the objects",
                                                         readViewLines);
-  run.recording = readOr<std::string>(file("summary.json"), warnings, "camera images", readRecordingName);
+  const auto summary = readOr<RunSummary>(file("summary.json"), warnings, "camera images", readRunSummary);
+  run.recording = summary.recording;
+  if (summary.loop_closures > shown->size()) last.loop_closures = summary.loop_closures;
   run.states = statesOverTime(map, last, frames);
   return run;
 }

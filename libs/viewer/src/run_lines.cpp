@@ -146,8 +146,9 @@ ShownLandmarks withCandidates(const ShownLandmarks& mapped, std::istream& in, co
   return out;
 }
 
-std::string readRecordingName(std::istream& in, const std::string& name) {
-  return wholeOf(in, name).value("input", "");
+RunSummary readRunSummary(std::istream& in, const std::string& name) {
+  const json summary = wholeOf(in, name);
+  return {summary.value("input", ""), summary.value("counts", json::object()).value("loop_closures", std::size_t{0})};
 }
 
 }  // namespace roomgraph

@@ -26,7 +26,11 @@ std::map<LandmarkId, std::string> readViewLines(std::istream& lines, const std::
 /// The landmarks of the map with the evidence of candidates.json, then the candidates that are not in the
 /// map.
 ShownLandmarks withCandidates(const ShownLandmarks& mapped, std::istream& in, const std::string& name);
-/// summary.json: the recording, as it was named.
-std::string readRecordingName(std::istream& in, const std::string& name);
+struct RunSummary {
+  std::string recording;          ///< as it was named
+  std::size_t loop_closures = 0;  ///< found
+};
+/// summary.json.
+RunSummary readRunSummary(std::istream& in, const std::string& name);
 
 }  // namespace roomgraph

@@ -117,9 +117,23 @@ void addCovariance(const Landmark& landmark, double width, const palette::TColor
   scene.insert(mesh.object("covariance " + std::to_string(landmark.id.value)));
 }
 
+namespace {
+
+// MRPT's letters are ASCII: one question mark for each other character, in place of one for each byte.
+std::string inAscii(const std::string& utf8) {
+  std::string out;
+  for (const char c : utf8) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) out += c;
+    if (byte >= 0xC0) out += '?';
+  }
+  return out;
+}
+
+}  // namespace
+
 void addName(const Landmark& landmark, COpenGLScene& scene) {
-  auto text =
-      mrpt::opengl::CText::Create(inWords(landmark.class_name) + " " + std::to_string(landmark.id.value));
+  auto text = mrpt::opengl::CText::Create(inAscii(inWords(landmark.class_name)) + " " + std::to_string(landmark.id.value));
   text->setFont("sans", kName_px);
   text->setColor_u8(palette::kInk);
   text->setLocation(landmark.position.x(), landmark.position.y(),

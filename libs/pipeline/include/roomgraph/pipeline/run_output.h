@@ -31,6 +31,7 @@ struct RunOrigin {
   std::vector<ClockSetting> clocks = {};  ///< of sensors, that were set
   std::vector<MountSetting> mounts = {};  ///< poses of sensors, that were set
   bool resumed = false;  ///< what an interrupted run had computed was recalled: timings are without it
+  double wall_s = 0;     ///< that the run took until these files are written, by the clock; 0: not known
 };
 
 /// Writes a run's files (docs/formats.md). What is known live goes to disk as it comes, the rest at the end.

@@ -74,6 +74,7 @@ struct ViewState {
   std::vector<ShownSighting> sightings;     ///< of this moment
   /// Those of the whole run when they are known with hindsight; then `sightings` are not used.
   std::shared_ptr<const std::vector<ShownSighting>> all_sightings;
+  std::size_t loop_closures = 0;  ///< of a long run, whose `closures` are ties between bodies of key poses: found in all; else 0
 };
 using ViewStates = std::vector<std::shared_ptr<const ViewState>>;
 
