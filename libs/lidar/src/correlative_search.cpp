@@ -32,6 +32,7 @@ class BranchAndBound {
     chooseAngles(points);
     rotated_.reserve(static_cast<std::size_t>(2 * angles_ + 1) * count_);
     for (int a = -angles_; a <= angles_; ++a) addCellsAt(points, a * angle_step_);
+    takeTheMiddle();
   }
 
   std::optional<SearchResult> run() {
@@ -55,6 +56,13 @@ class BranchAndBound {
     angle_step_ = pyramid_.cellSize() / farthest;
     angles_ = static_cast<int>(std::ceil(window_.angular_rad / angle_step_ - 1e-9));
     if (angles_ > 0) angle_step_ = window_.angular_rad / angles_;
+  }
+
+  // Whatever is worse than the start need not be looked at; what is as good is found in the order of the search.
+  void takeTheMiddle() {
+    constexpr double kAsGood = 1e-9;
+    const Candidate middle = bounded(0, {0, 0, 0, 0}, pyramid_.sum(0, cellsAt(0), {0, 0}));
+    if (!isExcluded(middle)) best_score_ = std::max(best_score_, middle.bound - kAsGood);
   }
 
   void addCellsAt(const Points2& points, double turn) {
