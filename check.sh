@@ -13,8 +13,8 @@ jobs="${JOBS:-$(nproc)}"
 
 # Sizes out of damaged files are to be refused by an exception, as without a sanitizer, not to end the program.
 export ASAN_OPTIONS="allocator_may_return_null=1 ${ASAN_OPTIONS:-}"
-export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan_suppressions.txt print_suppressions=0 ${LSAN_OPTIONS:-}"
-export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan_suppressions.txt ${TSAN_OPTIONS:-}"
+export LSAN_OPTIONS="suppressions='$PWD/cmake/lsan_suppressions.txt' print_suppressions=0 ${LSAN_OPTIONS:-}"
+export TSAN_OPTIONS="suppressions='$PWD/cmake/tsan_suppressions.txt' ${TSAN_OPTIONS:-}"
 
 test_preset() {
   cmake --preset "$1" >"build/$1.configure.log" 2>&1 || { cat "build/$1.configure.log"; return 1; }
@@ -34,7 +34,7 @@ tidy() {
     options=(--checks=-bugprone-suspicious-include --header-filter='/(libs|apps|plugins)/')
   fi
   printf '%s\n' "${units[@]}" |
-    xargs -P "$jobs" -n 1 clang-tidy -p "build/$preset" --quiet --warnings-as-errors='*' "${options[@]}" 2>/dev/null
+    xargs -d '\n' -P "$jobs" -n 1 clang-tidy -p "build/$preset" --quiet --warnings-as-errors='*' "${options[@]}" 2>/dev/null
 }
 
 case "${1:-}" in

@@ -33,7 +33,7 @@ build() {  # preset, programs
 # Sizes out of damaged files are refused by an exception, as without a sanitizer. The plain operators new and delete are our
 # own, those of arrays the sanitizer's: it would take them for a mismatch.
 export ASAN_OPTIONS="allocator_may_return_null=1:alloc_dealloc_mismatch=0:quarantine_size_mb=16 ${ASAN_OPTIONS:-}"
-export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan_suppressions.txt print_suppressions=0 ${LSAN_OPTIONS:-}"
+export LSAN_OPTIONS="suppressions='$PWD/cmake/lsan_suppressions.txt' print_suppressions=0 ${LSAN_OPTIONS:-}"
 export UBSAN_OPTIONS="print_stacktrace=1 ${UBSAN_OPTIONS:-}"
 # Files of the readers are in memory.
 TMPDIR="$(mktemp -d /dev/shm/roomgraph_fuzz.XXXXXX)" || exit 2

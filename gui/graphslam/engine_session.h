@@ -188,6 +188,9 @@ class EngineSession {
     if (frames_without_action_ > 0)
       warnings.push_back(std::to_string(frames_without_action_) + " sensory frames without an action before them left out");
     if (engine_->truthEnded()) warnings.push_back(request_.truth.string() + ": ends before the recording");
+    if (front_end_ && front_end_->counts().disordered > 0)
+      warnings.push_back(std::to_string(front_end_->counts().disordered) + " records left out whose stamps do not come after those before: was the clock set back? "
+                         "'roomgraph info' tells, and 'roomgraph run' goes on after it");
     if (front_end_)
       for (const auto& warning : front_end_->statistics().sensor_warnings) warnings.push_back(warning);
   }

@@ -151,6 +151,8 @@ TEST_F(InCatalogue, IsOnlyRead) {
   };
   EXPECT_THAT(problem("DELETE FROM runs"), HasSubstr("only SELECT"));
   EXPECT_THAT(problem("SELECT nothing FROM runs"), HasSubstr("nothing"));
+  EXPECT_EQ(cell("SELECT 1700000000.25"), "1700000000.25") << "no digit is lost";
+  EXPECT_EQ(cell("SELECT 0.1"), "0.1");
   EXPECT_EQ(Catalogue::forReading(file).runs().size(), 1u);
 }
 

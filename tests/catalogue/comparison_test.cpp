@@ -51,6 +51,13 @@ TEST_F(Compared, PairsAreOfOneInput) {
   EXPECT_THAT(spreadTable(all).rows[0][2], ::testing::StartsWith("8: "));
 }
 
+// What a variant is joined from is compared when it is asked for, and then with its like.
+TEST_F(Compared, PiecesAreNoVariants) {
+  for (const char* variant : {"base.piece", "base", "slow.piece", "slow"}) add("lab", 1, variant, 1);
+  EXPECT_THAT(compareVariants(catalogue, {}).variants, ElementsAre("base", "slow"));
+  EXPECT_THAT(compareVariants(catalogue, {.baseline = "slow.piece"}).variants, ElementsAre("slow.piece", "base.piece"));
+}
+
 TEST_F(Compared, FailedRunsDoNotCount) {
   add("lab", 1, "default", 1);
   RunResult failed = madeUpResult("lab", 2, "default");

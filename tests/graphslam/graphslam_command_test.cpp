@@ -127,6 +127,7 @@ TEST(GraphSlamCommand, ErrorsAreOneLineWithTheirCode) {
   fails({kRoom, "-o", folder.write("file", "").string() + "/out"}, 1, "file");
   expectOneLine(call(folder.path(), {"graphslam", kRoom, "--ini", folder.file("no.ini").string(), "-o", out}), 2,
                 HasSubstr("no.ini: no such file"));
+  expectOneLine(call(folder.path(), withIni({kRoom, "-o", out, "-e", "CLoopCloserERD"})), 2, HasSubstr("segmentation fault"));
   expectOneLine(call(folder.path(), withIni({kRoom, "-o", out, "--window"}), std::filesystem::current_path(),
                      {"DISPLAY=", "WAYLAND_DISPLAY="}),
                 1, HasSubstr("there is no display"));
@@ -137,7 +138,7 @@ TEST(GraphSlamCommand, ListsItsParts) {
   const TemporaryFolder folder;
   const auto listed = call(folder.path(), {"graphslam", "--list"});
   EXPECT_EQ(listed.exit_code, 0);
-  for (const char* name : {"CKeyPosesNRD", "CLoopCloserERD", "CObjectClosuresERD", "CFactorGraphGSO"})
+  for (const char* name : {"CKeyPosesNRD", "CICPCriteriaERD", "CObjectClosuresERD", "CFactorGraphGSO"})
     EXPECT_THAT(listed.out, HasSubstr(name));
 }
 

@@ -87,6 +87,19 @@ TEST(DenseChain, WhatOtherSensorsMeasuredIsNotDeniedByALikeness) {
   };
   EXPECT_TRUE(seenAs(false));
   EXPECT_FALSE(seenAs(true));
+  // At a fifth of a second the velocity alone allows them, wheels that know the step to half a centimetre do not.
+  const auto seenAfter = [&](double sigma_m) {
+    DenseChain chain;
+    chain.begin(room.render(0, Pose3::Identity()), {}, true);
+    DenseChain::Prediction predicted{Pose3::Identity(), true};
+    predicted.sigma_m = sigma_m;
+    const auto moved = chain.follow(room.render(0.2, poseFromYpr(0.05, 0, 0, 0, 0, 0)), {}, predicted);
+    EXPECT_TRUE(moved);
+    return moved && moved->seen;
+  };
+  EXPECT_TRUE(seenAfter(std::numeric_limits<double>::infinity()));
+  EXPECT_TRUE(seenAfter(0.05));
+  EXPECT_FALSE(seenAfter(0.005));
   // But where the velocity led there, wheels have slipped.
   DenseChain chain;
   const Pose3 moved = poseFromYpr(0.05, 0, 0, 0, 0, 0);

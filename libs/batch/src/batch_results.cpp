@@ -37,6 +37,13 @@ void BatchAtWork::record(const RunResult& result, const fs::path& folder) {
 // What never ran has a result too: the catalogue knows it and why.
 void BatchAtWork::failWithoutRun(std::size_t run, int exit_code, const std::string& reason) {
   RunResult result = preparer_.planned(run);
+  if (const auto before = resultIn(preparer_.folderOf(run)); before && before->complete()) {
+    // Hours of work, which may be as good as ever when the recording can be read again.
+    ++outcome_.failed;
+    over_[run] = reason;
+    problem(result.name, reason + "; what it had found before stays");
+    return;
+  }
   result.status = "failed";
   result.reason = reason;
   result.exit_code = exit_code;

@@ -81,7 +81,7 @@ RunResult RunPreparer::planned(std::size_t run) const {
   out.variant = plan_.variants[place.variant].name;
   out.input = plan_.inputs[place.input].input;
   if (place.span) {  // in tables, pieces are not to be taken for whole recordings
-    out.variant += ".piece";
+    out.variant += kPieceSuffix;
     out.input.name += place.name.substr(place.name.rfind('.'));
   }
   out.version = program_.version;

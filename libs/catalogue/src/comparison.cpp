@@ -49,6 +49,7 @@ ChosenRuns choose(const Catalogue& catalogue, const ComparisonChoice& choice) {
   std::int64_t first_id = 0;
   for (auto& line : catalogue.runs()) {
     all_groups.insert(line.group);
+    if (line.variant.ends_with(kPieceSuffix) != choice.baseline.ends_with(kPieceSuffix)) continue;  // like with like
     if (line.status != "complete" || (!choice.group.empty() && line.group != choice.group)) continue;
     if (lines.empty() || line.id < first_id) {
       first = line.variant;

@@ -3,6 +3,10 @@
 #include "database.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cstdio>
 
 #include "roomgraph/core/errors.h"
 
@@ -92,12 +96,33 @@ void Database::Close::operator()(sqlite3* database) const {
   sqlite3_close_v2(database);
 }
 
+namespace {
+
+// A catalogue that others write needs files beside it, also to be read. Where one may not make them and there are none, nobody writes now.
+bool standsStill(const std::filesystem::path& file) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  return access(folder.c_str(), W_OK) != 0 && !std::filesystem::exists(file.string() + "-wal");
+}
+
+std::string immutableUri(const std::filesystem::path& file) {
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    char encoded[4];
+    std::snprintf(encoded, sizeof encoded, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    uri += std::isalnum(static_cast<unsigned char>(c)) || c == '/' ? std::string(1, c) : encoded;
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
 Database::Database(const std::filesystem::path& file, Mode mode) : name_(file.string()) {
   const bool reading = mode == Mode::kReadOnly;
   if (reading && !std::filesystem::is_regular_file(file)) throw InputError(name_ + ": no such catalogue");
   sqlite3* handle = nullptr;
   const int flags = reading ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int outcome = sqlite3_open_v2(name_.c_str(), &handle, flags, nullptr);
+  const bool immutable = reading && standsStill(file);
+  const int outcome = sqlite3_open_v2((immutable ? immutableUri(file) : name_).c_str(), &handle, flags | (immutable ? SQLITE_OPEN_URI : 0), nullptr);
   handle_.reset(handle);
   if (outcome != SQLITE_OK) {
     const std::string problem = name_ + ": " + (handle ? sqlite3_errmsg(handle) : sqlite3_errstr(outcome));

@@ -2,7 +2,9 @@
 // A user's own SELECT, as texts.
 #include <sqlite3.h>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "catalogue_impl.h"
 #include "roomgraph/core/errors.h"
@@ -10,10 +12,16 @@
 namespace roomgraph {
 namespace {
 
+// As short as may be without a digit lost: counts and times of day have more than six.
 std::string cellText(const Statement& row, int column) {
   if (sqlite3_column_type(row.get(), column) != SQLITE_FLOAT) return row.text(column);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", row.number(column));
+  const double value = row.number(column);
+  if (!std::isfinite(value)) return row.text(column);
+  char text[40];
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
   return text;
 }
 

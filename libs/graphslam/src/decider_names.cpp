@@ -17,6 +17,9 @@ const char* keyOf(DeciderRole role) {
 }
 
 void checkName(const std::string& name, DeciderRole role, int dimensions, const std::string& place) {
+  if (name == "CLoopCloserERD" && role == DeciderRole::kEdge)
+    throw ConfigError(place + ": edge_registration_decider = CLoopCloserERD: MRPT 2.5's ends the program by a segmentation fault, in MRPT's "
+                      "own graphslam-engine, too; take CICPCriteriaERD or CScanClosuresERD");
   std::vector<std::string> known;
   for (const auto& kind : deciderKinds()) {
     if (kind.role != role || (dimensions == 3 && !kind.in_3d)) continue;
@@ -40,7 +43,6 @@ const std::vector<DeciderKind>& deciderKinds() {
       {"CEmptyNRD", kNode, false, true, "MRPT: none"},
       {"CKeyPosesNRD", kNode, true, true, "key poses of scan matching, RGB-D odometry and wheels"},
       {"CICPCriteriaERD", kEdge, false, false, "MRPT: ICP of scans against nodes nearby"},
-      {"CLoopCloserERD", kEdge, false, false, "MRPT: sets of edges that agree pairwise"},
       {"CEmptyERD", kEdge, false, true, "MRPT: none"},
       {"CScanClosuresERD", kEdge, true, true, "loops closed by scans against submaps"},
       {"CImageClosuresERD", kEdge, true, true, "loops closed by images"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -150,9 +151,12 @@ TrackingResult FrontEnds::track(const Frame& frame, const std::vector<Box2>& peo
   if (mounted_) setPlanar();
   TrackingPrior prior{.dynamic_regions = people};
   if (last_frame_t_)
-    if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&wheels_as_read_, &motion_.lidar}))
-      prior.previous_from_current = ofRobot(*moved, robot_from_camera_.inverse());
-  prior.by_scans = last_frame_t_ && predictedMovement(*last_frame_t_, frame.t, {&motion_.lidar});
+    if (const auto moved = predictedMovement(*last_frame_t_, frame.t, {&wheels_as_read_, &motion_.lidar})) {
+      prior.previous_from_current = ofRobot(moved->a_from_b, robot_from_camera_.inverse());
+      prior.sigma_m = std::sqrt(moved->covariance.diagonal().head<2>().maxCoeff());
+      prior.sigma_rad = std::sqrt(moved->covariance(5, 5));
+    }
+  prior.by_scans = last_frame_t_ && predictedMovement(*last_frame_t_, frame.t, {&motion_.lidar}).has_value();
   last_frame_t_ = frame.t;
   TrackingResult result = stages_.rgbd_odometry->track(frame, prior);
   if (result.predicted) {  // by what it would be compared with
@@ -177,7 +181,7 @@ ScanMatch FrontEnds::match(const Scan& scan) {
   setPlanar();
   std::optional<Pose2> prior;
   if (last_scan_t_)
-    if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&wheels_as_read_, &motion_.visual})) prior = planarPart(*moved);
+    if (const auto moved = predictedMovement(*last_scan_t_, scan.t, {&wheels_as_read_, &motion_.visual})) prior = planarPart(moved->a_from_b);
   last_scan_t_ = scan.t;
   labels_[static_cast<std::size_t>(MotionSensor::kLidar)] = scan.sensor_label;
   auto foreseen = scans_ahead_->take(scan.t);

@@ -22,7 +22,7 @@ void ScansAhead::see(const Record& record) {
 void ScansAhead::match(const Scan& scan) {
   std::optional<Pose2> prior;
   if (last_t_)
-    if (const auto moved = predictedMovement(*last_t_, scan.t, {&wheels_})) prior = planarPart(*moved);
+    if (const auto moved = predictedMovement(*last_t_, scan.t, {&wheels_})) prior = planarPart(moved->a_from_b);
   last_t_ = scan.t;
   matches_.put(scan.t, matcher_->match(scan, prior));
 }

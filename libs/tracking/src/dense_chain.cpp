@@ -81,8 +81,8 @@ std::optional<ChainedMovement> DenseChain::follow(const Frame& frame, const std:
   const double step = frame.t - last_t_, since = frame.t - reference_t_;
   const bool known = moving_ || predicted.measured;
   const Vector6d sigma = sameInAllDirections(
-      known ? std::max(kLeastStep_m, kAcceleration * step * step) : kAnyVelocity * step,
-      known ? std::max(kLeastStep_rad, kTurning * step * step) : kAnyTurn * step);
+      known ? std::max(kLeastStep_m, std::min(kAcceleration * step * step, predicted.sigma_m)) : kAnyVelocity * step,
+      known ? std::max(kLeastStep_rad, std::min(kTurning * step * step, predicted.sigma_rad)) : kAnyTurn * step);
   const auto& body = predicted.body;
   const auto alignedFrom = [&](const Pose3& first_from_current) {
     const Pose3 expected = to_reference_.first_from_current.inverse() * first_from_current;

@@ -2,6 +2,7 @@
 // DenseChain: the camera's movement since the last frame that features placed, by dense alignment.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -39,6 +40,8 @@ class DenseChain {
     bool measured = false;  ///< by other sensors
     std::optional<Pose3> otherwise = {};  ///< where the velocity leads, should these have erred: wheels slip
     std::optional<CarryingBody> body = {};
+    /// Of the last step, where it was measured, m and rad.
+    double sigma_m = std::numeric_limits<double>::infinity(), sigma_rad = std::numeric_limits<double>::infinity();
   };
   std::optional<ChainedMovement> follow(const Frame& frame, const std::vector<Box2>& excluded, const Prediction& predicted);
   /// Whether all since the beginning is known, or was seen a moment before time t (s).

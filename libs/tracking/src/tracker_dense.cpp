@@ -33,7 +33,8 @@ Pose3 Tracker::expected(const Pose3& step) const {
 bool Tracker::alignDensely(const Frame& frame, const TrackingPrior& prior) {
   // Tried beside scans, too: no better in three flats, worse in one (docs/results.md).
   if (!parameters_.dense_alignment || prior.by_scans) return false;
-  DenseChain::Prediction predicted{.first_from_current = dead_reckoned_, .measured = prior.previous_from_current.has_value()};
+  DenseChain::Prediction predicted{.first_from_current = dead_reckoned_, .measured = prior.previous_from_current.has_value(),
+                                   .sigma_m = prior.sigma_m, .sigma_rad = prior.sigma_rad};
   if (predicted.measured && velocity_) predicted.otherwise = dead_reckoned_before_ * expected(goesOn());
   if (robot_from_camera_) predicted.body = CarryingBody{robot_from_camera_->inverse(), habits_.scatter()};
   const auto moved = dense_.follow(frame, prior.dynamic_regions, predicted);

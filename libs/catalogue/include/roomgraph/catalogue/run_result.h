@@ -11,6 +11,9 @@
 
 namespace roomgraph {
 
+/// Ends the name of a variant whose runs are pieces of recordings, from which those of the variant are joined.
+inline constexpr std::string_view kPieceSuffix = ".piece";
+
 /// The recording of a run.
 struct RunInput {
   std::string name;   ///< unique in a batch

@@ -2,6 +2,7 @@
 // Interface of RGB-D visual odometry.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ namespace roomgraph {
 struct TrackingPrior {
   /// Movement of the camera since the last frame as other sensors saw it; nothing when there are none.
   std::optional<Pose3> previous_from_current;
+  /// Standard deviations of that movement, m and rad; infinity: not known.
+  double sigma_m = std::numeric_limits<double>::infinity(), sigma_rad = std::numeric_limits<double>::infinity();
   /// That movement is one of scans, which see it better than images without features do.
   bool by_scans = false;
   /// Image regions of people and the like, px: their features are not used.
