@@ -111,6 +111,26 @@ TEST_F(DriveWithFaults, FrozenImagesAndScans) {
   EXPECT_THAT(found, warning("LASER", "11 scans in a row are the same, for 2.0 s from t = 103.810 s"));
 }
 
+// In a hall that is wider than the lidar reaches, all scans are alike.
+TEST_F(DriveWithFaults, ScansWithoutReturnsDoNotHang) {
+  for (std::size_t i = 20; i < 30; ++i)
+    for (std::size_t k = 0; k < 5; ++k) {
+      scans[i]->setScanRange(k, 0);
+      scans[i]->setScanRangeValidity(k, false);
+    }
+  EXPECT_THAT(findings(), Not(Contains(Field(&Finding::what, HasSubstr("are the same")))));
+  std::vector<Object> all;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (odometry[i]) all.push_back(odometry[i]);
+    all.push_back(scans[i]);
+  }
+  writeRawlog(folder.file("hall.rawlog"), all);
+  RawlogReader reader(folder.file("hall.rawlog"), {});
+  while (reader.next()) {
+  }
+  EXPECT_TRUE(reader.statistics().skipped.empty());
+}
+
 TEST_F(DriveWithFaults, AFewEqualRecordsAreNoFault) {
   for (std::size_t i = 20; i < 24; ++i) images[i]->rangeImage = images[19]->rangeImage;
   EXPECT_THAT(findings(), Each(Field(&Finding::severity, Severity::kNote)));

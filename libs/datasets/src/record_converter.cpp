@@ -192,7 +192,7 @@ std::optional<Record> RecordConverter::Impl::convert(const CObservation::Ptr& ob
     if (wanted && !(record = convertFrame(*images))) return std::nullopt;
   } else if (const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) {
     wanted = options.scans;
-    if (wanted && hanging_lidar.hangs(mrpt::Clock::toDouble(scan->timestamp), contentOf(*scan), wheels)) {
+    if (wanted && hasReturn(*scan) && hanging_lidar.hangs(mrpt::Clock::toDouble(scan->timestamp), contentOf(*scan), wheels)) {
       ++statistics.skipped[name + sensorHangs(wheels.has_value())];
       return std::nullopt;
     }

@@ -41,6 +41,12 @@ std::string samplesOf(const cv::Mat& image) {
   return samples;
 }
 
+bool hasReturn(const mrpt::obs::CObservation2DRangeScan& scan) {
+  for (std::size_t i = 0; i < scan.getScanSize(); ++i)
+    if (scan.getScanRangeValidity(i)) return true;
+  return false;
+}
+
 std::string contentOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   std::string content;
   for (std::size_t i = 0; i < scan.getScanSize(); ++i) {

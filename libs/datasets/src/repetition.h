@@ -46,6 +46,9 @@ class HangingSensor {
   int changes_ = 0;
 };
 
+/// Whether there is a return. Scans of which none has are the same without a fault: there is nothing within range.
+bool hasReturn(const mrpt::obs::CObservation2DRangeScan& scan);
+
 /// Every n-th pixel of an image along both axes, all channels.
 std::string samplesOf(const cv::Mat& image);
 

@@ -183,7 +183,7 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& observation) 
   }
   beams_ += beams;
   roughness_.add(scan.t, roughnessOfScan(scan.ranges_m));
-  repetition_.add(scan.t, contentOf(observation));
+  if (hasReturn(observation)) repetition_.add(scan.t, contentOf(observation));
   if (scans_.size() < kMaxScans) scans_.push_back(std::move(scan));
 }
 

@@ -308,6 +308,19 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const
   return closureOf(candidate.a, b.scan, *found, candidate.path_m);
 }
 
+namespace {
+
+// Between two plain walls the place along them is anywhere.
+bool slides(const GridRefinement& fine) {
+  constexpr double kLargestSigma_m = 0.15;
+  if (!fine.on_surfaces) return false;
+  const Eigen::Matrix2d place = placeCurvature(fine.curvature);
+  const double weakest = (place(0, 0) + place(1, 1)) / 2 - std::hypot((place(0, 0) - place(1, 1)) / 2, place(0, 1));
+  return weakest < 1 / (kLargestSigma_m * kLargestSigma_m);
+}
+
+}  // namespace
+
 std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Probe& b, const Pose2& expected, const SearchWindow& window,
                                                     bool surely) {
   const Submap& submap = *submaps_[number].map;
@@ -321,6 +334,7 @@ std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Pr
 
   const FacedScan scan = faced(b.planar);
   refineFurther(submap.surfaces, scan, prior, own_share_, fine);
+  if (slides(fine)) return std::nullopt;
   if (shareOnWrongSide(submap.surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
   return fine;
 }

@@ -19,6 +19,8 @@ constexpr int kMatcherLevels = 4;
 constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
 constexpr double kSharedErrors = 5 * 5;  // variance of a match by what its returns tell: neighbours err alike
 constexpr double kLedSigma_m = 0.01;       // of a step that others measured
+constexpr double kMeasuredSigma_m = 0.003;  // of the same, where returns say nothing: their seeming information must not shorten a corridor
+constexpr double kWidest_m = 5;             // half width of a search, however many scans were lost
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
 constexpr double kLeastOfNoisy = 0.65;  // share of the returns that the map must explain of a scan much noisier than those before
@@ -193,8 +195,8 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   pyramid_stale_ = false;
   SearchWindow window;
   // After a loss the prediction is as old as the loss: look wider for each scan missed.
-  const double widening = 1 + lost_scans_;
-  window.linear_m = widening * (has_prior ? window_m_ : free_window_m_);
+  const double widening = 1 + std::min(lost_scans_, max_lost_scans_);
+  window.linear_m = std::min(kWidest_m, widening * (has_prior ? window_m_ : free_window_m_));
   window.angular_rad = std::min(std::numbers::pi, widening * (has_prior ? window_rad_ : free_window_rad_));
   const double trust = has_prior ? 1 : 0.2;
   window.penalty_per_m2 = trust * search_penalty_per_m2_;
@@ -202,24 +204,23 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   const auto coarse = correlativeSearch(pyramid_, points, predicted, window);
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
-  Eigen::Matrix2d steady = Eigen::Matrix2d::Zero();  // in units of what the returns tell
+  Eigen::Matrix2d led_by = Eigen::Matrix2d::Zero();  // in units of what the returns tell
   if (led != Led::kNot) {
     const GridCost cost = gridCost(submap.grid, points, start_pose, {});
     const auto whereWeak = [&](const Eigen::Matrix2d& most) {
       return weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature), most, weak_below_per_m2_);
     };
     if (led == Led::kSteadily) {
-      steady = whereWeak(kSharedErrors * rotated(motion_.stepInformation(since_s), last_pose_.yaw));
-      prior.extra_weight_per_m2 = cost.residual / static_cast<double>(points.size()) * steady;
+      led_by = whereWeak(kSharedErrors * rotated(motion_.stepInformation(since_s), last_pose_.yaw));
+      prior.extra_weight_per_m2 = cost.residual / static_cast<double>(points.size()) * led_by;
     } else {
       prior.extra_weight_per_m2 = whereWeak(weak_prior_per_m2_ * Eigen::Matrix2d::Identity());
+      led_by = whereWeak(Eigen::Matrix2d::Identity() / (kMeasuredSigma_m * kMeasuredSigma_m));
     }
   }
   GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
-  if (led == Led::kSteadily) {
-    prior.extra_weight_per_m2.setZero();
-    prior.information_per_m2 = steady;
-  }
+  prior.extra_weight_per_m2.setZero();
+  prior.information_per_m2 = led_by;
   refineFurther(submap.surfaces, faced(planar), prior, own_share_, fine);
   return fine;
 }

@@ -27,6 +27,7 @@ struct SurfaceLine {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
   double variance_m2 = 0;  ///< of the returns across the line
+  double turn_rad2 = 0;    ///< variance of its direction, as so few returns that scatter so much tell it
 };
 
 /// Mean and scatter of the returns in square cells, as the normal distributions transform keeps them (Biber and Strasser

@@ -3,6 +3,7 @@
 #include "surface_refinement.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,6 +18,7 @@ constexpr double kOnSurface = 2.5;                    // standard deviations
 constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
 constexpr double kFarthestFromGrid_m = 1;             // farther away it is another place
+constexpr double kSeeming = 2;                        // times the scatter of the normals that is told of
 
 // Of a return across its line.
 double varianceOf(const SurfaceLine& line) {
@@ -26,6 +28,7 @@ double varianceOf(const SurfaceLine& line) {
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d seeming = Eigen::Matrix3d::Zero();  ///< part of the information: that normals of one wall differ by chance
   std::size_t used = 0;
   std::vector<LineError> errors;
 };
@@ -65,6 +68,8 @@ NormalEquations linearise(LinesOfReturns& lines, const FacedScan& scan, const st
                                    line->normal.y() * turned.x() - line->normal.x() * turned.y());
     out.information += weight * jacobian * jacobian.transpose();
     out.gradient += weight * distance * jacobian;
+    const Eigen::Vector3d along(-jacobian.y(), jacobian.x(), jacobian.x() * turned.x() + jacobian.y() * turned.y());
+    out.seeming += kSeeming * weight * line->turn_rad2 * along * along.transpose();
     out.errors[i] = {true, distance / std::sqrt(variance), line->normal};
     ++out.used;
   }
@@ -74,6 +79,18 @@ NormalEquations linearise(LinesOfReturns& lines, const FacedScan& scan, const st
 // Least curvature by the place, along any direction.
 double weakest(const Eigen::Matrix3d& m) {
   return (m(0, 0) + m(1, 1)) / 2 - std::hypot((m(0, 0) - m(1, 1)) / 2, m(0, 1));
+}
+
+// Along a plain wall the normals of its pieces scatter to both sides, as if something held the scan there. What is left of the
+// information is positive: some metres are known of any match.
+Eigen::Matrix3d withoutSeeming(const NormalEquations& equations) {
+  constexpr double kReach_m = 5, kLeast = 0.1;  // to compare turns with shifts; 1/m^2
+  const Eigen::Vector3d scale(1, 1, kReach_m);
+  const Eigen::Matrix3d scaled = scale.cwiseInverse().asDiagonal() * (equations.information - equations.seeming) * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(scaled);
+  const Eigen::Matrix3d positive =
+      parts.eigenvectors() * parts.eigenvalues().cwiseMax(kLeast).asDiagonal() * parts.eigenvectors().transpose();
+  return scale.asDiagonal() * positive * scale.asDiagonal();
 }
 
 Eigen::Matrix3d matrixOf(const PosePrior& prior) {
@@ -93,7 +110,6 @@ std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const Face
   for (int i = 0; i < kIterations; ++i) {
     scan_only = linearise(lines, scan, shares, pose, levels);
     if (static_cast<double>(scan_only.used) < kLeastShare * static_cast<double>(scan.points.size())) return std::nullopt;
-    fit.information = scan_only.information;
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
     const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y, wrapAngle(pose.yaw - prior.pose.yaw));
     Eigen::Matrix3d weight = std::max(0.0, scale) * unscaled + 1e-6 * Eigen::Matrix3d::Identity();
@@ -103,6 +119,7 @@ std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const Face
     pose = {pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};
     if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
+  fit.information = withoutSeeming(scan_only);
   fit.neighbours = neighbourErrors(scan.points, scan_only.errors);
   return fit;
 }

@@ -12,7 +12,8 @@ namespace roomgraph {
 
 struct SurfaceFit {
   Pose2 map_from_scan;
-  /// Inverse covariance of (x, y, yaw) by the scan alone: each return counts by the scatter of its surface and its robust weight.
+  /// Inverse covariance of (x, y, yaw) by the scan alone: each return counts by the scatter of its surface and its robust weight,
+  /// less what the scatter of the surfaces' directions looks like.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   NeighbourErrors neighbours;
 };

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Between two plain walls, and where there are no returns: what scans do not know, they must not claim.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <random>
+
+#include "submap_loop_closer.h"
+#include "submap_scan_matcher.h"
+#include "surface_refinement.h"
+#include "synthetic_scans.h"
+
+namespace roomgraph {
+namespace {
+
+// Wheels with 1 % of noise, 5 cm a scan, along the corridor; the frame of the odometry begins turned by `heading`.
+double lengthDriven(double heading, double sigma_m, int scans) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.01);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  ScanMatch last;
+  for (int i = 0; i < scans; ++i) {
+    Scan scan = test::castScan(test::corridor(), {0.05 * i, 0, 0}, 0.1 * i, random, sigma_m);
+    scan.robot_from_lidar = poseFromYpr(0, 0, 0, heading, 0, 0);
+    std::optional<Pose2> step;
+    const Pose2 turned{0, 0, heading};
+    if (i > 0) step = turned * Pose2{0.05 * (1 + noise(random)), 0, 0} * turned.inverse();
+    last = matcher.match(scan, step);
+    EXPECT_TRUE(last.matched) << i;
+  }
+  return std::hypot(last.odom_from_robot.x, last.odom_from_robot.y);
+}
+
+TEST(PlainCorridor, IsAsLongAsTheWheelsSay) {
+  for (const double heading : {0.0, M_PI / 4})
+    for (const double sigma_m : {0.01, 0.03})
+      EXPECT_NEAR(lengthDriven(heading, sigma_m, 301), 15, 0.1) << heading << " " << sigma_m;
+}
+
+TEST(PlainCorridor, TheScatterOfNormalsIsNoInformationAlongIt) {
+  for (const double sigma_m : {0.01, 0.03}) {
+    std::mt19937 random(6);
+    LocalSurfaces surfaces(0.05);
+    for (int i = 0; i < 20; ++i) {
+      const PlanarScan scan = toPlanarScan(test::castScan(test::corridor(), {0.1 * i, 0, 0}, 0, random, sigma_m), 0.1, 30);
+      surfaces.insert(transformed(Pose2{0.1 * i, 0, 0}, faced(scan)));
+    }
+    const PlanarScan scan = toPlanarScan(test::castScan(test::corridor(), {1, 0, 0}, 0, random, sigma_m), 0.1, 30);
+    GridRefinement start;
+    start.grid_from_scan = {1, 0, 0};
+    const auto fit = refineOnSurfaces(surfaces, faced(scan), start, {});
+    ASSERT_TRUE(fit);
+    EXPECT_LT(fit->information(0, 0), 1 / (0.15 * 0.15)) << sigma_m;
+    EXPECT_GT(fit->information(1, 1), 1 / (0.01 * 0.01)) << sigma_m;
+  }
+}
+
+// To and fro without an end in sight: scans fit anywhere along the walls.
+TEST(PlainCorridor, ClosesNoLoop) {
+  std::mt19937 random(7);
+  SubmapLoopCloser closer;
+  closer.prepare();
+  Trajectory world;
+  std::vector<RelativePose> closures;
+  for (int i = 0; i < 400; ++i) {
+    const int along = i % 200 < 100 ? i % 100 : 100 - i % 100;
+    ScanMatch match;
+    match.matched = true;
+    match.odom_from_robot = {0.1 * along + 2e-4 * i, 0, 0};  // what has been driven since is a few centimetres too long
+    world.add(0.2 * i, toPose3(match.odom_from_robot));
+    Scan scan = test::castScan(test::corridor(), {0.1 * along, 0, 0}, 0.2 * i, random);
+    for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) scan.valid[beam] = scan.valid[beam] && scan.ranges_m[beam] < 8;
+    closer.add(scan, match);
+    for (const auto& closure : closer.search([&](double at) { return world.at(at); })) closures.push_back(closure);
+  }
+  for (const RelativePose& closure : closures) {
+    const auto placeAt = [](double t) {
+      const int i = static_cast<int>(std::lround(t / 0.2));
+      return 0.1 * (i % 200 < 100 ? i % 100 : 100 - i % 100);
+    };
+    const double error = closure.a_from_b.translation().x() - (placeAt(closure.t_b) - placeAt(closure.t_a));
+    EXPECT_LT(std::abs(error), 3 * std::sqrt(closure.covariance(0, 0))) << closure.t_a << " " << closure.t_b;
+  }
+  EXPECT_LT(closures.size(), 20u);
+}
+
+// A hand before the lidar, a hall wider than it reaches: the search for the next scan must not grow with each that is missed.
+TEST(Blindness, HoweverLongTheNextScanIsFoundInAMoment) {
+  for (const bool with_wheels : {true, false}) {
+    std::mt19937 random(8);
+    SubmapScanMatcher matcher;
+    matcher.prepare();
+    const auto room = test::asymmetricRoom();
+    const std::optional<Pose2> step = with_wheels ? std::optional(Pose2{}) : std::nullopt;
+    for (int i = 0; i < 20; ++i) matcher.match(test::castScan(room, {}, 0.1 * i, random), i > 0 ? step : std::nullopt);
+    Scan blind = test::castScan(room, {}, 0, random);
+    std::fill(blind.valid.begin(), blind.valid.end(), char{0});
+    for (int i = 20; i < 1000; ++i) {
+      blind.t = 0.1 * i;
+      EXPECT_FALSE(matcher.match(blind, step).matched);
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    const ScanMatch found = matcher.match(test::castScan(room, {}, 100, random), step);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 5) << with_wheels;
+    EXPECT_TRUE(found.matched);
+    if (with_wheels) {
+      EXPECT_LT(std::hypot(found.odom_from_robot.x, found.odom_from_robot.y), 0.02);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace roomgraph
