@@ -86,6 +86,24 @@ TEST(PlainCorridor, ClosesNoLoop) {
   EXPECT_LT(closures.size(), 20u);
 }
 
+// Scans every .6 s and nothing else: the robot goes on between them, and turns by more than a search at ten a second reaches.
+TEST(SlowLidar, GoesOnBetweenItsScans) {
+  std::mt19937 random(9);
+  SubmapScanMatcher matcher;
+  matcher.prepare();
+  const auto poseAt = [](int i) {
+    const double turn = i < 3 ? 0 : 0.6 + 0.9 * (i - 3);  // from rest by .6 rad, then by .9 each time
+    return Pose2{0.8 + 0.4 * std::cos(turn), 0.3 + 0.4 * std::sin(turn), wrapAngle(turn + M_PI / 2)};
+  };
+  for (int i = 0; i < 25; ++i) {
+    const ScanMatch match = matcher.match(test::castScan(test::asymmetricRoom(), poseAt(i), 0.6 * i, random), std::nullopt);
+    ASSERT_TRUE(match.matched) << i;
+    const Pose2 error = (poseAt(0).inverse() * poseAt(i)).inverse() * match.odom_from_robot;
+    ASSERT_LT(std::hypot(error.x, error.y), 0.03) << i;
+    ASSERT_LT(std::abs(error.yaw), 0.01) << i;
+  }
+}
+
 // A hand before the lidar, a hall wider than it reaches: the search for the next scan must not grow with each that is missed.
 TEST(Blindness, HoweverLongTheNextScanIsFoundInAMoment) {
   for (const bool with_wheels : {true, false}) {

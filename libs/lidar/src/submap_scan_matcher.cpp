@@ -16,10 +16,11 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 
 namespace {
 constexpr int kMatcherLevels = 4;
-constexpr double kMaxExtrapolation = 0.5;  // s; a velocity older than this says nothing
+constexpr double kMaxExtrapolation = 2;  // s; a velocity older than this says nothing
 constexpr double kSharedErrors = 5 * 5;  // variance of a match by what its returns tell: neighbours err alike
 constexpr double kLedSigma_m = 0.01;       // of a step that others measured
 constexpr double kMeasuredSigma_m = 0.003;  // of the same, where returns say nothing: their seeming information must not shorten a corridor
+constexpr double kAnyVelocity = 0.7, kAnyTurn = 1.2;  // m/s, rad/s, that a movement may differ from the one before
 constexpr double kWidest_m = 5;             // half width of a search, however many scans were lost
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
 constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whether this is the same place, by the share that is explained
@@ -196,8 +197,8 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   SearchWindow window;
   // After a loss the prediction is as old as the loss: look wider for each scan missed.
   const double widening = 1 + std::min(lost_scans_, max_lost_scans_);
-  window.linear_m = std::min(kWidest_m, widening * (has_prior ? window_m_ : free_window_m_));
-  window.angular_rad = std::min(std::numbers::pi, widening * (has_prior ? window_rad_ : free_window_rad_));
+  window.linear_m = std::min(kWidest_m, widening * (has_prior ? window_m_ : std::max(free_window_m_, kAnyVelocity * since_s)));
+  window.angular_rad = std::min(std::numbers::pi, widening * (has_prior ? window_rad_ : std::max(free_window_rad_, kAnyTurn * since_s)));
   const double trust = has_prior ? 1 : 0.2;
   window.penalty_per_m2 = trust * search_penalty_per_m2_;
   window.penalty_per_rad2 = trust * search_penalty_per_rad2_;
