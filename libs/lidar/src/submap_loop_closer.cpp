@@ -2,6 +2,7 @@
 // Candidate submaps by drift, branch-and-bound match, ambiguity test and confirmation.
 #include "submap_loop_closer.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -310,6 +311,20 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const
 
 namespace {
 
+// Whether nearly all surfaces face one way or its opposite: that something else tells the place is to be seen from how much worse others fit.
+bool isCorridor(const GridRefinement& on_grid) {
+  constexpr double kLeastRatio = 0.1;  // rooms have .13 and more, plain walls .02
+  const Eigen::Vector2d held = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(placeCurvature(on_grid.curvature)).eigenvalues();
+  return held[0] < kLeastRatio * held[1];
+}
+
+// Wide enough for another place along a corridor.
+SearchWindow alongToo(SearchWindow window) {
+  constexpr double kOtherPlace_m = 1.5;
+  window.linear_m = std::max(window.linear_m, kOtherPlace_m);
+  return window;
+}
+
 // Between two plain walls the place along them is anywhere.
 bool slides(const GridRefinement& fine) {
   constexpr double kLargestSigma_m = 0.15;
@@ -330,6 +345,7 @@ std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Pr
   const PosePrior prior{coarse->grid_from_scan};
   GridRefinement fine = refineOnGrid(submap.grid, b.points, coarse->grid_from_scan, prior);
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
+  if (isCorridor(fine) && ambiguous(pyramid, b.points, expected, alongToo(window), *coarse)) return std::nullopt;
   if (surely && ambiguous(pyramid, b.points, expected, window, *coarse)) return std::nullopt;
 
   const FacedScan scan = faced(b.planar);
