@@ -16,7 +16,7 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 
 namespace {
 constexpr int kMatcherLevels = 4;
-constexpr double kMaxExtrapolation = 2;  // s; a velocity older than this says nothing
+constexpr double kSteady_s = 0.5, kSlow_s = 2;  // a velocity older than this says nothing; the same of a lidar that is always slow
 constexpr double kSharedErrors = 5 * 5;  // variance of a match by what its returns tell: neighbours err alike
 constexpr double kLedSigma_m = 0.01;       // of a step that others measured
 constexpr double kMeasuredSigma_m = 0.003;  // of the same, where returns say nothing: their seeming information must not shorten a corridor
@@ -121,6 +121,7 @@ void SubmapScanMatcher::prepare() {
   unled_ = false;
   last_pose_ = kept_pose_ = Pose2();
   motion_ = {};
+  interval_s_ = 0;
 }
 
 ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>& previous_from_current) {
@@ -142,7 +143,7 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
-  const bool steadily = lost_scans_ == 0 && scan.t - *last_t_ <= kMaxExtrapolation;
+  const bool steadily = lost_scans_ == 0 && scan.t - *last_t_ <= extrapolated_s();
   GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted,
                                  has_prior ? Led::kByOthers : steadily ? Led::kSteadily : Led::kNot, scan.t - *last_t_);
   if (has_prior && jumps(scan.t, predicted)) {
@@ -180,11 +181,17 @@ Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_
 
 Pose2 SubmapScanMatcher::steadyPose(double t) const {
   const double dt = t - *last_t_;
-  return dt > kMaxExtrapolation ? last_pose_ : last_pose_ * motion_.step(dt);
+  return dt > extrapolated_s() ? last_pose_ : last_pose_ * motion_.step(dt);
+}
+
+// Where scans come further apart for once, the robot may have stood meanwhile: some record nothing then.
+double SubmapScanMatcher::extrapolated_s() const {
+  constexpr double kAsUsual = 1.5;
+  return std::clamp(kAsUsual * interval_s_, kSteady_s, kSlow_s);
 }
 
 bool SubmapScanMatcher::jumps(double t, const Pose2& predicted) const {
-  if (lost_scans_ > 0 || t - *last_t_ > kMaxExtrapolation) return false;
+  if (lost_scans_ > 0 || t - *last_t_ > kSteady_s) return false;
   const Pose2 jump = steadyPose(t).inverse() * predicted;
   return std::hypot(jump.x, jump.y) > window_m_ || std::abs(jump.yaw) > window_rad_;
 }
@@ -243,6 +250,7 @@ Eigen::Matrix2d SubmapScanMatcher::stepInformation(const GridRefinement& found) 
 
 std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose,
                                                    const Eigen::Matrix2d& step_per_m2) {
+  interval_s_ = last_t_ ? scan.t - *last_t_ : 0;
   if (last_t_ && lost_scans_ == 0) motion_.observe(last_pose_.inverse() * pose, step_per_m2, scan.t - *last_t_);
   last_t_ = accepted_t_ = scan.t;
   last_pose_ = pose;

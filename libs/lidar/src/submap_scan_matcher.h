@@ -33,6 +33,7 @@ class SubmapScanMatcher : public ScanMatcher {
   /// If the robot goes on as it went.
   Pose2 steadyPose(double t) const;
   /// Whether the prediction lies beyond the search window around the steady pose.
+  double extrapolated_s() const;
   bool jumps(double t, const Pose2& predicted) const;
   /// What tells how the robot moved where the scan does not: others; that it hardly goes another way than before;
   /// nothing.
@@ -75,6 +76,7 @@ class SubmapScanMatcher : public ScanMatcher {
   bool unled_ = false;                ///< nothing measured some of the movement since then
   Pose2 last_pose_;
   SteadyMotion motion_;
+  double interval_s_ = 0;             ///< between the last two scans
   double kept_t_ = 0;
   Pose2 kept_pose_;
 };
