@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `roomgraph vary`: the same drive backwards, mirrored or with less to see, and its truth.
-#include <cmath>
 #include <iostream>
 
 #include "bag_commands.h"

@@ -311,10 +311,14 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const
 
 namespace {
 
+Eigen::Vector2d heldAlongAndAcross(const GridRefinement& fit) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(placeCurvature(fit.curvature)).eigenvalues();
+}
+
 // Whether nearly all surfaces face one way or its opposite: that something else tells the place is to be seen from how much worse others fit.
 bool isCorridor(const GridRefinement& on_grid) {
   constexpr double kLeastRatio = 0.1;  // rooms have .13 and more, plain walls .02
-  const Eigen::Vector2d held = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(placeCurvature(on_grid.curvature)).eigenvalues();
+  const Eigen::Vector2d held = heldAlongAndAcross(on_grid);
   return held[0] < kLeastRatio * held[1];
 }
 
@@ -328,10 +332,7 @@ SearchWindow alongToo(SearchWindow window) {
 // Between two plain walls the place along them is anywhere.
 bool slides(const GridRefinement& fine) {
   constexpr double kLargestSigma_m = 0.15;
-  if (!fine.on_surfaces) return false;
-  const Eigen::Matrix2d place = placeCurvature(fine.curvature);
-  const double weakest = (place(0, 0) + place(1, 1)) / 2 - std::hypot((place(0, 0) - place(1, 1)) / 2, place(0, 1));
-  return weakest < 1 / (kLargestSigma_m * kLargestSigma_m);
+  return fine.on_surfaces && heldAlongAndAcross(fine)[0] < 1 / (kLargestSigma_m * kLargestSigma_m);
 }
 
 }  // namespace
