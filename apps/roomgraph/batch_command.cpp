@@ -136,22 +136,20 @@ void addTaskCommand(CLI::App& app) {
   });
 }
 
-// Seconds between the first and the last record; images are not decoded where there is anything else.
-double lengthOf(const std::string& rawlog) {
+// Stamps of the records; images are not decoded where there is anything else.
+std::vector<double> stampsOf(const std::string& rawlog) {
   for (const bool frames : {false, true}) {
     ReadOptions kinds;
     kinds.frames = frames;
     RawlogReader reader(rawlog, kinds);
-    std::optional<double> first, last;
+    std::vector<double> stamps;
     while (const auto record = reader.next()) {
       if (interrupted()) throw Interrupted("interrupted");
-      const double t = timeOf(*record);
-      first = std::min(first.value_or(t), t);
-      last = std::max(last.value_or(t), t);
+      stamps.push_back(timeOf(*record));
     }
-    if (first) return *last - *first;
+    if (!stamps.empty()) return stamps;
   }
-  return 0;
+  return {};
 }
 
 // Reads all of a recording, for a batch: not for people.
@@ -162,7 +160,9 @@ void addMeasureCommand(CLI::App& app) {
   command->add_option("FILE", *file, "where its length and checksum are written")->required();
   command->callback([rawlog, file] {
     catchInterrupts();
-    writeMeasure(*file, *rawlog, {lengthOf(*rawlog), sha256OfFile(*rawlog)});
+    RecordingMeasure measure = measureOf(stampsOf(*rawlog));
+    measure.sha256 = sha256OfFile(*rawlog);
+    writeMeasure(*file, *rawlog, measure);
   });
 }
 

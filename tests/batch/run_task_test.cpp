@@ -115,6 +115,25 @@ TEST_F(TaskOfAScript, AnInterruptionIsNoFailure) {
   EXPECT_TRUE(result.failures.empty());
 }
 
+TEST_F(TaskOfAScript, AWholeRunOutlivesItsEvaluation) {
+  task.evaluations = {{"trajectory", {"trajectory"}, {}}};
+  task.planned.key = "k";
+  task.keep = Keep::kSummary;
+  const std::string script = std::string("[ $1 = evaluate ] && : > begun && sleep 5\n: > graph.g2o\n") + kSummary;
+  const auto begun = [this] { return std::filesystem::exists(folder.file("begun")); };
+  for (const bool again : {true, false}) {
+    task.run_again = again;
+    std::filesystem::remove(folder.file("begun"));
+    EXPECT_EQ(perform(script, begun), 4);
+    EXPECT_EQ(result.status, "complete");
+    EXPECT_EQ(result.key, "k");
+    EXPECT_EQ(result.keep, "all") << "the evaluation needs it the next time";
+    EXPECT_TRUE(std::filesystem::exists(folder.file("graph.g2o")));
+    EXPECT_EQ(result.reason, withoutEvaluation(task).reason);
+    EXPECT_THAT(result.reason, HasSubstr("not finished"));
+  }
+}
+
 TEST_F(TaskOfAScript, GoesOnFromACheckpointThatFits) {
   const std::string resumed = "run x.rawlog --resume " + folder.path().string() + "\n";
   const std::string notes = std::string("[ $1 = run ] && echo $* >> words.txt\n") + kSummary;

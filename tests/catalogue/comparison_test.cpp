@@ -139,6 +139,14 @@ TEST_F(Compared, AFigureThatAVariantLacksIsADash) {
   EXPECT_TRUE(differenceTable(compareVariants(catalogue, {})).rows.empty()) << "no pair";
 }
 
+TEST_F(Compared, FewPairsHaveNoInterval) {
+  for (int seed = 1; seed <= 6; ++seed) {
+    for (const char* variant : {"base", "slow"}) add("lab", seed, variant, seed + (variant[0] == 's'));
+    const auto row = differenceTable(compareVariants(catalogue, {})).rows.at(0);
+    EXPECT_EQ(row[4], seed < 6 ? "-" : "1.0000 .. 1.0000") << seed;
+  }
+}
+
 TEST_F(Compared, AnEmptyCatalogueHasNoRows) {
   EXPECT_TRUE(compareVariants(catalogue, {}).rows.empty());
   EXPECT_TRUE(differenceTable(compareVariants(catalogue, {})).rows.empty());

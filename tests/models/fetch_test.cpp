@@ -166,6 +166,14 @@ TEST_F(Fetch, LooksInSubfoldersOfAnAddress) {
   EXPECT_TRUE(atPlace() == content);
 }
 
+TEST_F(Fetch, LooksFurtherWhereItIsRefused) {
+  fs::create_directory(server.folder().file("collection"));
+  fs::rename(server.folder().file("net.onnx"), server.folder().file("collection") / "net.onnx");
+  fetch(server.base("refused"));
+  EXPECT_EQ(server.requests(), "/refused/net.onnx -\n/refused/collection/net.onnx -\n");
+  EXPECT_TRUE(atPlace() == content);
+}
+
 TEST_F(Fetch, CopiesFromAFolder) {
   for (const char* below : {"", "collection", "net"}) {
     TemporaryFolder source;

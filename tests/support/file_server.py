@@ -7,7 +7,7 @@ Usage: file_server.py FOLDER LOG
 Prints its port. LOG gets one line per request: the address asked for, a blank, its Range or "-". Asked as a proxy (with a whole
 address) it serves the path of the address. /plain/FILE knows ranges, /norange/FILE does not; /half/FILE closes the connection
 in the middle unless a range is asked for; /nolength/FILE does so without having announced a length; /held/FILE waits in the
-middle until the folder holds a file `release`; /damaged/FILE has one bit changed; /redirect/FILE sends to /plain/FILE; /refused/FILE answers 403.
+middle until the folder holds a file `release`; /damaged/FILE has one bit changed; /redirect/FILE sends to /plain/FILE; /refused/FILE answers 403, but not in folders below.
 """
 import http.server
 import pathlib
@@ -27,7 +27,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             log.write(f"{self.path} {asked or '-'}\n")
         mode, _, name = urllib.parse.urlparse(self.path).path.lstrip("/").partition("/")
         file = FOLDER / name
-        if mode == "refused":
+        if mode == "refused" and "/" not in name:
             return self.send_error(403)
         if mode == "redirect":
             return self.redirect(f"/plain/{name}")

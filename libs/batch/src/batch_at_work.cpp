@@ -120,7 +120,10 @@ void BatchAtWork::launch(std::size_t run, PreparedRun prepared) {
   prepared.task.planned.failures.insert(prepared.task.planned.failures.end(), earlier.begin(), earlier.end());
   makeFolder(prepared.task.folder);
   std::error_code none;
-  fs::remove(prepared.task.folder / "result.json", none);
+  if (prepared.task.run_again)
+    fs::remove(prepared.task.folder / "result.json", none);
+  else
+    writeRunResult(withoutEvaluation(prepared.task), prepared.task.folder / "result.json");
   writeRunTask(prepared.task, prepared.task.folder / "task.json");
   engine_.start({taskOfRun(run), commandOf(run), prepared.task.folder / "task.log",
                  memoryOf(run, prepared.task.planned.input), std::max(1.0, more_memory_[run])});

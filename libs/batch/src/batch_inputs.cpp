@@ -2,6 +2,8 @@
 // What has to be done for an input before its runs: it is simulated, measured, cut into pieces.
 #include "batch_at_work.h"
 
+#include <cmath>
+
 #include "roomgraph/core/errors.h"
 #include "roomgraph/core/text_file.h"
 #include "tool_call.h"
@@ -89,7 +91,11 @@ BatchAtWork::Step BatchAtWork::startInput(EngineTask task) {
 void BatchAtWork::split(std::size_t run) {
   split_.insert(run);
   const auto measure = preparer_.measureOf(plan_.runs[run].input);
-  const auto spans = measure ? piecesOf(measure->seconds, plan_.jobs.split) : std::vector<PieceSpan>();
+  if (!measure) return;
+  if (hasEmptyPieces(*measure, plan_.jobs.split))
+    display_.event("whole     " + plan_.runs[run].name + ": for " + std::to_string(std::lround(measure->longest_gap_s)) +
+                   " s its stamps have no records (a pause, or a clock that jumps), so it is not cut into pieces");
+  const auto spans = piecesOf(*measure, plan_.jobs.split);
   for (const auto& span : spans) {
     PlannedRun piece = plan_.runs[run];
     char number[24];

@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "roomgraph/core/errors.h"
+#include "task_array.h"
 
 namespace roomgraph {
 namespace {
@@ -118,7 +119,9 @@ void BatchAtWork::takeInRun(std::size_t run, const EndedTask& ended) {
   const RunResult result = resultOf(under, ended);
   failures_[run] = result.failures;
   record(result, under.run.task.folder);
-  if (result.complete()) {
+  if (result.complete() && outcome_.interrupted && ended.exit_code == kInterrupted) {
+    ++outcome_.left;  // whole, but not evaluated
+  } else if (result.complete()) {
     ++outcome_.done;
     over_[run] = "";
     outcome_.run_s += display_.elapsed() - under.started_s;

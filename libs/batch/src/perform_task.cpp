@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kNotEvaluated = "its evaluation was not finished";
 constexpr auto kLook = std::chrono::milliseconds(10);
 // What is told to end writes its results first; whoever does not end in that time is stuck.
 constexpr double kTimeToEnd_s = 20;
@@ -93,7 +94,7 @@ class Performance {
 
   int perform() {
     std::error_code none;
-    fs::remove(task_.folder / "result.json", none);  // from here on the folder holds no whole run
+    if (task_.run_again) fs::remove(task_.folder / "result.json", none);  // from here on the folder holds no whole run
     if (task_.run_again) fs::remove(log_, none);
     if (task_.run_again) result_.started = timeStamp();
     result_.keep = toText(task_.keep);
@@ -103,7 +104,7 @@ class Performance {
     if (task_.run_again) replay();
     if (result_.complete()) evaluate();
     finish();
-    return result_.complete() ? 0 : result_.status == "interrupted" ? 4 : 1;
+    return interrupted_here_ ? 4 : result_.complete() ? 0 : 1;
   }
 
  private:
@@ -135,6 +136,7 @@ class Performance {
     result_.peak_memory_mb = end.child.peak_memory_mb;
     // Who was told to end in the very last moment may have ended by itself.
     if (end.child.exit_code == 0) return;
+    interrupted_here_ = end.interrupted;
     result_.status = end.interrupted ? "interrupted" : "failed";
     result_.reason = reasonOf(end, task_.time_limit_s, log_, begin);
     if (!end.interrupted)
@@ -147,7 +149,7 @@ class Performance {
     return true;
   }
 
-  // An evaluation that fails does not make a run fail: it is told as the reason of what is missing.
+  // An evaluation that fails or is interrupted does not make a run fail: it is told as the reason of what is missing.
   void evaluate() {
     result_.figures.clear();
     for (const auto& evaluation : task_.evaluations) {
@@ -161,8 +163,9 @@ class Performance {
       const auto begin = sizeOf(log_);
       const StepEnd end = step(words, 0);
       if (end.interrupted) {
-        result_.status = result_.reason = "interrupted";
-        return;
+        result_.reason = kNotEvaluated;
+        interrupted_here_ = true;
+        break;
       }
       if (end.child.exit_code == 0)
         result_.figures.merge(numbersOf(report, evaluation.report));
@@ -198,9 +201,20 @@ class Performance {
   const std::function<bool()>& interrupted_;
   fs::path log_;
   RunResult result_;
+  bool interrupted_here_ = false;
 };
 
 }  // namespace
+
+RunResult withoutEvaluation(const RunTask& task) {
+  RunResult out = task.planned;
+  out.status = "complete";
+  out.reason = kNotEvaluated;
+  out.command = task.run;
+  out.keep = toText(Keep::kAll);
+  out.files = filesIn(task.folder);
+  return out;
+}
 
 int performRunTask(const RunTask& task, const fs::path& program, const std::function<bool()>& interrupted) {
   return Performance(task, program, interrupted).perform();

@@ -83,8 +83,8 @@ std::string whatChanged(const RunResult& before, const RunResult& now) {
   }
   if (before.program != now.program) return "the program has changed";
   if (before.key != now.key) return "objects, networks or places of sensors have changed";
-  return before.evaluation_key != now.evaluation_key ? "the truth or the evaluation has changed"
-                                                     : "more is to be kept";
+  if (before.evaluation_key != now.evaluation_key) return "the truth or the evaluation has changed";
+  return before.reason.empty() ? "more is to be kept" : before.reason;
 }
 
 std::vector<EvaluationStep> evaluationSteps(const TruthFiles& truth, const std::filesystem::path& folder,

@@ -117,6 +117,9 @@ void adjust(std::vector<FigureRow>& rows) {
   for (std::size_t i = 0; i < tested.size(); ++i) tested[i]->adjusted_p = adjusted[i];
 }
 
+// All of fewer values hold the median with less than 95 %: of five with 1 - 2 / 2^5 = 94 %.
+constexpr std::size_t kFewestOfInterval = 6;
+
 std::string decimal(double value, int decimals) {
   char text[48];
   if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0;  // no "-0.00"
@@ -180,13 +183,15 @@ TextTable differenceTable(const Comparison& comparison) {
       if (!row.variants[v].difference) continue;
       const PairedDifference& d = *row.variants[v].difference;
       const auto number = [&](double value) { return decimal(value, row.figure.decimals + 1); };
+      const std::string interval =
+          d.pairs < kFewestOfInterval ? "-" : number(d.low) + " .. " + number(d.high);
       const double sense = d.median * row.figure.better;
       const std::string meaning = !d.significant() ? ""
                                   : sense > 0      ? "better"
                                   : sense < 0      ? "worse"
                                                    : "differs";
       table.rows.push_back({row.figure.label, comparison.variants[v], std::to_string(d.pairs),
-                            number(d.median), number(d.low) + " .. " + number(d.high), pText(d.test.p_value),
+                            number(d.median), interval, pText(d.test.p_value),
                             pText(d.adjusted_p), meaning});
     }
   table.numeric = {false, false, true, true, true, true, true, false};

@@ -7,8 +7,6 @@
 #include <exception>
 #include <memory>
 
-#include "roomgraph/core/errors.h"
-
 namespace roomgraph {
 namespace {
 
@@ -139,7 +137,7 @@ bool download(const std::string& url, const KnownFile& file, PartialFile& partia
     return download(url, file, partial, listener);
   }
   if (result == CURLE_HTTP_RETURNED_ERROR)
-    throw InputError(url + ": the server answers " + std::to_string(status) + kept(transfer));
+    throw Refused(url + ": the server answers " + std::to_string(status) + kept(transfer));
   if (result != CURLE_OK)
     throw InputError(url + ": " + (*transfer.cause ? transfer.cause : curl_easy_strerror(result)) +
                      kept(transfer));

@@ -69,15 +69,21 @@ bool copy(const fs::path& source, const KnownFile& file, PartialFile& partial, F
   return true;
 }
 
-// Returns the place it came from.
+// Returns the place it came from: the first that gives it. One that refuses is told of where no other has it.
 std::string obtain(const std::vector<std::string>& places, const KnownFile& file, PartialFile& partial,
                    FetchListener& listener) {
+  std::string refused;
   for (const auto& place : places) {
     if (listener.cancelled()) throw Interrupted(place + ": interrupted");
-    const bool there =
-        isAddress(place) ? download(place, file, partial, listener) : copy(place, file, partial, listener);
-    if (there) return place;
+    try {
+      const bool there =
+          isAddress(place) ? download(place, file, partial, listener) : copy(place, file, partial, listener);
+      if (there) return place;
+    } catch (const Refused& error) {
+      if (refused.empty()) refused = error.what();
+    }
   }
+  if (!refused.empty()) throw InputError(refused);
   throw InputError(file.name + ": there is no such file: " + join(places));
 }
 

@@ -48,15 +48,22 @@ struct BatchPlan {
 /// there; ConfigError: an input that stands in two entries.
 BatchPlan planBatch(const JobFile& jobs, const std::filesystem::path& folder);
 
-/// Pieces of equal length, about as long as `split` says, of a recording of so many seconds; none when it is
-/// hardly longer than one.
-std::vector<PieceSpan> piecesOf(double seconds, const BatchSplit& split);
-
 /// What a look at all of a recording tells.
 struct RecordingMeasure {
-  double seconds = 0;  ///< from its first record to its last
+  double seconds = 0;  ///< from its earliest record to its latest
   std::string sha256;  ///< of its file
+  double longest_gap_s = 0;  ///< between two stamps
 };
+
+/// Seconds and longest gap of a recording with these stamps, in any order.
+RecordingMeasure measureOf(std::vector<double> stamps);
+
+/// Whether a piece of that length could be without records: stamps jump, or the recording was paused.
+bool hasEmptyPieces(const RecordingMeasure& measure, const BatchSplit& split);
+
+/// Pieces of equal length, about as long as `split` says; none when the recording is hardly longer than one,
+/// or has empty pieces.
+std::vector<PieceSpan> piecesOf(const RecordingMeasure& measure, const BatchSplit& split);
 
 /// A measure in a file of its own, which is valid while the recording has the same size and time. Nothing: it
 /// is not known. Throws RunError.

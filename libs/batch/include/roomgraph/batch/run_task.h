@@ -34,9 +34,12 @@ struct RunTask {
 void writeRunTask(const RunTask& task, const std::filesystem::path& file);
 RunTask readRunTask(const std::filesystem::path& file);
 
+/// A whole run that is about to be evaluated: what stays when that is killed or interrupted.
+RunResult withoutEvaluation(const RunTask& task);
+
 /// Carries a task out with `program`: log in FOLDER/run.log, progress in FOLDER/progress, at the end
 /// FOLDER/result.json. When `interrupted` says so, the run is told to end (SIGINT), and what it leaves counts
-/// as interrupted. Returns the exit code: 0 complete, 1 failed, 4 interrupted. Throws RunError when
+/// as interrupted; a whole run whose evaluation is interrupted stays complete, with that as its reason. Returns the exit code: 0 complete, 1 failed, 4 interrupted. Throws RunError when
 /// result.json cannot be written.
 int performRunTask(const RunTask& task, const std::filesystem::path& program,
                    const std::function<bool()>& interrupted);
