@@ -138,13 +138,6 @@ TEST(GridRefinement, CorridorIsUncertainAlongItsAxis) {
   EXPECT_GT(covariance(0, 0), 9 * covariance(1, 1));
 }
 
-TEST(WeakDirectionWeight, ActsAlongTheWeakAxisOnly) {
-  const Eigen::Matrix3d curvature = Eigen::Vector3d(2, 30, 5).asDiagonal();
-  const Eigen::Matrix2d weight = weakDirectionWeight(curvature, 100 * Eigen::Matrix2d::Identity(), 20);
-  EXPECT_NEAR(weight(0, 0), 90, 1e-9);
-  EXPECT_NEAR(weight(1, 1), 0, 1e-9);
-}
-
 // `says`: what the pyramid is to show; `grid`: what it is made of.
 void expectMaxima(const ProbabilityGrid& says, const ProbabilityGrid& grid) {
   const ScorePyramid pyramid(grid, 4);

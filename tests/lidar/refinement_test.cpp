@@ -60,20 +60,6 @@ TEST(SurfaceCurvature, LonelyPointsSayNothing) {
   EXPECT_LT((surfaceCurvature(wall, {}, grid) - before).norm(), 1e-6);
 }
 
-TEST(WeakDirectionWeight, FollowsTheDirectionsWhateverTheirAxes) {
-  const Eigen::Rotation2Dd turn(0.6);
-  Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();
-  curvature.topLeftCorner<2, 2>() = turn * Eigen::Vector2d(5, 40).asDiagonal() * turn.inverse();
-  curvature(2, 2) = 3;
-  const Eigen::Matrix2d expected = turn * Eigen::Vector2d(75, 0).asDiagonal() * turn.inverse();
-  const Eigen::Matrix2d most = 100 * Eigen::Matrix2d::Identity();
-  EXPECT_LT((weakDirectionWeight(curvature, most, 20) - expected).norm(), 1e-9);
-  // With yaw free, what only yaw and x together fix is weak: 10 - 6 * 6 / 4 = 1.
-  Eigen::Matrix3d coupled = Eigen::Vector3d(10, 40, 4).asDiagonal();
-  coupled(0, 2) = coupled(2, 0) = 6;
-  EXPECT_NEAR(weakDirectionWeight(coupled, most, 20)(0, 0), 95, 1e-9);
-}
-
 TEST(PoseCovariance, IsTheInverseCurvatureBoundedAndWithAFloor) {
   GridRefinement found;
   found.residual_variance = 0.04;

@@ -33,7 +33,7 @@ constexpr double kSamePose = 1e-4;
 // Walls alone place a scan: a movement that was expected would carry over its own lag. The floor may be far
 // from where the recorded pose has it.
 const char* const kStageSettings =
-    "[lidar]\nprior_per_m2 = 0\nprior_per_rad2 = 0\nweak_prior_per_m2 = 0\n"
+    "[lidar]\nprior_per_m2 = 0\nprior_per_rad2 = 0\nled = false\n"
     "[ground]\nmax_angle_error_rad = 0.2\nmax_height_error_m = 0.35\n";
 
 template <class Interface>

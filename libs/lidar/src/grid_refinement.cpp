@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levenberg-Marquardt on an interpolated grid, surface curvature and weights of weak directions.
+// Levenberg-Marquardt on an interpolated grid, and the curvature of surfaces.
 #include "grid_refinement.h"
 
 #include <Eigen/Cholesky>
@@ -112,15 +112,6 @@ Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& pose,
 Eigen::Matrix2d placeCurvature(const Eigen::Matrix3d& curvature) {
   const Eigen::Vector2d mixed = curvature.topRightCorner<2, 1>();
   return curvature.topLeftCorner<2, 2>() - mixed * mixed.transpose() / std::max(1e-9, curvature(2, 2));
-}
-
-Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& curvature, const Eigen::Matrix2d& most_per_m2,
-                                    double enough_per_m2) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions(placeCurvature(curvature));
-  const Eigen::Array2d lack = (1 - directions.eigenvalues().array() / enough_per_m2).cwiseMax(0.0);
-  const Eigen::Matrix2d root =
-      directions.eigenvectors() * lack.sqrt().matrix().asDiagonal() * directions.eigenvectors().transpose();
-  return root * most_per_m2 * root;
 }
 
 GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,

@@ -10,10 +10,11 @@ namespace roomgraph {
 struct PosePrior {
   Pose2 pose;
   double weight_per_m2 = 0, weight_per_rad2 = 0;  ///< against the mean squared residual (1 - p) of the points
-  /// Additional weight along directions that the scan constrains badly; x, y only.
+  /// Additional weight by direction; x, y only.
   Eigen::Matrix2d extra_weight_per_m2 = Eigen::Matrix2d::Zero();
   /// Inverse covariance of x, y where it is known: on surfaces, whose lines have one, too. Not used on grids.
   Eigen::Matrix2d information_per_m2 = Eigen::Matrix2d::Zero();
+  bool may_slip = false;  ///< it counts less the more the scan contradicts it
 };
 
 struct GridRefinement {
@@ -25,6 +26,7 @@ struct GridRefinement {
   double residual_variance = 1;  ///< mean of (1 - p)^2
   double explained = 0;          ///< share of the points on a surface of the grid
   double contradicted = 0;       ///< share of the points in space the grid knows to be free
+  double trust = 1;              ///< share of the prior's information_per_m2 that counted
   bool on_surfaces = false;      ///< refined further, and its curvature is that of refineOnSurfaces()
 };
 
@@ -48,11 +50,6 @@ Eigen::Matrix3d surfaceCurvature(const Points2& points, const Pose2& grid_from_s
 
 /// Of x and y whatever the yaw: the Schur complement.
 Eigen::Matrix2d placeCurvature(const Eigen::Matrix3d& curvature);
-
-/// Prior weight for unobservable directions: `most_per_m2` along eigenvectors of the placeCurvature() with eigenvalue 0, falling
-/// linearly to nothing at `enough_per_m2`.
-Eigen::Matrix2d weakDirectionWeight(const Eigen::Matrix3d& mean_curvature, const Eigen::Matrix2d& most_per_m2,
-                                    double enough_per_m2);
 
 /// Levenberg-Marquardt on the interpolated grid (Hess et al. 2016, Eq. CS) with a prior on the pose.
 GridRefinement refineOnGrid(const ProbabilityGrid& grid, const Points2& points, const Pose2& start,

@@ -2,7 +2,7 @@
 // Prediction, correlative search, grid refinement and loss handling of the scan matcher.
 #include "submap_scan_matcher.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -17,9 +17,7 @@ IMPLEMENTS_MRPT_OBJECT(SubmapScanMatcher, ScanMatcher, roomgraph)
 namespace {
 constexpr int kMatcherLevels = 4;
 constexpr double kSteady_s = 0.5, kSlow_s = 2;  // a velocity older than this says nothing; the same of a lidar that is always slow
-constexpr double kSharedErrors = 5 * 5;  // variance of a match by what its returns tell: neighbours err alike
-constexpr double kLedSigma_m = 0.01;       // of a step that others measured
-constexpr double kMeasuredSigma_m = 0.003;  // of the same, where returns say nothing: their seeming information must not shorten a corridor
+constexpr double kSharedErrors = 5 * 5;  // variance of matches by what their returns tell: one map errs alike in all of them
 constexpr double kAnyVelocity = 0.7, kAnyTurn = 1.2;  // m/s, rad/s, that a movement may differ from the one before
 constexpr double kWidest_m = 5;             // half width of a search, however many scans were lost
 constexpr double kClearlyBetter = 0.1;     // share of returns that a steady movement must explain more
@@ -27,10 +25,8 @@ constexpr double kPause_s = 2, kSamePlace = 0.8;  // after which it is asked whe
 constexpr double kLeastOfNoisy = 0.65;  // share of the returns that the map must explain of a scan much noisier than those before
 constexpr double kGridSigma_m = 0.0035, kGridSigma_rad = 0.0012;  // of a match to cells alone
 
-Eigen::Matrix2d rotated(const Eigen::Matrix2d& information, double yaw) {
-  const Eigen::Rotation2Dd turn(yaw);
-  return turn * information * turn.inverse();
-}
+// One map's errors are soon taken for a velocity that goes on; movements that others measured tell them apart.
+double sharedErrors(bool measured) { return measured ? 1 : kSharedErrors; }
 
 }  // namespace
 
@@ -66,7 +62,7 @@ void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
          .min = 0,
          .max = 10000});
   v.add("prior_per_m2", prior_per_m2_,
-        {.doc = "Weight of a measured movement against the scan in the refinement.",
+        {.doc = "Weight of the prediction against the scan in the refinement, where nothing tells how sure it is: after a loss.",
          .unit = "1/m^2",
          .min = 0,
          .max = 1e+06});
@@ -75,17 +71,8 @@ void SubmapScanMatcher::declareSearch(ParameterVisitor& v) {
          .unit = "1/rad^2",
          .min = 0,
          .max = 1e+06});
-  v.add("weak_prior_per_m2", weak_prior_per_m2_,
-        {.doc = "Further weight, along a direction that the scan does not constrain, of a measured movement.",
-         .unit = "1/m^2",
-         .min = 0,
-         .max = 1e+06});
-  v.add("weak_below_per_m2", weak_below_per_m2_,
-        {.doc = "A direction is constrained by the scan from this curvature of the mean squared residual on: neither a "
-                "measured movement nor the usual velocity counts more there.",
-         .unit = "1/m^2",
-         .min = 0.1,
-         .max = 1e+06});
+  v.add("led", led_,
+        {.doc = "A measured movement, or that the robot goes on as it went, counts beside the scan, as sure as it is. no: the scan alone."});
 }
 
 void SubmapScanMatcher::declareParameters(ParameterVisitor& v) {
@@ -120,7 +107,7 @@ void SubmapScanMatcher::prepare() {
   accepted_t_.reset();
   unled_ = false;
   last_pose_ = kept_pose_ = Pose2();
-  motion_ = {};
+  place_ = {};
   interval_s_ = 0;
 }
 
@@ -138,17 +125,19 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
     return repeated;
   }
   unled_ = unled_ || !has_prior;
+  const bool steadily = last_t_ && lost_scans_ == 0 && scan.t - *last_t_ <= extrapolated_s();
+  if (!has_prior && !steadily) place_ = {};
+  if (last_t_) place_.predict(previous_from_current, scan.t - *last_t_, last_pose_.yaw);
   const bool noisy = roughness_.standsOut(scan);
   if (static_cast<int>(points.size()) < submap_settings_.min_points)
     return lose(scan.t, predicted, has_prior, "too few returns");
   if (!submaps_->oldest()) return start(scan, planar, predicted);
 
-  const bool steadily = lost_scans_ == 0 && scan.t - *last_t_ <= extrapolated_s();
   GridRefinement found = matchTo(*submaps_->oldest(), planar, points, predicted,
                                  has_prior ? Led::kByOthers : steadily ? Led::kSteadily : Led::kNot, scan.t - *last_t_);
   if (has_prior && jumps(scan.t, predicted)) {
     const GridRefinement steady = matchTo(*submaps_->oldest(), planar, points, steadyPose(scan.t), Led::kNot);
-    if (steady.explained > found.explained + kClearlyBetter) found = steady;
+    if (steady.explained > found.explained + kClearlyBetter) found = steady, found.trust = 0;
   }
   if (noisy && has_prior && found.explained < kLeastOfNoisy) return ledOver(scan.t, predicted, "much noisier than the scans before");
   // Recording may have paused while the robot was carried off.
@@ -169,19 +158,24 @@ ScanMatch SubmapScanMatcher::match(const Scan& scan, const std::optional<Pose2>&
   out.segment = segment_;
   out.score = found.explained;
   out.step_covariance = stepCovariance(found);
-  const Eigen::Matrix2d others = (has_prior ? 1 / (kLedSigma_m * kLedSigma_m) : 0) * Eigen::Matrix2d::Identity();
-  out.moving = accept(scan, planar, found.grid_from_scan, others + stepInformation(found));
+  if (lost_scans_ == 0) {
+    const double variance = std::max(1e-6, found.residual_variance) * (found.on_surfaces ? sharedErrors(has_prior) : kSharedErrors);
+    place_.update(last_pose_.inverse() * found.grid_from_scan, placeCurvature(found.curvature) / variance, found.trust);
+  } else {
+    place_ = {};
+  }
+  out.moving = accept(scan, planar, found.grid_from_scan);
   return out;
 }
 
 Pose2 SubmapScanMatcher::predict(double t, const std::optional<Pose2>& previous_from_current) const {
   if (!last_t_) return {};
-  return previous_from_current ? last_pose_ * *previous_from_current : steadyPose(t);
+  return previous_from_current ? last_pose_ * place_.corrected(*previous_from_current) : steadyPose(t);
 }
 
 Pose2 SubmapScanMatcher::steadyPose(double t) const {
   const double dt = t - *last_t_;
-  return dt > extrapolated_s() ? last_pose_ : last_pose_ * motion_.step(dt);
+  return dt > extrapolated_s() ? last_pose_ : last_pose_ * place_.steadyStep(dt);
 }
 
 // Where scans come further apart for once, the robot may have stood meanwhile: some record nothing then.
@@ -213,22 +207,16 @@ GridRefinement SubmapScanMatcher::matchTo(const Submap& submap, const PlanarScan
   const Pose2 start_pose = coarse ? coarse->grid_from_scan : predicted;
   PosePrior prior{predicted, trust * prior_per_m2_, trust * prior_per_rad2_};
   Eigen::Matrix2d led_by = Eigen::Matrix2d::Zero();  // in units of what the returns tell
-  if (led != Led::kNot) {
-    const GridCost cost = gridCost(submap.grid, points, start_pose, {});
-    const auto whereWeak = [&](const Eigen::Matrix2d& most) {
-      return weakDirectionWeight(surfaceCurvature(points, start_pose, cost.curvature), most, weak_below_per_m2_);
-    };
-    if (led == Led::kSteadily) {
-      led_by = whereWeak(kSharedErrors * rotated(motion_.stepInformation(since_s), last_pose_.yaw));
-      prior.extra_weight_per_m2 = cost.residual / static_cast<double>(points.size()) * led_by;
-    } else {
-      prior.extra_weight_per_m2 = whereWeak(weak_prior_per_m2_ * Eigen::Matrix2d::Identity());
-      led_by = whereWeak(Eigen::Matrix2d::Identity() / (kMeasuredSigma_m * kMeasuredSigma_m));
-    }
+  if (led_ && led != Led::kNot) {
+    led_by = sharedErrors(has_prior) * place_.covariance().inverse();
+    const double residual = gridCost(submap.grid, points, start_pose, {}).residual;
+    prior.extra_weight_per_m2 = residual / static_cast<double>(points.size()) * led_by;
+    prior.weight_per_m2 = 0;
   }
   GridRefinement fine = refineOnGrid(submap.grid, points, start_pose, prior);
   prior.extra_weight_per_m2.setZero();
   prior.information_per_m2 = led_by;
+  prior.may_slip = has_prior;
   refineFurther(submap.surfaces, faced(planar), prior, own_share_, fine);
   return fine;
 }
@@ -243,15 +231,8 @@ Eigen::Matrix3d SubmapScanMatcher::stepCovariance(const GridRefinement& refineme
   return rotateCovariance(in_odom, -last_pose_.yaw);
 }
 
-Eigen::Matrix2d SubmapScanMatcher::stepInformation(const GridRefinement& found) const {
-  const double variance = kSharedErrors * std::max(1e-6, found.residual_variance);
-  return rotated(placeCurvature(found.curvature) / variance, -last_pose_.yaw);
-}
-
-std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose,
-                                                   const Eigen::Matrix2d& step_per_m2) {
+std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
   interval_s_ = last_t_ ? scan.t - *last_t_ : 0;
-  if (last_t_ && lost_scans_ == 0) motion_.observe(last_pose_.inverse() * pose, step_per_m2, scan.t - *last_t_);
   last_t_ = accepted_t_ = scan.t;
   last_pose_ = pose;
   unled_ = false;
@@ -269,9 +250,9 @@ std::vector<std::size_t> SubmapScanMatcher::accept(const Scan& scan, const Plana
 }
 
 ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, const Pose2& pose) {
-  motion_ = {};
+  place_ = {};
   lost_scans_ = 1;  // no movement can be derived from what came before
-  accept(scan, planar, pose, Eigen::Matrix2d::Zero());
+  accept(scan, planar, pose);
   ScanMatch out;
   out.matched = true;
   out.odom_from_robot = pose;
@@ -285,7 +266,7 @@ ScanMatch SubmapScanMatcher::start(const Scan& scan, const PlanarScan& planar, c
 
 ScanMatch SubmapScanMatcher::lose(double t, const Pose2& predicted, bool has_prior, std::string reason) {
   ++lost_scans_;
-  if (!has_prior) motion_ = {};
+  if (!has_prior) place_ = {};
   return ledOver(t, predicted, std::move(reason));
 }
 

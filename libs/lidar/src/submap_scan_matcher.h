@@ -6,10 +6,10 @@
 
 #include "grid_refinement.h"
 #include "own_share.h"
+#include "place_filter.h"
 #include "roomgraph/lidar/free_space_memory.h"
 #include "roomgraph/lidar/scan_matcher.h"
 #include "score_pyramid.h"
-#include "steady_motion.h"
 #include "submap_settings.h"
 #include "usual_roughness.h"
 
@@ -35,16 +35,12 @@ class SubmapScanMatcher : public ScanMatcher {
   /// Whether the prediction lies beyond the search window around the steady pose.
   double extrapolated_s() const;
   bool jumps(double t, const Pose2& predicted) const;
-  /// What tells how the robot moved where the scan does not: others; that it hardly goes another way than before;
-  /// nothing.
+  /// What tells how the robot moved: others; that it hardly goes another way than before; nothing.
   enum class Led { kByOthers, kSteadily, kNot };
   GridRefinement matchTo(const Submap& submap, const PlanarScan& planar, const Points2& points, const Pose2& predicted,
                          Led led, double since_s = 0);
-  /// Takes the scan over; returns the beams on what moves. `step_per_m2`: what tells of the step, besides that the robot goes on as it
-  /// went.
-  std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose, const Eigen::Matrix2d& step_per_m2);
-  /// What a match alone tells of the place, in the frame of the robot at the scan before.
-  Eigen::Matrix2d stepInformation(const GridRefinement& found) const;
+  /// Takes the scan over; returns the beams on what moves.
+  std::vector<std::size_t> accept(const Scan& scan, const PlanarScan& planar, const Pose2& pose);
   /// A scan that is not used: what others measured leads on.
   ScanMatch ledOver(double t, const Pose2& predicted, std::string reason);
   ScanMatch lose(double t, const Pose2& predicted, bool has_prior, std::string reason);
@@ -57,7 +53,7 @@ class SubmapScanMatcher : public ScanMatcher {
   double free_window_m_ = 0.4, free_window_rad_ = 0.43633;
   double search_penalty_per_m2_ = 0.5, search_penalty_per_rad2_ = 0.5;
   double prior_per_m2_ = 2, prior_per_rad2_ = 1;
-  double weak_prior_per_m2_ = 100, weak_below_per_m2_ = 15;
+  bool led_ = true;
   double min_score_ = 0.1;
   int max_lost_scans_ = 10;
   double covariance_inflation_ = 1;
@@ -75,7 +71,7 @@ class SubmapScanMatcher : public ScanMatcher {
   std::optional<double> accepted_t_;  ///< of the last scan that was matched
   bool unled_ = false;                ///< nothing measured some of the movement since then
   Pose2 last_pose_;
-  SteadyMotion motion_;
+  PlaceFilter place_;
   double interval_s_ = 0;             ///< between the last two scans
   double kept_t_ = 0;
   Pose2 kept_pose_;

@@ -39,7 +39,8 @@ std::optional<SurfaceLine> lineThrough(const Scatter& sums, double fewest) {
   const double across = std::max(0.0, middle - spread), along = middle + spread;
   if (!(across < kLongestAcross * along)) return std::nullopt;
   const double direction = 0.5 * std::atan2(2 * xy, xx - yy);
-  const double turn_rad2 = along > 0 ? across / (static_cast<double>(sums.count) * along) : 0;
+  // Two of the returns' freedoms are the line's own: their variance across is that much larger than it looks.
+  const double turn_rad2 = along > 0 ? across / (std::max(1.0, static_cast<double>(sums.count) - 2) * along) : 0;
   return SurfaceLine{mean, {-std::sin(direction), std::cos(direction)}, across, turn_rad2};
 }
 

@@ -19,6 +19,8 @@ constexpr double kLeastShare = 1.0 / 3;
 constexpr double kStill_m = 3e-5, kStill_rad = 1e-5;  // smaller steps end the iterations
 constexpr double kFarthestFromGrid_m = 1;             // farther away it is another place
 constexpr double kSeeming = 2;                        // times the scatter of the normals that is told of
+constexpr double kSomethingInIt = 0.2;                // share of it that counts where nothing but the scan measures
+constexpr double kSlip = 3;                           // standard deviations between scan and prediction; Geman and McClure
 
 // Of a return across its line.
 double varianceOf(const SurfaceLine& line) {
@@ -100,6 +102,26 @@ Eigen::Matrix3d matrixOf(const PosePrior& prior) {
   return out;
 }
 
+// What normals that scatter hold and pull at along a wall counts by the share of the information there that is more than seeming, and
+// by `least` anyway.
+void discountSeeming(double least, NormalEquations& equations) {
+  const Eigen::Matrix3d real = withoutSeeming(equations);
+  const Eigen::Matrix3d share = real * equations.information.inverse();
+  const Eigen::Matrix3d counted = share * real;
+  equations.gradient = (1 - least) * share * equations.gradient + least * equations.gradient;
+  equations.information = (1 - least) / 2 * (counted + counted.transpose()) + least * equations.information;
+}
+
+// How much a prediction counts that the scan contradicts: wheels slip. Compared is what the scan alone would say, as sure as it is.
+double trustIn(const PosePrior& prior, const NormalEquations& scan, const Eigen::Vector3d& shift) {
+  if (!prior.may_slip) return 1;
+  const Eigen::Matrix3d covariance = scan.information.inverse();
+  const Eigen::Vector2d apart = (shift - covariance * scan.gradient).head<2>();
+  const Eigen::Matrix2d both = covariance.topLeftCorner<2, 2>() + prior.information_per_m2.inverse();
+  const double surprise = 1 + apart.dot(both.inverse() * apart) / (kSlip * kSlip);
+  return 1 / (surprise * surprise);
+}
+
 std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const FacedScan& scan, const GridRefinement& grid,
                                    const PosePrior& prior, const OwnShare& own) {
   const Eigen::Matrix3d unscaled = matrixOf(prior);
@@ -113,9 +135,13 @@ std::optional<SurfaceFit> refineOn(LinesOfReturns& lines, int levels, const Face
     const double scale = weakest(scan_only.information) / std::max(1e-6, weakest(grid.mean_curvature));
     const Eigen::Vector3d shift(pose.x - prior.pose.x, pose.y - prior.pose.y, wrapAngle(pose.yaw - prior.pose.yaw));
     Eigen::Matrix3d weight = std::max(0.0, scale) * unscaled + 1e-6 * Eigen::Matrix3d::Identity();
-    weight.topLeftCorner<2, 2>() += prior.information_per_m2;
-    const Eigen::Vector3d step =
-        -(scan_only.information + weight).ldlt().solve(scan_only.gradient + weight * shift);
+    NormalEquations counted = scan_only;
+    if (prior.information_per_m2.trace() > 0) {
+      discountSeeming(prior.may_slip ? 0 : kSomethingInIt, counted);
+      fit.trust = trustIn(prior, counted, shift);
+      weight.topLeftCorner<2, 2>() += fit.trust * prior.information_per_m2;
+    }
+    const Eigen::Vector3d step = -(counted.information + weight).ldlt().solve(counted.gradient + weight * shift);
     pose = {pose.x + step.x(), pose.y + step.y(), wrapAngle(pose.yaw + step.z())};
     if (step.head<2>().norm() < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
@@ -163,6 +189,7 @@ void refineFurther(const LocalSurfaces& surfaces, const FacedScan& scan, const P
   refinement.curvature = fit->information;
   refinement.residual_variance = 1;
   refinement.on_surfaces = true;
+  refinement.trust = fit->trust;
 }
 
 }  // namespace roomgraph

@@ -16,6 +16,7 @@ struct SurfaceFit {
   /// less what the scatter of the surfaces' directions looks like.
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   NeighbourErrors neighbours;
+  double trust = 1;  ///< share of the prior's information_per_m2 that counted
 };
 
 /// Least squares on robust point-to-line distances, as in Censi 2008 (PLICP), the lines being those of the surfaces around the
