@@ -237,6 +237,29 @@ TEST_F(Refinement, ACorridorIsFixedAcrossAndHardlyAlong) {
   EXPECT_NEAR(held->map_from_scan.y, 0, 0.01);
 }
 
+// Wheels that say something else than a room that shows every direction have slipped; a corridor does not contradict what they say along it.
+TEST_F(Refinement, APredictionThatTheScanContradictsHardlyCounts) {
+  const PosePrior slipped{.pose = {0.1, 0, 0}, .information_per_m2 = 1e5 * Eigen::Matrix2d::Identity(), .may_slip = true};
+  PosePrior certain = slipped;
+  certain.may_slip = false;
+  map(test::asymmetricRoom(), 0.01);
+  const PlanarScan room = seenFrom(test::asymmetricRoom(), {}, random, 0.01);
+  const auto in_room = refineOnSurfaces(surfaces, faced(room), onGrid(room, {}), slipped);
+  const auto held = refineOnSurfaces(surfaces, faced(room), onGrid(room, {}), certain);
+  ASSERT_TRUE(in_room && held);
+  EXPECT_LT(in_room->trust, 0.01);
+  EXPECT_EQ(held->trust, 1);
+  EXPECT_NEAR(in_room->map_from_scan.x, 0, 0.004);
+  EXPECT_GT(held->map_from_scan.x, 0.01);
+  surfaces = LocalSurfaces(0.05);
+  map(test::corridor(), 0.01);
+  const PlanarScan corridor = seenFrom(test::corridor(), {}, random, 0.01);
+  const auto along = refineOnSurfaces(surfaces, faced(corridor), onGrid(corridor, {}), slipped);
+  ASSERT_TRUE(along);
+  EXPECT_GT(along->trust, 0.9);
+  EXPECT_NEAR(along->map_from_scan.x, 0.1, 0.005);
+}
+
 TEST_F(Refinement, NothingInAPlaceThatTheMapDoesNotShow) {
   map(test::asymmetricRoom(), 0.01);
   const PlanarScan elsewhere = seenFrom(test::boxAt(-1, -1, 2, 2), {}, random, 0.01);
