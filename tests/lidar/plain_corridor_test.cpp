@@ -35,7 +35,7 @@ double lengthDriven(double heading, double sigma_m, int scans) {
 
 TEST(PlainCorridor, IsAsLongAsTheWheelsSay) {
   for (const double heading : {0.0, M_PI / 4})
-    for (const double sigma_m : {0.01, 0.03})
+    for (const double sigma_m : {0.0, 0.01, 0.03})
       EXPECT_NEAR(lengthDriven(heading, sigma_m, 301), 15, 0.1) << heading << " " << sigma_m;
 }
 

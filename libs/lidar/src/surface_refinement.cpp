@@ -106,7 +106,7 @@ Eigen::Matrix3d matrixOf(const PosePrior& prior) {
 // by `least` anyway.
 void discountSeeming(double least, NormalEquations& equations) {
   const Eigen::Matrix3d real = withoutSeeming(equations);
-  const Eigen::Matrix3d share = real * equations.information.inverse();
+  const Eigen::Matrix3d share = real * (real + equations.seeming).inverse();  // exact returns leave nothing along a wall: no inverse of that
   const Eigen::Matrix3d counted = share * real;
   equations.gradient = (1 - least) * share * equations.gradient + least * equations.gradient;
   equations.information = (1 - least) / 2 * (counted + counted.transpose()) + least * equations.information;
