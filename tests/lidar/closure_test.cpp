@@ -231,6 +231,53 @@ TEST_F(Confirmation, OneSpotIsNotEnough) {
   for (const Closure& closure : same) EXPECT_TRUE(confirmation.add(closure, still, rule_).empty());
 }
 
+// Asked once enough agree, of all of them; the others need not be found again.
+TEST_F(Confirmation, ThoseThatFitElsewhereWaitOn) {
+  for (auto& w : way_) w.odom_from_robot.yaw = 0;
+  ClosureConfirmation confirmation;
+  std::vector<std::size_t> asked;
+  const auto answer = [&](bool have_rival) {
+    return [&asked, have_rival](const std::vector<Closure>& agreeing) {
+      EXPECT_EQ(agreeing.front().a, 2 + static_cast<int>(asked.size()) + 1);
+      asked.push_back(agreeing.size());
+      return have_rival;
+    };
+  };
+  for (const int i : {1, 2}) EXPECT_TRUE(confirmation.add(right(i), way_, rule_, answer(true)).empty());
+  EXPECT_TRUE(confirmation.add(right(3), way_, rule_, answer(true)).empty());
+  EXPECT_EQ(confirmation.add(right(4), way_, rule_, answer(false)).size(), 3u);
+  EXPECT_EQ(asked, (std::vector<std::size_t>{3, 3}));
+}
+
+// Each a little farther back along the wall than the last one: no step is large, but together they contradict the odometry.
+TEST_F(Confirmation, AClosureThatSlidesContradictsThoseBefore) {
+  for (auto& w : way_) w.odom_from_robot.yaw = 0;
+  ClosureConfirmation confirmation;
+  EXPECT_FALSE(confirmation.contradicts(right(0), way_, rule_)) << "nothing was accepted yet";
+  const auto slid = [](int i, double by_m) {
+    Closure out = right(i);
+    out.a_from_b.x -= by_m;
+    return out;
+  };
+  for (const int i : {1, 2, 3}) confirmation.accept(right(i));
+  EXPECT_FALSE(confirmation.contradicts(right(4), way_, rule_));
+  EXPECT_FALSE(confirmation.contradicts(slid(4, 0.18), way_, rule_));
+  confirmation.accept(slid(4, 0.18));
+  EXPECT_TRUE(confirmation.contradicts(slid(5, 0.4), way_, rule_));
+  confirmation.accept(slid(5, 0.3));
+  confirmation.accept(slid(5, 0.3));
+  EXPECT_FALSE(confirmation.contradicts(slid(5, 0.3), way_, rule_)) << "three of six agree with it";
+  auto far = way_;
+  for (std::size_t i = 16; i < far.size(); ++i) far[i].path_m += 10;
+  EXPECT_FALSE(confirmation.contradicts(slid(6, 2), far, rule_)) << "they are farther back than the reach";
+}
+
+TEST_F(Confirmation, ClosuresToOtherPlacesContradictNothing) {
+  ClosureConfirmation confirmation;
+  for (const int b : {16, 17, 18}) confirmation.accept({0, b, {}, Eigen::Matrix3d::Identity(), 50});
+  EXPECT_FALSE(confirmation.contradicts(right(9), way_, rule_)) << "9 m from there, which is beyond the reach";
+}
+
 // A segment of 40 scans, half a metre apart along x in its own frame, which lies at `kPlace` in world.
 class Votes : public ::testing::Test {
  protected:

@@ -6,14 +6,26 @@
 #include <cmath>
 
 namespace roomgraph {
+namespace {
+
+const WayPoint& at(const std::vector<WayPoint>& way, int i) { return way[static_cast<std::size_t>(i)]; }
+
+bool isWithin(const WayPoint& first, const WayPoint& second, double reach_m) {
+  return first.segment == second.segment && std::abs(first.path_m - second.path_m) <= reach_m;
+}
+
+// Whether the odometry tells how the two should lie to each other.
+bool areComparable(const Closure& first, const Closure& second, const std::vector<WayPoint>& way, const ConfirmationRule& rule) {
+  return isWithin(at(way, first.a), at(way, second.a), rule.reach_m) && isWithin(at(way, first.b), at(way, second.b), rule.reach_m);
+}
+
+}  // namespace
 
 bool agree(const Closure& first, const Closure& second, const std::vector<WayPoint>& way,
            const ConfirmationRule& rule) {
-  const auto at = [&](int i) -> const WayPoint& { return way[static_cast<std::size_t>(i)]; };
-  const WayPoint &a1 = at(first.a), &b1 = at(first.b), &a2 = at(second.a), &b2 = at(second.b);
-  if (a1.segment != a2.segment || b1.segment != b2.segment) return false;
+  if (!areComparable(first, second, way, rule)) return false;
+  const WayPoint &a1 = at(way, first.a), &b1 = at(way, first.b), &a2 = at(way, second.a), &b2 = at(way, second.b);
   const double way_a = std::abs(a1.path_m - a2.path_m), way_b = std::abs(b1.path_m - b2.path_m);
-  if (way_a > rule.reach_m || way_b > rule.reach_m) return false;
   const Pose2 a1_from_a2 = a1.odom_from_robot.inverse() * a2.odom_from_robot;
   const Pose2 b2_from_b1 = b2.odom_from_robot.inverse() * b1.odom_from_robot;
   const Pose2 error = first.a_from_b.inverse() * (a1_from_a2 * second.a_from_b * b2_from_b1);
@@ -23,8 +35,8 @@ bool agree(const Closure& first, const Closure& second, const std::vector<WayPoi
 }
 
 std::vector<Closure> ClosureConfirmation::add(const Closure& closure, const std::vector<WayPoint>& way,
-                                              const ConfirmationRule& rule) {
-  const auto path = [&](const Closure& c) { return way[static_cast<std::size_t>(c.b)].path_m; };
+                                              const ConfirmationRule& rule, const HaveRival& haveRival) {
+  const auto path = [&](const Closure& c) { return at(way, c.b).path_m; };
   std::erase_if(waiting_, [&](const Closure& old) { return path(closure) - path(old) > rule.reach_m; });
   std::vector<Closure> group{closure};
   double low = path(closure), high = low;
@@ -42,11 +54,20 @@ std::vector<Closure> ClosureConfirmation::add(const Closure& closure, const std:
     waiting_.push_back(closure);
     return {};
   }
+  if (haveRival && haveRival(group)) return {};
   std::erase_if(waiting_, [&](const Closure& old) {
     return std::any_of(group.begin(), group.end(),
                        [&](const Closure& c) { return c.a == old.a && c.b == old.b; });
   });
   return group;
+}
+
+bool ClosureConfirmation::contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule) {
+  std::erase_if(accepted_, [&](const Closure& old) { return !isWithin(at(way, old.b), at(way, closure.b), rule.reach_m); });
+  int agreeing = 0, others = 0;
+  for (const Closure& old : accepted_)
+    if (areComparable(old, closure, way, rule)) ++(agree(old, closure, way, rule) ? agreeing : others);
+  return others > agreeing;
 }
 
 }  // namespace roomgraph

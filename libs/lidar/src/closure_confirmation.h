@@ -2,6 +2,8 @@
 // Loop closures confirmed by agreement of several.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <vector>
 
 #include "roomgraph/geometry/pose.h"
@@ -14,6 +16,8 @@ struct Closure {
   Pose2 a_from_b;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();  ///< of (x, y, yaw), in frame a
   double path_m = 0;  ///< path length between the two before this closure; drift is taken to grow with it
+  double score = 0;   ///< mean occupancy at the returns
+  bool in_corridor = false;  ///< nearly all surfaces face one way or its opposite
 };
 
 /// Pose of a kept scan in odometry, and its position along the trajectory.
@@ -33,15 +37,23 @@ struct ConfirmationRule {
 };
 
 /// Pairwise consistency check: holds back loop closures after a long path until enough of them agree with
-/// each other.
+/// each other, and tells of those that contradict what was accepted.
 class ClosureConfirmation {
  public:
-  /// Adds one; returns those now confirmed, the new one among them, or nothing.
-  std::vector<Closure> add(const Closure& closure, const std::vector<WayPoint>& way,
-                           const ConfirmationRule& rule);
+  using HaveRival = std::function<bool(const std::vector<Closure>& agreeing)>;
+  /// Adds one; returns those now confirmed, the new one first among them, or nothing. `haveRival` is asked last, of the new one and those that
+  /// confirm it: whether another place fits them as well. Then the new one is not added, and the others wait on.
+  std::vector<Closure> add(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule,
+                           const HaveRival& haveRival = {});
+  /// It was taken as true, after a long path or a short one.
+  void accept(const Closure& closure) { accepted_.push_back(closure); }
+  /// Whether most of those accepted within the rule's reach say otherwise. Closures over short paths, each expected where the last
+  /// one was, would slide along a wall step by step.
+  bool contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule);
 
  private:
   std::vector<Closure> waiting_;
+  std::deque<Closure> accepted_;  ///< within reach of the latest
 };
 
 /// Whether two closures are consistent: composed with the odometry between their scans they form the

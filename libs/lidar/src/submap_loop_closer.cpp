@@ -2,10 +2,10 @@
 // Candidate submaps by drift, branch-and-bound match, ambiguity test and confirmation.
 #include "submap_loop_closer.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "corridor.h"
 #include "grid_refinement.h"
 #include "roomgraph/geometry/covariance.h"
 #include "surface_refinement.h"
@@ -20,7 +20,6 @@ constexpr std::size_t kPyramids = 16;   // of the submaps around the robot, with
 constexpr double kTurnLength = 0.3;     // m of path that a turn by 1 rad counts for
 constexpr double kVerifyHorizon_s = 3;  // a kept scan this near in time is at the proposed place
 constexpr double kClosureLength = 0.3;  // m of path that a closure counts for
-constexpr double kSecondBestRadius = 0.6, kSecondBestTurn = 0.3;  // m, rad: nearer is the same solution
 
 Pose2 movement(const WayPoint& a, const WayPoint& b) {
   return a.odom_from_robot.inverse() * b.odom_from_robot;
@@ -151,7 +150,7 @@ std::optional<RelativePose> SubmapLoopCloser::verify(const RelativePose& propose
     const std::optional<Closure> found = match(candidate, probeOf(b));
     if (!found) continue;
     tie(*found);
-    graph_.addClosure(found->a, found->b, found->a_from_b, kClosureLength);
+    accept(*found);
     return toRelativePose(*found);
   }
   return std::nullopt;
@@ -221,7 +220,6 @@ std::vector<RelativePose> SubmapLoopCloser::search(const PoseAt& world_from_robo
     return found;
   }
   PlacesInWorld world(world_from_robot, scans_);
-  const ConfirmationRule rule{.agreeing = agreeing_closures_, .travelled_m = agreeing_path_m_};
   for (int matches = 0; matches < max_matches_per_search_ && !waiting_.empty(); waiting_.pop_front()) {
     const Probe b = probeOf(waiting_.front());
     const std::vector<std::size_t> untied = nextUntied(b);
@@ -231,15 +229,11 @@ std::vector<RelativePose> SubmapLoopCloser::search(const PoseAt& world_from_robo
       ++matches;
       const std::optional<Closure> closure = match(candidate, b);
       if (!closure) continue;
-      std::vector<Closure> confirmed{*closure};
-      if (pieceOf(closure->a) != pieceOf(closure->b))
-        confirmed = vote(*closure, b, world);
-      else if (closure->path_m > trusted_path_m_)
-        confirmed = confirmation_.add(*closure, way_, rule);
-      std::move(confirmed.begin(), confirmed.end(), std::back_inserter(closures));
+      std::vector<Closure> now = believed(*closure, b, world);
+      std::move(now.begin(), now.end(), std::back_inserter(closures));
     }
     for (const Closure& c : closures) {
-      graph_.addClosure(c.a, c.b, c.a_from_b, kClosureLength);
+      accept(c);
       found.push_back(toRelativePose(c));
     }
   }
@@ -309,36 +303,8 @@ std::optional<Closure> SubmapLoopCloser::match(const Candidate& candidate, const
   return closureOf(candidate.a, b.scan, *found, candidate.path_m);
 }
 
-namespace {
-
-Eigen::Vector2d heldAlongAndAcross(const GridRefinement& fit) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(placeCurvature(fit.curvature)).eigenvalues();
-}
-
-// Whether nearly all surfaces face one way or its opposite: that something else tells the place is to be seen from how much worse others fit.
-bool isCorridor(const GridRefinement& on_grid) {
-  constexpr double kLeastRatio = 0.1;  // rooms have .13 and more, plain walls .02
-  const Eigen::Vector2d held = heldAlongAndAcross(on_grid);
-  return held[0] < kLeastRatio * held[1];
-}
-
-// Wide enough for another place along a corridor.
-SearchWindow alongToo(SearchWindow window) {
-  constexpr double kOtherPlace_m = 1.5;
-  window.linear_m = std::max(window.linear_m, kOtherPlace_m);
-  return window;
-}
-
-// Between two plain walls the place along them is anywhere.
-bool slides(const GridRefinement& fine) {
-  constexpr double kLargestSigma_m = 0.15;
-  return fine.on_surfaces && heldAlongAndAcross(fine)[0] < 1 / (kLargestSigma_m * kLargestSigma_m);
-}
-
-}  // namespace
-
-std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Probe& b, const Pose2& expected, const SearchWindow& window,
-                                                    bool surely) {
+std::optional<SubmapLoopCloser::Fit> SubmapLoopCloser::fit(std::size_t number, const Probe& b, const Pose2& expected,
+                                                           const SearchWindow& window, bool surely) {
   const Submap& submap = *submaps_[number].map;
   const ScorePyramid& pyramid = pyramids_.of(number, submap.grid);
   const auto coarse = correlativeSearch(pyramid, b.points, expected, window);
@@ -346,31 +312,36 @@ std::optional<GridRefinement> SubmapLoopCloser::fit(std::size_t number, const Pr
   const PosePrior prior{coarse->grid_from_scan};
   GridRefinement fine = refineOnGrid(submap.grid, b.points, coarse->grid_from_scan, prior);
   if (fine.explained < min_score_ || fine.contradicted > max_contradicted_) return std::nullopt;
-  if (isCorridor(fine) && ambiguous(pyramid, b.points, expected, alongToo(window), *coarse)) return std::nullopt;
-  if (surely && ambiguous(pyramid, b.points, expected, window, *coarse)) return std::nullopt;
-
+  const bool in_corridor = isCorridor(fine);
+  if (in_corridor && fitsAlong(pyramid, b.points, fine, ambiguity_ratio_ * coarse->score)) return std::nullopt;
   const FacedScan scan = faced(b.planar);
   refineFurther(submap.surfaces, scan, prior, own_share_, fine);
   if (slides(fine)) return std::nullopt;
   if (shareOnWrongSide(submap.surfaces, scan, fine.grid_from_scan) > max_wrong_side_) return std::nullopt;
-  return fine;
+  if (surely && ambiguous(pyramid, b.points, expected, window, *coarse)) return std::nullopt;
+  return Fit{fine, coarse->score, in_corridor};
 }
 
-Closure SubmapLoopCloser::closureOf(int a, int b, const GridRefinement& fit, double path_m) const {
+Closure SubmapLoopCloser::closureOf(int a, int b, const Fit& fit, double path_m) const {
   const Pose2& odom_from_a = way_[static_cast<std::size_t>(a)].odom_from_robot;
   CovarianceModel model;
   model.inflation = covariance_inflation_;
   model.floor_sigma_m = floor_sigma_m_;
   model.floor_sigma_rad = floor_sigma_rad_;
-  return {a, b, odom_from_a.inverse() * fit.grid_from_scan, rotateCovariance(poseCovariance(fit, model), -odom_from_a.yaw), path_m};
+  return {a, b, odom_from_a.inverse() * fit.refined.grid_from_scan, rotateCovariance(poseCovariance(fit.refined, model), -odom_from_a.yaw),
+          path_m, fit.score, fit.in_corridor};
+}
+
+void SubmapLoopCloser::accept(const Closure& closure) {
+  graph_.addClosure(closure.a, closure.b, closure.a_from_b, kClosureLength);
+  confirmation_.accept(closure);
 }
 
 bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
                                  const SearchWindow& window, const SearchResult& best) const {
   SearchWindow second = window;
   second.min_score = ambiguity_ratio_ * best.score;
-  const ExcludedPose same{best.grid_from_scan, kSecondBestRadius, kSecondBestTurn};
-  return correlativeSearch(pyramid, points, expected, second, same).has_value();
+  return correlativeSearch(pyramid, points, expected, second, around(best.grid_from_scan)).has_value();
 }
 
 RelativePose SubmapLoopCloser::toRelativePose(const Closure& closure) const {

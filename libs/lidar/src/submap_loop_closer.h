@@ -60,6 +60,11 @@ class SubmapLoopCloser : public ScanLoopCloser {
     const std::vector<Scan>& scans_;
     std::unordered_map<int, std::optional<Pose2>> known_;
   };
+  struct Fit {
+    GridRefinement refined;
+    double score = 0;  ///< mean occupancy at the returns, before
+    bool in_corridor = false;
+  };
   struct Candidate {
     std::size_t submap = 0;
     int a = 0;              ///< kept scan of the submap next to the scan
@@ -76,8 +81,20 @@ class SubmapLoopCloser : public ScanLoopCloser {
   SearchWindow windowFor(double path_m) const;
   std::optional<Closure> match(const Candidate& candidate, const Probe& b);
   /// Nothing when the submap does not explain the scan there or, if it is asked for `surely`, explains it elsewhere as well.
-  std::optional<GridRefinement> fit(std::size_t submap, const Probe& b, const Pose2& expected, const SearchWindow& window, bool surely);
-  Closure closureOf(int a, int b, const GridRefinement& fit, double path_m) const;
+  std::optional<Fit> fit(std::size_t submap, const Probe& b, const Pose2& expected, const SearchWindow& window, bool surely);
+  Closure closureOf(int a, int b, const Fit& fit, double path_m) const;
+  /// What is believed now that there is this closure: itself, others that waited for it, or nothing yet.
+  std::vector<Closure> believed(const Closure& closure, const Probe& b, PlacesInWorld& world);
+  ConfirmationRule ruleFor(double path_m) const;
+  /// Whether another place, as far around as twice the assumed drift, explains the first one's scan, and with it most of the others', about as well.
+  bool fitElsewhere(const std::vector<Closure>& agreeing, const Probe& b, PlacesInWorld& world);
+  /// Of the others' scans, whether most fit in a submap where they would be with the first one's at that place.
+  bool goAlong(const std::vector<Closure>& agreeing, std::size_t submap, const Pose2& grid_from_first);
+  /// Of a submap's scans, all older than b, the nearest to it by the world; -1: none within reach.
+  int nearestScanOf(const KeptSubmap& submap, int b, double reach_m, PlacesInWorld& world) const;
+  void accept(const Closure& closure);
+  /// What is the same solution.
+  static ExcludedPose around(const Pose2& grid_from_scan) { return {grid_from_scan, 0.6, 0.3}; }
   /// The path falls into pieces where nothing tells how the robot moved; those that closures tie have the number of the first of them.
   int pieceOf(int scan) const;
   void beginPiece(int scan);

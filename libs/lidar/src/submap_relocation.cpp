@@ -106,7 +106,8 @@ std::optional<Closure> SubmapLoopCloser::matchAnywhere(std::size_t number, const
   double least_m = std::numeric_limits<double>::infinity();
   for (int a = submap.first; a <= submap.last; ++a) {
     const Pose2& there = way_[static_cast<std::size_t>(a)].odom_from_robot;
-    const double distance_m = std::hypot(there.x - found->grid_from_scan.x, there.y - found->grid_from_scan.y);
+    const Pose2& here = found->refined.grid_from_scan;
+    const double distance_m = std::hypot(there.x - here.x, there.y - here.y);
     if (distance_m < least_m) nearest = a, least_m = distance_m;
   }
   return closureOf(nearest, b.scan, *found, least_m);
