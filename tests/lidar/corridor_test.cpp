@@ -103,7 +103,7 @@ TEST(Corridor, DoorsThatAreAllAlikeCloseNoLoop) {
 }
 
 // Along a corridor, round and round a room far away, and back to the corridor's first doors, where the robot rightly takes itself to be.
-std::size_t returnsTo(const std::vector<double>& doors) {
+std::size_t returnsTo(const std::vector<double>& doors, int scans = 32) {
   const auto corridor = withDoors(doors), room = test::ring({{57, -3}, {65, -3}, {65, 2.5}, {62, 2.5}, {62, 4}, {57, 3}});
   SubmapLoopCloser closer;
   Config::fromText("[lidar.loop_closing]\nscans_per_submap = 20\n").read("lidar.loop_closing", closer);
@@ -122,13 +122,20 @@ std::size_t returnsTo(const std::vector<double>& doors) {
   for (int i = 0; i < 120; ++i) drive(corridor, {0.1 * i - 1.5, 0, 0});
   for (int i = 0; i < 500; ++i) drive(room, {60 + std::cos(0.1 * i), std::sin(0.1 * i), wrapAngle(0.1 * i + M_PI / 2)});
   std::size_t returns = 0;
-  for (int i = 0; i < 32; ++i) returns += drive(corridor, {0.1 * i - 0.5, 0, 0}).size();
+  for (int i = 0; i < scans; ++i) returns += drive(corridor, {0.1 * i - 0.5, 0, 0}).size();
   return returns;
 }
 
 TEST(Corridor, DoorsThatAreElsewhereTooDoNotTellThePlace) {
   EXPECT_EQ(returnsTo({0.3, 1.3, 2.0, 7.3, 8.3, 9.0}), 0u);
   EXPECT_GE(returnsTo({0.3, 1.3, 2.0, 8.3}), 3u) << "one door is not three";
+  EXPECT_GE(returnsTo({-0.4, 0.3, 1.3, 2.0, 8.3, 9.0}), 3u) << "the last scans fit there, too, but none before";
+}
+
+// After 130 m the place may be anywhere on four metres: more than two of them must agree.
+TEST(Corridor, AfterALongWayAMetreOfAgreementIsNotEnough) {
+  EXPECT_EQ(returnsTo({0.3, 1.3, 2.0}, 20), 0u);
+  EXPECT_GE(returnsTo({0.3, 1.3, 2.0}), 3u);
 }
 
 }  // namespace
