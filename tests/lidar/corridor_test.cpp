@@ -102,6 +102,36 @@ TEST(Corridor, DoorsThatAreAllAlikeCloseNoLoop) {
   EXPECT_GE(loopsToAndFro({-1.3, 0, 0.9}), 10u);
 }
 
+// Along a way and once more, where the odometry begins to say twice as much after 2 m: closures that follow the scans by more than .6 m.
+std::size_t closuresAgainstTheOdometry(const std::vector<test::Wall>& walls, double reach_m) {
+  SubmapLoopCloser closer;
+  Config::fromText("[lidar.loop_closing]\nscans_per_submap = 10\n").read("lidar.loop_closing", closer);
+  closer.prepare();
+  std::mt19937 random(14);
+  Trajectory odom;
+  std::size_t against = 0;
+  for (int i = 0; i < 120; ++i) {
+    const int again = i - 50, slipping = std::max(0, again - 20);
+    const double x = 0.1 * (again < 0 ? i : again - 0.5 * slipping) - 2, t = 0.2 * i;
+    ScanMatch match;
+    match.matched = true;
+    match.odom_from_robot = {x + 0.1 * 0.5 * slipping, 0, 0};
+    odom.add(t, toPose3(match.odom_from_robot));
+    closer.add(nearScan(walls, {x, 0, 0}, t, reach_m, random), match);
+    for (const RelativePose& closure : closer.search([&](double at) { return odom.at(at); })) {
+      const double by_odometry = odom.at(closure.t_b)->translation().x() - odom.at(closure.t_a)->translation().x();
+      against += std::abs(closure.a_from_b.translation().x() - by_odometry) > 0.6;
+    }
+  }
+  return against;
+}
+
+// In a room, where walls face all ways, scans know better than wheels that slip.
+TEST(Corridor, ClosuresAgainstTheOdometryAreNotBelieved) {
+  EXPECT_EQ(closuresAgainstTheOdometry(withDoors({-1.3, 0, 0.9, 3}), 3), 0u);
+  EXPECT_GE(closuresAgainstTheOdometry(test::asymmetricRoom(), 10), 10u);
+}
+
 // Along a corridor, round and round a room far away, and back to the corridor's first doors, where the robot rightly takes itself to be.
 std::size_t returnsTo(const std::vector<double>& doors, int scans = 32) {
   const auto corridor = withDoors(doors), room = test::ring({{57, -3}, {65, -3}, {65, 2.5}, {62, 2.5}, {62, 4}, {57, 3}});
