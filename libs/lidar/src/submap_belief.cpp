@@ -47,16 +47,17 @@ bool SubmapLoopCloser::fitElsewhere(const std::vector<Closure>& agreeing, const 
   const Closure& closure = agreeing.front();
   const std::optional<Pose2>&world_from_a = world.of(closure.a), &world_from_b = world.of(b.scan);
   if (!world_from_a || !world_from_b) return false;
-  SearchWindow window = windowFor(closure.path_m);
-  window.linear_m = std::min(kFarthestRival_m, window_m_ + kOfDrift * drift_per_m_ * closure.path_m);
-  window.min_score = ambiguity_ratio_ * closure.score;
+  const double reach_m = std::min(kFarthestRival_m, window_m_ + kOfDrift * drift_per_m_ * closure.path_m);
+  const SearchWindow window{reach_m, window_rad_, 0, 0, ambiguity_ratio_ * closure.score};
   for (std::size_t s = 0; s < submaps_.size(); ++s) {
-    const int nearest = nearestScanOf(submaps_[s], b.scan, near_m_ + window.linear_m, world);
+    const int nearest = nearestScanOf(submaps_[s], b.scan, near_m_ + reach_m, world);
     if (nearest < 0) continue;
     const Pose2 map_from_world = way_[static_cast<std::size_t>(nearest)].odom_from_robot * world.of(nearest)->inverse();
     const ExcludedPose same = around(map_from_world * (*world_from_a * closure.a_from_b));
     const ScorePyramid& pyramid = pyramids_.of(s, submaps_[s].map->grid);
-    const auto rival = correlativeSearch(pyramid, b.points, map_from_world * *world_from_b, window, same);
+    Pose2 expected = map_from_world * *world_from_b;
+    expected.yaw = same.pose.yaw;  // the drift turns both places alike
+    const auto rival = correlativeSearch(pyramid, b.points, expected, window, same);
     if (rival && goAlong(agreeing, s, rival->grid_from_scan)) return true;
   }
   return false;
@@ -66,13 +67,11 @@ bool SubmapLoopCloser::fitElsewhere(const std::vector<Closure>& agreeing, const 
 bool SubmapLoopCloser::goAlong(const std::vector<Closure>& agreeing, std::size_t submap, const Pose2& grid_from_first) {
   const ScorePyramid& pyramid = pyramids_.of(submap, submaps_[submap].map->grid);
   const auto placeOf = [&](const Closure& c) -> const Pose2& { return way_[static_cast<std::size_t>(c.b)].odom_from_robot; };
-  int fitting = 0, others = 0;
-  for (auto c = agreeing.begin() + 1; c != agreeing.end(); ++c) {
-    const Pose2 expected = grid_from_first * (placeOf(agreeing.front()).inverse() * placeOf(*c));
-    const SearchWindow window{window_m_, window_rad_, 0, 0, ambiguity_ratio_ * c->score};
-    ++(correlativeSearch(pyramid, probeOf(c->b).points, expected, window) ? fitting : others);
-  }
-  return fitting > others;
+  return std::all_of(agreeing.begin() + 1, agreeing.end(), [&](const Closure& c) {
+    const Pose2 expected = grid_from_first * (placeOf(agreeing.front()).inverse() * placeOf(c));
+    const SearchWindow window{window_m_, window_rad_, 0, 0, ambiguity_ratio_ * c.score};
+    return correlativeSearch(pyramid, probeOf(c.b).points, expected, window).has_value();
+  });
 }
 
 }  // namespace roomgraph

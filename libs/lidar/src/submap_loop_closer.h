@@ -86,9 +86,9 @@ class SubmapLoopCloser : public ScanLoopCloser {
   /// What is believed now that there is this closure: itself, others that waited for it, or nothing yet.
   std::vector<Closure> believed(const Closure& closure, const Probe& b, PlacesInWorld& world);
   ConfirmationRule ruleFor(double path_m) const;
-  /// Whether another place, as far around as twice the assumed drift, explains the first one's scan, and with it most of the others', about as well.
+  /// Whether another place, as far around as twice the assumed drift, explains the first one's scan, and with it all of the others', about as well.
   bool fitElsewhere(const std::vector<Closure>& agreeing, const Probe& b, PlacesInWorld& world);
-  /// Of the others' scans, whether most fit in a submap where they would be with the first one's at that place.
+  /// Of the others' scans, whether all fit in a submap where they would be with the first one's at that place.
   bool goAlong(const std::vector<Closure>& agreeing, std::size_t submap, const Pose2& grid_from_first);
   /// Of a submap's scans, all older than b, the nearest to it by the world; -1: none within reach.
   int nearestScanOf(const KeptSubmap& submap, int b, double reach_m, PlacesInWorld& world) const;
