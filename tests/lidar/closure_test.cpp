@@ -259,13 +259,13 @@ TEST_F(Confirmation, AClosureThatSlidesContradictsThoseBefore) {
     out.a_from_b.x -= by_m;
     return out;
   };
-  for (const int i : {1, 2, 3}) confirmation.accept(right(i));
+  for (const int i : {1, 2, 3}) confirmation.accept(right(i), way_, rule_);
   EXPECT_FALSE(confirmation.contradicts(right(4), way_, rule_));
   EXPECT_FALSE(confirmation.contradicts(slid(4, 0.18), way_, rule_));
-  confirmation.accept(slid(4, 0.18));
+  confirmation.accept(slid(4, 0.18), way_, rule_);
   EXPECT_TRUE(confirmation.contradicts(slid(5, 0.4), way_, rule_));
-  confirmation.accept(slid(5, 0.3));
-  confirmation.accept(slid(5, 0.3));
+  confirmation.accept(slid(5, 0.3), way_, rule_);
+  confirmation.accept(slid(5, 0.3), way_, rule_);
   EXPECT_FALSE(confirmation.contradicts(slid(5, 0.3), way_, rule_)) << "three of six agree with it";
   auto far = way_;
   for (std::size_t i = 16; i < far.size(); ++i) far[i].path_m += 10;
@@ -274,7 +274,7 @@ TEST_F(Confirmation, AClosureThatSlidesContradictsThoseBefore) {
 
 TEST_F(Confirmation, ClosuresToOtherPlacesContradictNothing) {
   ClosureConfirmation confirmation;
-  for (const int b : {16, 17, 18}) confirmation.accept({0, b, {}, Eigen::Matrix3d::Identity(), 50});
+  for (const int b : {16, 17, 18}) confirmation.accept({0, b, {}, Eigen::Matrix3d::Identity(), 50}, way_, rule_);
   EXPECT_FALSE(confirmation.contradicts(right(9), way_, rule_)) << "9 m from there, which is beyond the reach";
 }
 

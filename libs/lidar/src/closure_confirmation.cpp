@@ -62,8 +62,12 @@ std::vector<Closure> ClosureConfirmation::add(const Closure& closure, const std:
   return group;
 }
 
-bool ClosureConfirmation::contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule) {
+void ClosureConfirmation::accept(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule) {
   std::erase_if(accepted_, [&](const Closure& old) { return !isWithin(at(way, old.b), at(way, closure.b), rule.reach_m); });
+  accepted_.push_back(closure);
+}
+
+bool ClosureConfirmation::contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule) const {
   int agreeing = 0, others = 0;
   for (const Closure& old : accepted_)
     if (areComparable(old, closure, way, rule)) ++(agree(old, closure, way, rule) ? agreeing : others);

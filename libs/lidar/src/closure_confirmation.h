@@ -2,7 +2,6 @@
 // Loop closures confirmed by agreement of several.
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <vector>
 
@@ -45,15 +44,15 @@ class ClosureConfirmation {
   /// confirm it: whether another place fits them as well. Then the new one is not added, and the others wait on.
   std::vector<Closure> add(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule,
                            const HaveRival& haveRival = {});
-  /// It was taken as true, after a long path or a short one.
-  void accept(const Closure& closure) { accepted_.push_back(closure); }
+  /// It was taken as true, after a long path or a short one. What is out of the rule's reach from it is forgotten.
+  void accept(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule);
   /// Whether most of those accepted within the rule's reach say otherwise. Closures over short paths, each expected where the last
   /// one was, would slide along a wall step by step.
-  bool contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule);
+  bool contradicts(const Closure& closure, const std::vector<WayPoint>& way, const ConfirmationRule& rule) const;
 
  private:
   std::vector<Closure> waiting_;
-  std::deque<Closure> accepted_;  ///< within reach of the latest
+  std::vector<Closure> accepted_;
 };
 
 /// Whether two closures are consistent: composed with the odometry between their scans they form the

@@ -3,6 +3,7 @@
 #include "corridor.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

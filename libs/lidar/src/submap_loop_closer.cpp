@@ -334,7 +334,7 @@ Closure SubmapLoopCloser::closureOf(int a, int b, const Fit& fit, double path_m)
 
 void SubmapLoopCloser::accept(const Closure& closure) {
   graph_.addClosure(closure.a, closure.b, closure.a_from_b, kClosureLength);
-  confirmation_.accept(closure);
+  confirmation_.accept(closure, way_, ruleFor(closure.path_m));
 }
 
 bool SubmapLoopCloser::ambiguous(const ScorePyramid& pyramid, const Points2& points, const Pose2& expected,
