@@ -89,7 +89,7 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
          .min = 0,
          .max = 1});
   v.add("ambiguity_ratio", ambiguity_ratio_,
-        {.doc = "A match is ambiguous when a second pose reaches this share of the best score.",
+        {.doc = "A match is ambiguous when a second pose, in this submap or after a long path in another, reaches this share of the best score.",
          .min = 0,
          .max = 1});
   v.add("trusted_path_m", trusted_path_m_,
@@ -100,7 +100,7 @@ void SubmapLoopCloser::declareParameters(ParameterVisitor& v) {
   v.add("agreeing_closures", agreeing_closures_,
         {.doc = "Scans that must agree on a closure over a longer path.", .min = 1, .max = 100});
   v.add("agreeing_path_m", agreeing_path_m_,
-        {.doc = "Path length that the scans that agree on a closure must span.",
+        {.doc = "Path length that the scans that agree on a closure must span at least; half the half width of the search, if that is more.",
          .unit = "m",
          .min = 0,
          .max = 1000});
