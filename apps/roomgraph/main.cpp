@@ -124,6 +124,7 @@ int startProgram(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   roomgraph::holdStandardStreams();
+  roomgraph::tellOfShortagesInThreads("roomgraph");
   int exit_code = 1;
   try {
     exit_code = roomgraph::startProgram(argc, argv);

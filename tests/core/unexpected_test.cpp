@@ -4,11 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "memory_limit.h"
 
@@ -50,6 +52,17 @@ TEST(Unexpected, AllElseIsAnInternalError) {
   EXPECT_EQ(textOfUnexpected(std::out_of_range("map::at")), "internal error: map::at");
   const std::system_error other(std::make_error_code(std::errc::permission_denied));
   EXPECT_THAT(textOfUnexpected(other), StartsWith("internal error: "));
+}
+
+// Threads of libraries, which nobody can catch anything of.
+TEST(UnexpectedDeathTest, WantOfMemoryInAThreadIsTold) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto throwInThread = [](const auto& error) {
+    tellOfShortagesInThreads("program");
+    std::thread([&] { throw error; }).join();
+  };
+  EXPECT_EXIT(throwInThread(std::bad_alloc()), ::testing::ExitedWithCode(1), "^program: not enough memory: [^\n]*\n$");
+  EXPECT_EXIT(throwInThread(std::runtime_error("broken")), ::testing::KilledBySignal(SIGABRT), "broken");
 }
 
 }  // namespace

@@ -2,7 +2,11 @@
 // Exceptions of the standard library, TBB and OpenCV that mean a machine too small, in words.
 #include "roomgraph/core/unexpected.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 #include "roomgraph/core/errors.h"
@@ -34,6 +38,32 @@ std::string textOfUnexpected(const std::exception& error) {
                "--threads 1 (") +
            error.what() + ")";
   return std::string("internal error: ") + error.what();
+}
+
+namespace {
+
+std::terminate_handler usual_end = nullptr;
+const char* teller = "";
+
+// Without memory of its own.
+void endInWords() {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    for (const char* text : {teller, ": ", kNotEnough, "\n"})
+      if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;  // nobody is there to be told
+    _exit(1);
+  } catch (...) {
+    // Its text is told by the handler there was.
+  }
+  usual_end();
+}
+
+}  // namespace
+
+void tellOfShortagesInThreads(const char* who) {
+  teller = who;
+  usual_end = std::set_terminate(endInWords);
 }
 
 void throwIfShort(const std::exception& error, std::size_t before) {
