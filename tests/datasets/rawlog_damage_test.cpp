@@ -171,7 +171,7 @@ TEST(RawlogDamage, SizeInTheHeaderOfAJpegFillsNoMemory) {
   const auto result = read(folder.file("x.rawlog"));
   EXPECT_EQ(result.records, 2);
   EXPECT_THAT(result.statistics.skipped.begin()->first, HasSubstr("does not fit its length"));
-  EXPECT_LT(test::peakMegabytes(), test::kMemoryCanBeLimited ? 700 : 1400) << "sanitizers keep what was freed";
+  EXPECT_LT(test::peakMegabytes(), 700);
 }
 
 // libjpeg's own handler of errors would call exit().

@@ -93,7 +93,6 @@ class Surroundings(unittest.TestCase):
         self.assertGreater(good, 0)
         self.assertGreater(bad, 0)
 
-    @unittest.skipIf(CLOCK == "", "sanitizers need handles of their own")
     def test_too_few_file_handles(self):
         self.assert_all_or_nothing(resource.RLIMIT_NOFILE, range(4, 12), ["Too many open files"])
 

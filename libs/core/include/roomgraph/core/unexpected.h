@@ -13,8 +13,8 @@ namespace roomgraph {
 /// One line or more.
 std::string textOfUnexpected(const std::exception& error);
 
-/// From now on an exception that nobody catches, as of a thread of a library that gets no memory, ends the process with exit code 1 and
-/// one line that begins with `who`, where it means a machine too small. Any other ends it as ever, by std::abort.
+/// From now on a std::bad_alloc that nobody catches, as of a thread of a library that gets no memory, ends the process with exit code 1 and
+/// one line that begins with `who`. Any other exception ends it as ever, by std::abort.
 void tellOfShortagesInThreads(const char* who);
 
 /// How often the system has refused memory to this process, through operator new or mrpt::aligned_malloc.
