@@ -70,6 +70,18 @@ TEST_F(Gate, WhatTheDriftCannotHaveDoneIsRefused) {
   EXPECT_EQ(gate_.refused(), 3);
 }
 
+// What is seen repeats itself: of two places that fit, the estimate tells which, or nothing does.
+TEST_F(Gate, WhatFitsARivalAsWellIsRefusedWhateverFoundIt) {
+  RelativePose alike = closure(20, 40);
+  alike.rival_m = 5;
+  EXPECT_EQ(admitted({alike}), 1u);
+  alike.rival_m = 0.5;
+  EXPECT_EQ(admitted({alike}), 0u);
+  alike.source = "objects";
+  EXPECT_EQ(admitted({alike}), 0u);
+  EXPECT_EQ(gate_.refused(), 2);
+}
+
 TEST_F(Gate, LinksAndOtherSourcesPass) {
   RelativePose link = closure(0, 40, 5), lidar = link;
   link.link = true;

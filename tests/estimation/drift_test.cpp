@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+
 namespace roomgraph::test {
 namespace {
 
@@ -39,7 +43,8 @@ TEST_F(DrivingDrift, IsTheSumOfTheStepsAndOfTurnsTimesTheDistance) {
   drive(11);
   EXPECT_NEAR(of(10), 0, 1e-12) << "seen now";
   for (const double steps : {1.0, 4.0, 10.0}) {
-    const double moved = kShare * kStep_m2 * steps, turned = kShare * kStep_rad2 * steps * steps * steps;
+    const double squares = steps * (steps + 1) * (2 * steps + 1) / 6;  // of the distances from where each step ends
+    const double moved = kShare * kStep_m2 * steps, turned = kShare * kStep_rad2 * squares;
     EXPECT_NEAR(of(10 - steps), moved + turned, 1e-10) << steps << " m ago";
   }
   EXPECT_GT(drift_.variance(poses_, 8, {10, 20}), of(8)) << "a far place is moved more by turns";
@@ -88,8 +93,43 @@ TEST_F(DrivingDrift, ALinkStandsForTheGap) {
     EXPECT_NEAR(of(4), 0.01, 1e-5);
   }
   const double moved = 0.01 + kShare * kStep_m2 * (4 + 3), turned = 1e-8 + kShare * kStep_rad2 * (4 + 3);
-  EXPECT_NEAR(of(0), moved + turned * 100, 1e-6);
+  const double levers = 1e-8 * 49 + kShare * kStep_rad2 * (1 + 4 + 9 + 16 + 64 + 81 + 100);
+  EXPECT_NEAR(of(0), moved + levers, 1e-7);
   EXPECT_NEAR(drift_.turned(poses_, 0), turned, 1e-9);
+}
+
+// Around a block and back to its beginning, which turns on the far side move most: as 4000 drives with random errors scatter.
+TEST(Drift, AroundALoopIsAsDrivesScatter) {
+  constexpr double kRadius_m = 10, kSigma_m = 0.02, kSigma_rad = 0.01;
+  constexpr int kSteps = 24, kDrives = 4000;
+  constexpr MotionNoise kNone{0, 0, 0, 0, 0, 1, 1};
+  Motion motion{MotionSource(kNone, true), MotionSource(kNone, false), MotionSource(kNone, true)};
+  KeyPoses poses{motion};
+  Drift drift{motion, true};
+  const auto at = [](int i) {
+    const double angle = 2 * M_PI * i / kSteps;
+    return poseFromYpr(kRadius_m * std::sin(angle), kRadius_m * (1 - std::cos(angle)), 0, angle, 0, 0);
+  };
+  Matrix6d step = Matrix6d::Identity() * 1e-12;
+  step.topLeftCorner<2, 2>() = kSigma_m * kSigma_m * Eigen::Matrix2d::Identity();
+  step(5, 5) = kSigma_rad * kSigma_rad;
+  for (int i = 0; i <= kSteps; ++i) motion.lidar.add(i, at(i), 0, step);
+  for (int i = 0; i <= kSteps; ++i) poses.add(i, at(i));
+  drift.extend(poses);
+
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix2d squares_m2 = Eigen::Matrix2d::Zero();
+  for (int drive = 0; drive < kDrives; ++drive) {
+    Pose3 now = Pose3::Identity();
+    for (int i = 0; i < kSteps; ++i)
+      now = now * at(i).inverse() * at(i + 1) *
+            poseFromYpr(kSigma_m * normal(random), kSigma_m * normal(random), 0, kSigma_rad * normal(random), 0, 0);
+    squares_m2 += now.translation().head<2>() * now.translation().head<2>().transpose();
+  }
+  const double scatter = std::sqrt(squares_m2.eigenvalues().real().maxCoeff() / kDrives), told = std::sqrt(drift.variance(poses, 0, {0, 0}));
+  EXPECT_NEAR(told / scatter, 1, 0.05);
+  EXPECT_GT(told, 3 * kSigma_m * std::sqrt(kSteps)) << "mostly of turns";
 }
 
 TEST_F(DrivingDrift, ContradictsWhatItCannotHaveDone) {
@@ -104,6 +144,23 @@ TEST_F(DrivingDrift, ContradictsWhatItCannotHaveDone) {
   EXPECT_TRUE(drift_.contradicts(poses_, closure));
   closure.a_from_b = poseFromYpr(8, 0, 0, 6 * std::sqrt(drift_.turned(poses_, 2)), 0, 0);
   EXPECT_TRUE(drift_.contradicts(poses_, closure));
+}
+
+TEST_F(DrivingDrift, TellsAClosureFromARivalThatIsFarther) {
+  drive(11);
+  RelativePose closure{2, 10, poseFromYpr(8, 0, 0, 0, 0, 0)};
+  closure.covariance = 1e-10 * Matrix6d::Identity();
+  EXPECT_TRUE(drift_.tellsFromRival(poses_, closure)) << "there is none";
+  const double sigma = std::sqrt(drift_.variance(poses_, 2, {10, 0}));
+  closure.rival_m = 4.1 * sigma;
+  EXPECT_TRUE(drift_.tellsFromRival(poses_, closure));
+  closure.rival_m = 3.9 * sigma;
+  EXPECT_FALSE(drift_.tellsFromRival(poses_, closure));
+  closure.a_from_b.translation().x() += sigma;
+  closure.rival_m = 6.1 * sigma;
+  EXPECT_TRUE(drift_.tellsFromRival(poses_, closure));
+  closure.rival_m = 5.9 * sigma;
+  EXPECT_FALSE(drift_.tellsFromRival(poses_, closure)) << "nearer to half the way between the two";
 }
 
 TEST_F(DrivingDrift, OfNoKeyPoseIsNone) {

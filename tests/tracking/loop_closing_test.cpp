@@ -5,6 +5,7 @@
 #include "feature_odometry.h"
 #include "place_recognition.h"
 #include "roomgraph/core/config.h"
+#include "papered_wall.h"
 #include "textured_room.h"
 
 namespace roomgraph {
@@ -120,6 +121,27 @@ TEST(LoopClosing, ARobotIsOnItsFloorWhereItWasBefore) {
   EXPECT_FALSE(closesOnAnotherHeight(0.25, 0, true));
   EXPECT_TRUE(closesOnAnotherHeight(0, 0.15, false));
   EXPECT_FALSE(closesOnAnotherHeight(0, 0.15, true));
+}
+
+// Past a wall of random paper that repeats itself, and back: how far from there the last view would fit as well.
+double rivalAlongAWall(double period_m) {
+  const test::PaperedWall wall(period_m);
+  FeatureOdometry odometry;
+  constexpr int kThere = 40;
+  for (int i = 0; i <= 2 * kThere; ++i) {
+    Pose3 pose = Pose3::Identity();
+    pose.translation().x() = 0.1 * (i <= kThere ? i : 2 * kThere - i);
+    EXPECT_TRUE(odometry.track(wall.render(0.2 * i, pose), {}).tracked) << i;
+  }
+  const auto closure = odometry.verifyLoop({0, 0.2 * 2 * kThere});
+  EXPECT_TRUE(closure);
+  return closure ? closure->rival_m : 0;
+}
+
+TEST(LoopClosing, WhereAPaperRepeatsItselfAClosureHasARival) {
+  EXPECT_NEAR(rivalAlongAWall(1.7), 1.7, 0.05);
+  EXPECT_NEAR(rivalAlongAWall(2.9), 2.9, 0.05);
+  EXPECT_EQ(rivalAlongAWall(100), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

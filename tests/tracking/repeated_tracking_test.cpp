@@ -107,7 +107,7 @@ TEST(RepeatedTracking, AJumpIsOneAgain) {
   for (int i = 0; i < 33; ++i) {
     Pose3 pose = Pose3::Identity();
     pose.linear() = expSO3({0, i < 31 ? 0.1 * i : 0.05 * (i - 30), 0});
-    frames.push_back(room.render(0.1 * i, pose));
+    frames.push_back(room.render(i < 31 ? 0.1 * i : 1.5 + 0.1 * i, pose));
   }
   ResultsInMemory first;
   const auto undisturbed = track(frames, &first);

@@ -66,6 +66,21 @@ TEST(TrackerSegments, ASegmentGoesOnWhereOtherSensorsSayThatTheViewIsThere) {
   EXPECT_EQ(segmentAfter(3 - 180 + 12), 1) << "further off than wheels err by";
 }
 
+// Floors and doors repeat themselves: what looks like a place that no camera reaches in this time is another one.
+TEST(TrackerSegments, WhereNoCameraComesInTimeAViewIsNotFound) {
+  const auto findsBack = [](double after_s, const Pose3& last, const Pose3& place) {
+    Tracker tracker(byFeatures());
+    for (int i = 0; i <= 30; ++i) EXPECT_TRUE(tracker.track(cell().render(0.1 * i, interpolate(Pose3::Identity(), last, i / 30.0)), {}).tracked) << i;
+    return tracker.track(cell().render(3 + after_s, place), {}).tracked;
+  };
+  EXPECT_FALSE(findsBack(0.8, turnedBy(170), turnedBy(3))) << "3 rad/s, and .15 rad";
+  EXPECT_TRUE(findsBack(1.1, turnedBy(170), turnedBy(3)));
+  Pose3 beside = Pose3::Identity();
+  beside.translation().x() = 1.2;
+  EXPECT_FALSE(findsBack(0.95, Pose3::Identity(), beside)) << "1 m/s, and .15 m";
+  EXPECT_TRUE(findsBack(1.15, Pose3::Identity(), beside));
+}
+
 // 40 degrees to the right of the first keyframe, then to the left of it: the two views have nothing in common, each something with that.
 TEST(TrackerSegments, ASegmentGoesOnWhereAKeyframeOfTheSamePlaceFindsTheView) {
   Tracker tracker(byFeatures());

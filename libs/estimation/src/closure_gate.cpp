@@ -46,6 +46,10 @@ std::vector<RelativePose> ClosureGate::admit(const std::vector<RelativePose>& of
     return now;
   });
   for (const RelativePose& closure : offered) {
+    if (!drift.tellsFromRival(poses, closure)) {
+      ++refused_;
+      continue;
+    }
     if (!needsWitness(closure) || isNear(closure, poses)) {
       out.push_back(closure);
       continue;

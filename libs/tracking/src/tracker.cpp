@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Main loop of the tracker: start, loss, keyframes, loop closing, step covariance.
+// Main loop of the tracker: start, loss, keyframes, step covariance.
 #include "tracker.h"
 
 #include <algorithm>
@@ -25,9 +25,6 @@ constexpr double kMissing = 1.5;         // times the step before: an image is m
 constexpr double kLongestStep_s = 0.25;  // over which a velocity goes on
 constexpr double kLongestGap_s = 1000;   // before the first frame there is none
 constexpr double kUntoldPause_s = 2;    // without a frame, in which a camera may be carried away
-constexpr int kLoopPause = 3;           // keyframes between two loop closures
-constexpr double kVerifyHorizon_s = 3;  // keyframes this near in time show the proposed place
-constexpr int kVerifyKeyframes = 2;
 
 /// Why a frame cannot be used at all; empty when it can.
 std::string unusable(const Frame& frame, double last_t) {
@@ -45,15 +42,14 @@ cv::Mat grayOf(const Frame& frame) {
   return gray;
 }
 
-/// Lower bound for errors that the residuals do not show: calibration, depth bias, consistent mismatches.
+}  // namespace
+
 Matrix6d floorCovariance(double sigma_m, double sigma_rad) {
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal().head<3>().setConstant(sigma_m * sigma_m);
   covariance.diagonal().tail<3>().setConstant(sigma_rad * sigma_rad);
   return covariance;
 }
-
-}  // namespace
 
 Pose3 Tracker::lastPose() const {
   return map_.keyframe(placed_.keyframe).odom_from_camera * placed_.keyframe_from_camera;
@@ -264,9 +260,9 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
 
 void Tracker::goElsewhere(const View& view) {
   if (!view.prior->previous_from_current) linkSegments(view.frame->t);
-  closures_.push_back(loopOf(reference_, view.frame->t,
-                             map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera,
-                             view.solution.covariance));
+  const Pose3 reference_from_view = map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera;
+  closures_.push_back(loopOf(reference_, view.frame->t, reference_from_view, view.solution.covariance));
+  closures_.back().rival_m = nearestRival_m(reference_, {view.features, view.frame->camera, makeThumbnail(view.gray)}, reference_from_view, view.solution.inliers);
   ++segment_;
 }
 
@@ -313,67 +309,6 @@ Matrix6d Tracker::stepCovariance(const Pose3& previous_from_current, const PoseS
   last_covariance_ = solution.covariance;
   return parameters_.covariance_scale * sum +
          floorCovariance(parameters_.min_step_sigma_m, parameters_.min_step_sigma_rad);
-}
-
-RelativePose Tracker::loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,
-                             const Matrix6d& covariance) const {
-  RelativePose closure;
-  closure.t_a = map_.keyframe(keyframe).t;
-  closure.t_b = t;
-  closure.a_from_b = keyframe_from_camera;
-  closure.covariance =
-      parameters_.covariance_scale * rotateCovariance(covariance, keyframe_from_camera.linear()) +
-      floorCovariance(parameters_.min_loop_sigma_m, parameters_.min_loop_sigma_rad);
-  closure.source = "tracking";
-  return closure;
-}
-
-std::optional<PoseSolution> Tracker::seenFrom(int other, int index) const {
-  const Keyframe& keyframe = map_.keyframe(index);
-  const PoseSolution found = recognize(map_, other, keyframe.features, keyframe.camera, parameters_).solution;
-  if (found.inliers < parameters_.loop_min_inliers) return std::nullopt;
-  const Pose3 other_from_keyframe = found.camera_from_world.inverse();
-  if (offFloor(other_from_keyframe) || !plausible(other, around(index), other_from_keyframe)) return std::nullopt;
-  return found;
-}
-
-void Tracker::closeLoops(int index) {
-  if (index - last_loop_ < kLoopPause) return;
-  const Keyframe& current = map_.keyframe(index);
-  for (const int candidate : loopCandidates(map_, index, parameters_)) {
-    const auto seen = seenFrom(candidate, index);
-    if (!seen) continue;
-    closures_.push_back(loopOf(candidate, current.t, seen->camera_from_world.inverse(), seen->covariance));
-    last_loop_ = index;
-    return;
-  }
-}
-
-std::vector<int> Tracker::keyframesNear(double t) const {
-  std::vector<std::pair<double, int>> near;
-  for (int i = 0; i < static_cast<int>(map_.keyframes.size()); ++i)
-    if (const double apart = std::abs(map_.keyframe(i).t - t); apart < kVerifyHorizon_s)
-      near.emplace_back(apart, i);
-  std::sort(near.begin(), near.end());
-  std::vector<int> out;
-  for (const auto& [apart, index] : near) {
-    const int held = map_.keyframe(index).isGivenUp() ? map_.keyframe(index).shown_by : index;
-    if (static_cast<int>(out.size()) < kVerifyKeyframes && std::find(out.begin(), out.end(), held) == out.end())
-      out.push_back(held);
-  }
-  return out;
-}
-
-std::optional<RelativePose> Tracker::verifyLoop(const RelativePose& proposed) const {
-  for (const int b : keyframesNear(proposed.t_b)) {
-    if (std::abs(map_.keyframe(b).t - proposed.t_b) > kVerifyHorizon_s) continue;  // what shows the same says nothing of then
-    for (const int a : keyframesNear(proposed.t_a)) {
-      if (a == b) continue;
-      if (const auto seen = seenFrom(a, b))
-        return loopOf(a, map_.keyframe(b).t, seen->camera_from_world.inverse(), seen->covariance);
-    }
-  }
-  return std::nullopt;
 }
 
 Trajectory Tracker::trajectory() const {

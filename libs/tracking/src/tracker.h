@@ -23,6 +23,9 @@ namespace roomgraph::tracking {
 
 struct LocatedView;
 
+/// Lower bound for errors that the residuals do not show: calibration, depth bias, consistent mismatches.
+Matrix6d floorCovariance(double sigma_m, double sigma_rad);
+
 /// State and main loop of FeatureOdometry.
 class Tracker {
  public:
@@ -58,6 +61,12 @@ class Tracker {
     Corners corners;
     Features features;  ///< with nothing left out
   };
+  /// What a view is known by again.
+  struct Sighting {
+    const Features& features;
+    const PinholeCamera& camera;
+    cv::Mat thumbnail;
+  };
   /// A tracked frame, held by a keyframe: when that moves, the frame moves along.
   struct Record {
     double t;
@@ -71,6 +80,8 @@ class Tracker {
   bool trackLastPoints(View& view, const Pose3& predicted, double radius_px);
   bool trackKeyframe(View& view, int keyframe, int min_inliers) const;
   bool relocalise(View& view);
+  /// Whether the camera can have come to where the view seems to be since it was placed last: floors and doors repeat themselves.
+  bool withinReach(const View& view) const;
   bool trackLocalMap(View& view);
   bool trackNear(View& view);
   bool findPose(View& view, const Pose3& previous);
@@ -139,6 +150,13 @@ class Tracker {
   /// Where keyframe `index` is in the frame of another one that shows the same (camera_from_world of the solution is
   /// index_from_other); nothing when that is not sure.
   std::optional<PoseSolution> seenFrom(int other, int index) const;
+  /// Keyframe b as found from keyframe a, and how far from there it would fit as well.
+  RelativePose loopBetween(int a, int b, const PoseSolution& seen) const;
+  /// How far from where a view was found, with so many inliers, keyframes near that place find it as well: what floors and doors show
+  /// repeats itself. Infinity: nowhere.
+  double nearestRival_m(int place, const Sighting& view, const Pose3& place_from_view, int inliers) const;
+  /// Keyframes near a place, but not at it, that look most like the view.
+  std::vector<int> similarBeside(int place, const Sighting& view) const;
   /// Keyframes nearest in time within the horizon, nearest first; for those that were given up, the ones that show the same.
   std::vector<int> keyframesNear(double t) const;
   RelativePose loopOf(int keyframe, double t, const Pose3& keyframe_from_camera,

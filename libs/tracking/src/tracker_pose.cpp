@@ -16,6 +16,7 @@ constexpr int kFarthestBeside = 25;      // of them, given up ones in between co
 constexpr double kLeastAgreement = 0.9;  // of two views of one place
 constexpr double kMostRise_m = 0.15, kMostTilt_rad = 0.1;  // of a robot, from where it saw a place before: its floor is even
 constexpr double kFar_m = 0.15, kFar_rad = 0.15;
+constexpr double kUnseen_m_s = 1, kUnseen_rad_s = 3;  // dead reckoning errs by no more, unless the camera is carried away
 
 // More than dead reckoning errs by since the last view.
 bool isFar(const Pose3& difference) {
@@ -67,9 +68,17 @@ bool Tracker::trackKeyframe(View& view, int keyframe, int min_inliers) const {
   if (found.solution.inliers < min_inliers) return false;
   view.odom_from_camera =
       map_.keyframe(keyframe).odom_from_camera * found.solution.camera_from_world.inverse();
+  if (!withinReach(view)) return false;
   view.points.assign(view.features.size(), -1);
   assign(view.points, found.known_points);
   return true;
+}
+
+bool Tracker::withinReach(const View& view) const {
+  if (carried_) return true;
+  const double seconds = view.frame->t - placed_.t;
+  const Pose3 off = (lastPose() * dead_reckoned_).inverse() * view.odom_from_camera;
+  return off.translation().norm() < kFar_m + kUnseen_m_s * seconds && rotationAngle(off) < kFar_rad + kUnseen_rad_s * seconds;
 }
 
 bool Tracker::relocalise(View& view) {

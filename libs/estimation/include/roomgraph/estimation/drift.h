@@ -30,22 +30,37 @@ class Drift {
   /// Whether a loop closure that ends at about the latest key pose is out of the question: farther from the estimate than
   /// the drift since its beginning may have led, by several standard deviations. Places look alike.
   bool contradicts(const KeyPoses& poses, const RelativePose& closure) const;
-  /// Variance (m^2, each of x and y) of where a place (world, m) that was last seen at time t is from the
-  /// latest key pose.
+  /// Whether the estimate tells such a closure from its rival: it is nearer to it, by two standard deviations of the drift.
+  bool tellsFromRival(const KeyPoses& poses, const RelativePose& closure) const;
+  /// Variance (m^2, along the direction in which it is largest) of where a place (world, m) that was last seen at time t is from
+  /// the latest key pose.
   double variance(const KeyPoses& poses, double t, const Eigen::Vector2d& place) const;
   /// Variance (rad^2) of the latest key pose's yaw relative to that at time t.
   double turned(const KeyPoses& poses, double t) const;
 
  private:
-  struct Variance {
+  /// Sums over steps, each of which turns what follows about the place where it ends.
+  struct Spread {
     double position_m2 = 0, yaw_rad2 = 0;
+    Eigen::Vector2d lever_rad2m = Eigen::Vector2d::Zero();    ///< of variances of turns times their pivots (world)
+    Eigen::Matrix2d lever2_rad2m2 = Eigen::Matrix2d::Zero();  ///< the same with the pivots' squares (outer products)
+
+    static Spread of(double position_m2, double yaw_rad2, const Eigen::Vector2d& pivot);
+    Spread& operator+=(const Spread& other);
+    Spread& operator-=(const Spread& other);
+    /// Variance (m^2) of a place along the direction in which it is largest: turns move it by its distance from their pivots.
+    double about(const Eigen::Vector2d& place) const;
+    void takeYaw(const Spread& other);
   };
-  Variance ofStep(const KeyPose& a, const KeyPose& b) const;
+  Spread ofStep(const KeyPose& a, const KeyPose& b) const;
+  Spread walked(std::size_t from, std::size_t to) const;
+  /// Of the distance of a closure, which ends at about the latest key pose, from the estimate.
+  double varianceOf(const KeyPoses& poses, const RelativePose& closure) const;
 
   const Motion& motion_;
   bool local_maps_;
-  std::vector<Variance> walked_;  ///< sums of the steps from the first key pose
-  std::vector<Variance> since_;   ///< of the latest key pose relative to each
+  std::vector<Spread> walked_;  ///< from the first key pose
+  std::vector<Spread> since_;   ///< of the latest key pose relative to each
 };
 
 }  // namespace roomgraph

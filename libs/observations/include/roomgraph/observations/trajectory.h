@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct RelativePose {
   bool planar = false;                         ///< only x, y, yaw were measured
   std::string source;                          ///< "tracking", "lidar", …
   bool link = false;  ///< goes on from one segment to the next, as a movement does: closes no loop
+  double rival_m = std::numeric_limits<double>::infinity();  ///< so far from there is another place that fits as well; infinity: none is known
 };
 
 /// Poses of one source in its own frame, ordered by time; interpolates between them on SE(3). Copies are cheap (GrowingList).
