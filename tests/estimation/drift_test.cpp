@@ -96,6 +96,10 @@ TEST_F(DrivingDrift, ALinkStandsForTheGap) {
   const double levers = 1e-8 * 49 + kShare * kStep_rad2 * (1 + 4 + 9 + 16 + 64 + 81 + 100);
   EXPECT_NEAR(of(0), moved + levers, 1e-7);
   EXPECT_NEAR(drift_.turned(poses_, 0), turned, 1e-9);
+  RelativePose closure{10, 6};
+  closure.covariance = 1e-10 * Matrix6d::Identity();
+  drift_.close(poses_, closure);
+  EXPECT_NEAR(of(5), 1e-10, 1e-8) << "nor is anything left of the gap's turns between two poses within";
 }
 
 // Around a block and back to its beginning, which turns on the far side move most: as 4000 drives with random errors scatter.

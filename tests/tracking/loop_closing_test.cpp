@@ -138,6 +138,27 @@ double rivalAlongAWall(double period_m) {
   return closure ? closure->rival_m : 0;
 }
 
+// Carried back over a pause of which nobody tells: the closure that ties the view to where it is found.
+double rivalOfAViewFoundAgain(double period_m) {
+  const test::PaperedWall wall(period_m);
+  FeatureOdometry odometry;
+  for (int i = 0; i <= 40; ++i) {
+    Pose3 pose = Pose3::Identity();
+    pose.translation().x() = 0.1 * i;
+    EXPECT_TRUE(odometry.track(wall.render(0.2 * i, pose), {}).tracked) << i;
+  }
+  odometry.takeLoopClosures();
+  EXPECT_EQ(odometry.track(wall.render(8 + 2.3, Pose3::Identity()), {}).reason, "found again in another place");
+  const auto closures = odometry.takeLoopClosures();
+  EXPECT_EQ(closures.size(), 1u);
+  return closures.empty() ? 0 : closures[0].rival_m;
+}
+
+TEST(LoopClosing, WhereAPaperRepeatsItselfAViewFoundAgainHasARival) {
+  EXPECT_LT(rivalOfAViewFoundAgain(1.7), 4);
+  EXPECT_EQ(rivalOfAViewFoundAgain(100), std::numeric_limits<double>::infinity());
+}
+
 TEST(LoopClosing, WhereAPaperRepeatsItselfAClosureHasARival) {
   EXPECT_NEAR(rivalAlongAWall(1.7), 1.7, 0.05);
   EXPECT_NEAR(rivalAlongAWall(2.9), 2.9, 0.05);

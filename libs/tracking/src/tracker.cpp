@@ -261,8 +261,9 @@ TrackingResult Tracker::accept(const View& view, const Pose3& previous) {
 void Tracker::goElsewhere(const View& view) {
   if (!view.prior->previous_from_current) linkSegments(view.frame->t);
   const Pose3 reference_from_view = map_.keyframe(reference_).odom_from_camera.inverse() * view.odom_from_camera;
-  closures_.push_back(loopOf(reference_, view.frame->t, reference_from_view, view.solution.covariance));
-  closures_.back().rival_m = nearestRival_m(reference_, {view.features, view.frame->camera, makeThumbnail(view.gray)}, reference_from_view, view.solution.inliers);
+  RelativePose closure = loopOf(reference_, view.frame->t, reference_from_view, view.solution.covariance);
+  closure.rival_m = nearestRival_m(reference_, {view.features, view.frame->camera, makeThumbnail(view.gray)}, reference_from_view, view.solution.inliers);
+  closures_.push_back(std::move(closure));
   ++segment_;
 }
 
