@@ -2,6 +2,7 @@
 // Rendered RGB-D frames of an endless wall whose random paper repeats itself.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
