@@ -2,12 +2,12 @@
 // Rendered RGB-D frames of an endless wall whose random paper repeats itself.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <opencv2/imgproc.hpp>
 
+#include "bilinear.h"
 #include "roomgraph/observations/frame.h"
 
 namespace roomgraph::test {
@@ -34,7 +34,7 @@ class PaperedWall {
     for (int v = 0; v < frame.gray.rows; ++v)
       for (int u = 0; u < frame.gray.cols; ++u) {
         const Eigen::Vector3d hit = world_from_camera * (kDistance_m * frame.camera.ray(u, v));
-        frame.gray.at<unsigned char>(v, u) = at(hit.x() + 10, hit.y() + 3);
+        frame.gray.at<unsigned char>(v, u) = bilinear(paper_, kPixels_m * std::fmod(hit.x() + 10, period_m_), kPixels_m * (hit.y() + 3));
       }
     cv::cvtColor(frame.gray, frame.color, cv::COLOR_GRAY2BGR);
     return frame;
@@ -42,15 +42,6 @@ class PaperedWall {
 
  private:
   static constexpr double kDistance_m = 2, kPixels_m = 100;
-
-  unsigned char at(double x_m, double y_m) const {
-    const double x = kPixels_m * std::fmod(x_m, period_m_), y = kPixels_m * y_m;
-    const int i = std::clamp(static_cast<int>(x), 0, paper_.cols - 2), j = std::clamp(static_cast<int>(y), 0, paper_.rows - 2);
-    const double a = x - i, b = y - j;
-    const auto value = [&](int dy, int dx) { return static_cast<double>(paper_.at<unsigned char>(j + dy, i + dx)); };
-    return static_cast<unsigned char>(
-        std::lround((1 - b) * ((1 - a) * value(0, 0) + a * value(0, 1)) + b * ((1 - a) * value(1, 0) + a * value(1, 1))));
-  }
 
   double period_m_;
   cv::Mat paper_;

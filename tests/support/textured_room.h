@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "bilinear.h"
 #include "roomgraph/observations/frame.h"
 
 namespace roomgraph::test {
@@ -63,18 +64,6 @@ class TexturedRoom {
     const int axis = face / 2;
     const double a = (hit[(axis + 1) % 3] + 3) * 100, b = (hit[(axis + 2) % 3] + 3) * 100;
     return {nearest, bilinear(textures_[static_cast<std::size_t>(face)], a, b)};
-  }
-
-  static unsigned char bilinear(const cv::Mat& image, double x, double y) {
-    const int i = std::clamp(static_cast<int>(x), 0, image.cols - 2),
-              j = std::clamp(static_cast<int>(y), 0, image.rows - 2);
-    const double a = x - i, b = y - j;
-    const auto at = [&](int dy, int dx) {
-      return static_cast<double>(image.at<unsigned char>(j + dy, i + dx));
-    };
-    const double value =
-        (1 - b) * ((1 - a) * at(0, 0) + a * at(0, 1)) + b * ((1 - a) * at(1, 0) + a * at(1, 1));
-    return static_cast<unsigned char>(std::lround(std::clamp(value, 0.0, 255.0)));
   }
 
   std::vector<cv::Mat> textures_;

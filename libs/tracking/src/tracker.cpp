@@ -135,7 +135,8 @@ void Tracker::requireKnown(const LocatedView& kept) const {
   const auto known = [&](std::int64_t id) { return id < static_cast<std::int64_t>(map_.points.size()); };
   if (kept.reference < 0 || kept.reference >= static_cast<int>(map_.keyframes.size()) ||
       !std::all_of(kept.points.begin(), kept.points.end(), known) ||
-      !std::all_of(kept.in_view.begin(), kept.in_view.end(), known))
+      !std::all_of(kept.in_view.begin(), kept.in_view.end(), known) ||
+      map_.keyframe(kept.reference).origin != map_.keyframe(placed_.keyframe).origin)
     throw InputError("checkpoint: its view of second " + std::to_string(last_t_) + " shows what is not in the map");
 }
 
